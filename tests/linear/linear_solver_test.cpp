@@ -49,6 +49,11 @@ struct SmallSystem {
     }
   }
 
+  void pose_in(PressureSystem& system) const {
+    system.set_pattern(row_begin, columns);
+    pass_values_to(system);
+  }
+
   Eigen::VectorXd dense_solution() const {
     const auto n = static_cast<Eigen::Index>(size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
@@ -121,8 +126,7 @@ TEST(PressureSystem, SolvesWhatADenseSolverSolves) {
 TEST(PressureSystem, TakesANewRightHandSideAlone) {
   SmallSystem small = random_system(60, 3);
   PressureSystem system(solver_settings(1e-10));
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   system.row(5).finish_as_zero();
   std::vector<double> solution(small.size(), 0.0);
   system.solve(solution);
@@ -138,8 +142,7 @@ TEST(PressureSystem, TakesANewRightHandSideAlone) {
 TEST(PressureSystem, DividedDiagonalsAreThoseOfTheSystem) {
   SmallSystem small = random_system(60, 7);
   PressureSystem system(solver_settings(1e-10));
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   std::vector<double> solution(small.size(), 0.0);
   system.solve(solution);  // the preconditioner is from before
   for (const std::size_t i : {3, 8, 40}) {
@@ -172,8 +175,7 @@ TEST(PressureSystem, RowsWithEqualColumnsAreSolvedLikeAnyOther) {
     small.rhs.push_back(noise());
   }
   PressureSystem system(solver_settings(1e-10));
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   std::vector<double> solution(small.size(), 0.0);
   system.solve(solution);
   expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
@@ -214,8 +216,7 @@ TEST(PressureSystem, ATinySourceIsSolvedLikeAnyOther) {
   SmallSystem small = random_system(60, 8);
   for (double& value : small.rhs) value *= 1e-60;
   PressureSystem system(solver_settings(1e-10));
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   std::vector<double> solution(small.size(), 0.0);
   EXPECT_LE(system.solve(solution).residual, 1e-10);
   expect_near(solution, small.dense_solution(), 1e-60 * error_bound(1e-10, small.size()));
@@ -224,8 +225,7 @@ TEST(PressureSystem, ATinySourceIsSolvedLikeAnyOther) {
 TEST(PressureSystem, AGuessWorseThanNoneDoesNoHarm) {
   const SmallSystem small = random_system(60, 9);
   PressureSystem system(solver_settings(1e-10));
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   std::vector<double> solution(small.size(), 1e17);
   system.solve(solution);
   expect_near(solution, small.dense_solution(), error_bound(1e-10, small.size()));
@@ -254,8 +254,7 @@ TEST(PressureSystem, TakesNewValuesAndNewPatterns) {
       }
     }
     small.sort_rows();
-    system.set_pattern(small.row_begin, small.columns);
-    small.pass_values_to(system);
+    small.pose_in(system);
     solution.assign(size, 0.0);
     system.solve(solution);
     expect_near(solution, small.dense_solution(), error_bound(tolerance, size));
@@ -265,8 +264,7 @@ TEST(PressureSystem, TakesNewValuesAndNewPatterns) {
 TEST(PressureSystem, IdentityRowsAreZero) {
   PressureSystem system(solver_settings(1e-10));
   SmallSystem small = random_system(60, 5);
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   for (std::size_t i = 0; i < small.size(); i += 5) {
     system.row(i).finish_as_zero();
     for (std::size_t k = small.row_begin[i]; k < small.row_begin[i + 1]; ++k) small.weights[k] = 0.0;
@@ -283,8 +281,7 @@ TEST(PressureSystem, NothingDrivesNothing) {
   PressureSystem system(solver_settings(1e-6));
   SmallSystem small = random_system(20, 6);
   std::fill(small.rhs.begin(), small.rhs.end(), 0.0);
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   std::vector<double> solution(small.size(), 3.0);
   system.solve(solution);
   for (const double value : solution) EXPECT_EQ(value, 0.0);
@@ -314,8 +311,7 @@ SmallSystem five_point(int n, bool is_periodic) {
 TEST(PressureSystem, AWarmStartCostsNoMoreThanAColdOne) {
   const SmallSystem grid = five_point(40, false);
   PressureSystem system(solver_settings(1e-8));
-  system.set_pattern(grid.row_begin, grid.columns);
-  grid.pass_values_to(system);
+  grid.pose_in(system);
   std::vector<double> solution(grid.size(), 0.0);
   const int cold = system.solve(solution).iterations;
   EXPECT_GT(cold, 3);
@@ -331,8 +327,7 @@ TEST(PressureSystem, NoConvergenceIsAnErrorWithItsHistory) {
   PressureSolverTable settings = solver_settings(1e-12);
   settings.max_iterations = 3;
   PressureSystem system(settings);
-  system.set_pattern(grid.row_begin, grid.columns);
-  grid.pass_values_to(system);
+  grid.pose_in(system);
   std::vector<double> solution(grid.size(), 0.0);
   try {
     system.solve(solution);
@@ -358,8 +353,7 @@ TEST(PressureSystem, MethodsSpeakForThemselves) {
     settings.max_iterations = 3;
     settings.method = method;
     PressureSystem system(settings);
-    system.set_pattern(grid.row_begin, grid.columns);
-    grid.pass_values_to(system);
+    grid.pose_in(system);
     std::vector<double> solution(grid.size(), 0.0);
     try {
       system.solve(solution);
@@ -381,8 +375,7 @@ TEST(PressureSystem, AMethodThatOnlySaysThatItConvergedIsAnError) {
   } forget_options;
   settings.petsc_options = "-pressure_ksp_type gmres -pressure_ksp_pc_side left -pressure_pc_sor_omega 1e-300";
   PressureSystem system(settings);
-  system.set_pattern(grid.row_begin, grid.columns);
-  grid.pass_values_to(system);
+  grid.pose_in(system);
   std::vector<double> solution(grid.size(), 0.0);
   try {
     system.solve(solution);
@@ -421,8 +414,7 @@ TEST(PressureSystem, ANonFiniteSourceIsAnError) {
   SmallSystem small = random_system(20, 7);
   small.rhs[3] = std::numeric_limits<double>::infinity();
   PressureSystem system(solver_settings(1e-6));
-  system.set_pattern(small.row_begin, small.columns);
-  small.pass_values_to(system);
+  small.pose_in(system);
   std::vector<double> solution(small.size(), 0.0);
   EXPECT_THROW(system.solve(solution), SolverError);
 }
@@ -437,8 +429,7 @@ TEST_P(FreeConstant, GivesMeanZero) {
   settings.preconditioner = GetParam();
   PressureSystem system(settings);
   system.set_constant_is_free(true);
-  system.set_pattern(grid.row_begin, grid.columns);
-  grid.pass_values_to(system);
+  grid.pose_in(system);
   std::vector<double> solution(grid.size(), 5.0);
   system.solve(solution);
 
