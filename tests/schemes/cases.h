@@ -24,6 +24,18 @@ inline CaseSpec free_case(double spacing) {
   return spec;
 }
 
+/// The same, with water that fills a square of 1 m, periodic both ways: no surface, and every particle counts.
+inline CaseSpec periodic_square(double spacing) {
+  CaseSpec spec = free_case(spacing);
+  spec.domain.periodic_x = {0.0, 1.0};
+  spec.domain.periodic_y = {0.0, 1.0};
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {1.0, 1.0};
+  spec.fluid = {water};
+  return spec;
+}
+
 /// Water of width and depth in a box that is open above; 3D: as broad as wide.
 template <int Dim>
 CaseSpec tank_case(double spacing, double width, double depth) {

@@ -12,16 +12,10 @@ namespace {
 
 /// Water that flows everywhere alike, without gravity.
 CaseSpec uniform_flow(double speed, double channel_width) {
-  CaseSpec spec = free_case(0.05);
+  CaseSpec spec = periodic_square(0.05);
   spec.physics.viscosity = 1e-6;
   spec.physics.channel_width = channel_width;
-  spec.domain.periodic_x = {0.0, 1.0};
-  spec.domain.periodic_y = {0.0, 1.0};
-  FluidTable water;
-  water.min = {0.0, 0.0};
-  water.max = {1.0, 1.0};
-  water.velocity = {speed, 0.0};
-  spec.fluid = {water};
+  spec.fluid[0].velocity = {speed, 0.0};
   return spec;
 }
 
