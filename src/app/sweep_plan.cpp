@@ -188,6 +188,7 @@ bool is_sweep(const std::filesystem::path& folder) {
 }
 
 SweepPlan read_sweep_record(const std::filesystem::path& folder) {
+  constexpr std::string_view remedy = "remedy: begin the sweep in another folder";
   const std::filesystem::path path = folder / sweep_record_name;
   std::ifstream file(path);
   if (!file) throw IoError("cannot read '{}'", path.string());
@@ -202,11 +203,11 @@ SweepPlan read_sweep_record(const std::filesystem::path& folder) {
     for (const Json& member : record.at("members")) {
       plan.members.push_back({member.at("folder"), member.at("values")});
       if (plan.members.back().values.size() == plan.keys.size()) continue;
-      throw IoError("'{}': a member has not as many values as there are keys", path.string());
+      throw IoError("'{}': a member has not as many values as there are keys; {}", path.string(), remedy);
     }
     return plan;
   } catch (const Json::exception& error) {
-    throw IoError("'{}' is not the record of a sweep: {}", path.string(), error.what());
+    throw IoError("'{}' is not the record of a sweep: {}; {}", path.string(), error.what(), remedy);
   }
 }
 

@@ -125,7 +125,7 @@ std::function<Json(const std::string&)> checking(const fs::path& folder, bool ta
 fs::path start_case(const fs::path& folder, const std::optional<fs::path>& case_file, const std::string& text,
                     const std::string& out, int ranks) {
   require_plain_name(out);
-  if (ranks < 1 || ranks > usable_cores()) throw InputError("{} ranks: 1 to {}", ranks, usable_cores());
+  if (ranks < 1 || ranks > usable_cores()) throw InputError("{} ranks: give 1 to {}", ranks, usable_cores());
   const fs::path run = folder / out;
   const fs::path saved = case_file ? *case_file : folder / (out + ".toml");
   std::error_code error;

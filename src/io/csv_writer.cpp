@@ -7,12 +7,19 @@
 
 #include <cerrno>
 #include <cmath>
+#include <string_view>
 
 #include "base/assert.h"
 #include "base/error.h"
 #include "io/write_file.h"
 
 namespace tailwater {
+namespace {
+
+constexpr std::string_view remedy_for_other_file =
+    "remedy: put the file back, or begin the run anew: tailwater run --force";
+
+}  // namespace
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
                      std::optional<std::int64_t> kept)
@@ -30,7 +37,8 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
 void CsvWriter::go_on(const std::string& first_line, std::int64_t kept) {
   std::string found(first_line.size(), '\0');
   if (std::fread(found.data(), 1, found.size(), file_.get()) != found.size() || found != first_line) {
-    throw IoError("cannot go on with '{}': it does not begin with the columns of this run", path_.string());
+    throw IoError("cannot go on with '{}': it does not begin with the columns of this run; {}", path_.string(),
+                  remedy_for_other_file);
   }
   cut_file(path_, kept);
   if (std::fseek(file_.get(), 0, SEEK_END) != 0) throw_io_error("write", path_, errno);
@@ -69,8 +77,8 @@ void cut_file(const std::filesystem::path& path, std::int64_t kept) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) throw_io_error("read", path, errno);
   if (found.st_size < kept) {
-    throw IoError("cannot go on with '{}': it has {} bytes, and had {} at the checkpoint", path.string(), found.st_size,
-                  kept);
+    throw IoError("cannot go on with '{}': it has {} bytes, and had {} at the checkpoint; {}", path.string(),
+                  found.st_size, kept, remedy_for_other_file);
   }
   if (truncate(path.c_str(), kept) != 0) throw_io_error("write", path, errno);
 }
