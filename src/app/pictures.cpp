@@ -15,15 +15,6 @@
 
 namespace tailwater {
 
-void add_pictures_option(CLI::App& command, int& pictures) {
-  command
-      .add_option("--pictures", pictures,
-                  "Draw so many pictures of the run when it ends, and in 3D the water's surface as a mesh from every "
-                  "field file, as `tailwater pictures DIR` does")
-      ->check(CLI::Range(1, 100000))
-      ->type_name("N");
-}
-
 void draw_pictures(const std::filesystem::path& run, int count, const Communicator& ranks) {
   if (!ranks.is_root()) return;
   tell("drawing pictures");

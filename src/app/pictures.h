@@ -1,7 +1,5 @@
-// Pictures that the program leaves by itself; the Python package in validation/ draws them.
+// Pictures that the program leaves by itself; the Python package draws them.
 #pragma once
-
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <span>
@@ -11,9 +9,6 @@
 #include "parallel/communicator.h"
 
 namespace tailwater {
-
-/// --pictures N of the commands that make runs.
-void add_pictures_option(CLI::App& command, int& pictures);
 
 /// Draws so many pictures of a run that has ended. Without Python, VTK or Xvfb there is a warning instead: what was
 /// computed is there. The root alone draws.

@@ -6,35 +6,23 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/pictures.h"
 #include "app/ranks.h"
 #include "app/run_arguments.h"
 #include "app/sweep.h"
 #include "app/sweep_plan.h"
-#include "linear/session.h"
 #include "run/resume.h"
 
 namespace tailwater {
 namespace {
 
-struct ResumeArguments {
-  RunOptions run;
-  RankArguments ranks;
-  std::string wall_time;
-  std::vector<std::string> overrides;
-  std::optional<int> jobs;
-  int pictures = 0;
-  bool quiet = false;
-};
-
-ExitCode execute_resume(ResumeArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
+ExitCode execute_resume(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   if (is_sweep(arguments.run.out)) {
     if (arguments.pictures > 0) {
       throw InputError("--pictures: a sweep; remedy: tailwater pictures DIR/MEMBER, when a member is done");
     }
-    if (arguments.ranks.count) require_possible(*arguments.ranks.count);
+    if (arguments.ranks) require_possible(*arguments.ranks);
     if (!arguments.overrides.empty()) {
       throw InputError(
           "--set {}: '{}' is a sweep, whose members have cases of their own; remedy: resume one member, {}/MEMBER, or "
@@ -43,37 +31,30 @@ ExitCode execute_resume(ResumeArguments arguments, const Communicator& ranks, co
     }
     return resume_sweep({.out = arguments.run.out,
                          .jobs = arguments.jobs.value_or(1),
-                         .ranks = arguments.ranks.count,
+                         .ranks = arguments.ranks,
                          .wall_time = arguments.run.wall_time});
   }
   if (arguments.jobs) throw InputError("--jobs is for sweeps; remedy: leave it out");
-  const int wanted = arguments.ranks.count.value_or(ranks.is_alone() ? ranks_of_run(arguments.run.out) : ranks.size());
-  if (arguments.ranks.count) require_possible(wanted);
+  const int wanted = arguments.ranks.value_or(ranks.is_alone() ? ranks_of_run(arguments.run.out) : ranks.size());
+  if (arguments.ranks) require_possible(wanted);
   if (wanted > 1 && ranks_in_environment() == 0) return launch_ranks(wanted, words, arguments.run.out);
-  std::optional<LinearSession> session;  // several ranks have one already
-  if (ranks.is_alone()) session.emplace();
-  const ExitCode code = resume_run(arguments.run, arguments.overrides, ranks);
-  tell_end(code, arguments.run.out);
-  if (arguments.pictures > 0) draw_pictures(arguments.run.out, arguments.pictures, ranks);
-  return code;
+  return run_here(arguments, ranks, [&] { return resume_run(arguments.run, arguments.overrides, ranks); });
 }
 
 }  // namespace
 
 void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
                         const std::vector<std::string>& words) {
-  auto arguments = std::make_shared<ResumeArguments>();
+  auto arguments = std::make_shared<RunArguments>();
   CLI::App* command =
       app.add_subcommand("resume", "Go on with a run, or a sweep, that was stopped, was killed or is done");
   command->add_option("run", arguments->run.out, "Folder of the run or of the sweep")->required()->type_name("");
   command->add_option("--set", arguments->overrides, "Override a key that changes no result, as in --set time.end=20")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  add_rank_and_time_options(*command, arguments->ranks, arguments->wall_time,
-                            "Number of ranks; default: as many as the run had");
-  add_jobs_option(*command, arguments->jobs);
-  add_pictures_option(*command, arguments->pictures);
-  command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
+  add_rank_and_time_options(*command, *arguments, "Number of ranks; default: as many as the run had");
+  add_jobs_option(*command, *arguments);
+  add_picture_and_voice_options(*command, *arguments);
   command->footer(
       "Examples: tailwater resume my_run\n"
       "          tailwater resume my_sweep --jobs 2\n"

@@ -7,8 +7,10 @@
 #include <csignal>
 #include <string_view>
 
+#include "app/pictures.h"
 #include "app/ranks.h"
 #include "io/messages.h"
+#include "linear/session.h"
 
 namespace tailwater {
 namespace {
@@ -57,17 +59,27 @@ std::optional<double> seconds_by_units(std::string_view text) {
 
 }  // namespace
 
-void add_rank_and_time_options(CLI::App& command, RankArguments& ranks, std::string& wall_time,
-                               const std::string& about_ranks) {
-  command.add_option("-n", ranks.count, about_ranks)->type_name("COUNT");
+void add_rank_and_time_options(CLI::App& command, RunArguments& arguments, const std::string& about_ranks) {
+  command.add_option("-n", arguments.ranks, about_ranks)->type_name("COUNT");
   command
-      .add_option("--wall-time", wall_time,
+      .add_option("--wall-time", arguments.wall_time,
                   "Time that the program has, as in 3h, 1h30min or 12:00:00: it writes a checkpoint and stops before")
       ->type_name("TIME");
 }
 
-void add_jobs_option(CLI::App& command, std::optional<int>& jobs) {
-  command.add_option("--jobs", jobs, "Members of a sweep that run at the same time; default 1")->type_name("COUNT");
+void add_jobs_option(CLI::App& command, RunArguments& arguments) {
+  command.add_option("--jobs", arguments.jobs, "Members of a sweep that run at the same time; default 1")
+      ->type_name("COUNT");
+}
+
+void add_picture_and_voice_options(CLI::App& command, RunArguments& arguments) {
+  command
+      .add_option("--pictures", arguments.pictures,
+                  "Draw so many pictures of the run when it ends, and in 3D the water's surface as a mesh from every "
+                  "field file, as `tailwater pictures DIR` does")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  command.add_flag("--quiet", arguments.quiet, "No progress and no warnings");
 }
 
 void survive_hang_up_and_speak(const Communicator& ranks, bool quiet) {
@@ -105,12 +117,18 @@ std::optional<std::chrono::duration<double>> wall_time_of(const std::string& tex
   return std::chrono::duration<double>(*seconds);
 }
 
-void tell_end(ExitCode code, const std::filesystem::path& run) {
+ExitCode run_here(const RunArguments& arguments, const Communicator& ranks, const std::function<ExitCode()>& run) {
+  std::optional<LinearSession> session;  // several ranks have one already
+  if (ranks.is_alone()) session.emplace();
+  const ExitCode code = run();
+  const std::string out = arguments.run.out.string();
   if (code == ExitCode::done) {
-    tell("done: results in {}", run.string());
+    tell("done: results in {}", out);
   } else {
-    tell("interrupted: results in {}; to go on: tailwater resume {}", run.string(), run.string());
+    tell("interrupted: results in {}; to go on: tailwater resume {}", out, out);
   }
+  if (arguments.pictures > 0) draw_pictures(out, arguments.pictures, ranks);
+  return code;
 }
 
 }  // namespace tailwater

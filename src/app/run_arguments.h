@@ -4,25 +4,35 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "parallel/communicator.h"
+#include "run/run_options.h"
 
 namespace tailwater {
 
-struct RankArguments {
-  std::optional<int> count;
+struct RunArguments {
+  RunOptions run;
+  std::vector<std::string> overrides;
+  std::optional<int> ranks;
+  std::optional<int> jobs;  ///< of a sweep
+  std::string wall_time;
+  int pictures = 0;
+  bool quiet = false;
 };
 
 /// The options -n and --wall-time.
-void add_rank_and_time_options(CLI::App& command, RankArguments& ranks, std::string& wall_time,
-                               const std::string& about_ranks);
+void add_rank_and_time_options(CLI::App& command, RunArguments& arguments, const std::string& about_ranks);
 
 /// The option --jobs, of sweeps.
-void add_jobs_option(CLI::App& command, std::optional<int>& jobs);
+void add_jobs_option(CLI::App& command, RunArguments& arguments);
+
+/// The options --pictures and --quiet.
+void add_picture_and_voice_options(CLI::App& command, RunArguments& arguments);
 
 /// First of all in a command that runs: what is told goes to the user, on the root alone and unless `quiet`, and the
 /// end of the terminal is no reason to die. (Once a run goes, it writes a checkpoint then: run/requests.h.)
@@ -34,7 +44,7 @@ void require_possible(int ranks);
 /// "3h", "90min", "1h30min", "45s" or "2:30:00"; nothing for an empty text. Throws InputError.
 std::optional<std::chrono::duration<double>> wall_time_of(const std::string& text);
 
-/// The last line for the user of a run that did not fail.
-void tell_end(ExitCode code, const std::filesystem::path& run);
+/// Calls `run` with MPI at work, tells the user how it ended if it did not fail, and draws the pictures.
+ExitCode run_here(const RunArguments& arguments, const Communicator& ranks, const std::function<ExitCode()>& run);
 
 }  // namespace tailwater

@@ -6,29 +6,20 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/pictures.h"
 #include "app/ranks.h"
 #include "app/run_arguments.h"
 #include "app/sweep.h"
 #include "case/help.h"
 #include "case/reader.h"
 #include "io/messages.h"
-#include "linear/session.h"
 #include "run/run_case.h"
 
 namespace tailwater {
 namespace {
 
-struct RunArguments {
-  RunOptions run;
-  std::vector<std::string> overrides;
+struct NewRunArguments : RunArguments {
   std::vector<std::string> sweep;
-  std::optional<int> jobs;
-  RankArguments ranks;
-  std::string wall_time;
   std::string help_case;
-  int pictures = 0;
-  bool quiet = false;
 };
 
 std::string help_on_cases(const std::string& format) {
@@ -38,7 +29,7 @@ std::string help_on_cases(const std::string& format) {
   return format == "study" ? study_reference_markdown() : case_help();
 }
 
-ExitCode execute_run(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
+ExitCode execute_run(NewRunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
   if (!arguments.help_case.empty()) {
     if (ranks.is_root()) fmt::print("{}", help_on_cases(arguments.help_case));
     return ExitCode::done;
@@ -48,7 +39,7 @@ ExitCode execute_run(RunArguments arguments, const Communicator& ranks, const st
   }
   survive_hang_up_and_speak(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
-  if (arguments.ranks.count) require_possible(*arguments.ranks.count);
+  if (arguments.ranks) require_possible(*arguments.ranks);
   if (!arguments.sweep.empty()) {
     if (arguments.pictures > 0) {
       throw InputError("--pictures and --sweep: remedy: tailwater pictures DIR/MEMBER, when a member is done");
@@ -59,28 +50,23 @@ ExitCode execute_run(RunArguments arguments, const Communicator& ranks, const st
     return run_sweep(arguments.run.case_file, arguments.overrides, arguments.sweep,
                      {.out = arguments.run.out,
                       .jobs = arguments.jobs.value_or(1),
-                      .ranks = arguments.ranks.count,
+                      .ranks = arguments.ranks,
                       .wall_time = arguments.run.wall_time});
   }
   if (arguments.jobs) throw InputError("--jobs is for sweeps; remedy: leave it out, or add --sweep KEY=VALUE,VALUE");
   const CaseSpec spec = read_case(arguments.run.case_file, arguments.overrides);
   if (ranks.is_alone()) {
-    const int count = arguments.ranks.count ? *arguments.ranks.count : ranks_by_default(spec);
-    if (count > 1 && !arguments.ranks.count) tell("on {} ranks; -n 1 for one", count);
+    const int count = arguments.ranks ? *arguments.ranks : ranks_by_default(spec);
+    if (count > 1 && !arguments.ranks) tell("on {} ranks; -n 1 for one", count);
     if (count > 1) return launch_ranks(count, words, arguments.run.out);
   }
-  std::optional<LinearSession> session;  // several ranks have one already
-  if (ranks.is_alone()) session.emplace();
-  const ExitCode code = run_case(spec, arguments.run, ranks);
-  tell_end(code, arguments.run.out);
-  if (arguments.pictures > 0) draw_pictures(arguments.run.out, arguments.pictures, ranks);
-  return code;
+  return run_here(arguments, ranks, [&] { return run_case(spec, arguments.run, ranks); });
 }
 
 }  // namespace
 
 void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, const std::vector<std::string>& words) {
-  auto arguments = std::make_shared<RunArguments>();
+  auto arguments = std::make_shared<NewRunArguments>();
   CLI::App* command = app.add_subcommand("run", "Run a case");
   command->add_option("case", arguments->run.case_file, "The case file")->type_name("");
   command->add_option("--out", arguments->run.out, "Folder for the results; made by the run")->type_name("DIR");
@@ -93,13 +79,12 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
                    "--sweep make the product")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE,...");
-  add_jobs_option(*command, arguments->jobs);
+  add_jobs_option(*command, *arguments);
   add_rank_and_time_options(
-      *command, arguments->ranks, arguments->wall_time,
+      *command, *arguments,
       "Number of ranks, which this program starts by mpirun; default: 1, in large cases one for each core");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
-  add_pictures_option(*command, arguments->pictures);
-  command->add_flag("--quiet", arguments->quiet, "No progress and no warnings");
+  add_picture_and_voice_options(*command, *arguments);
   command
       ->add_option(
           "--help-case", arguments->help_case,
