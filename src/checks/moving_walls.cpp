@@ -1,4 +1,3 @@
-
 #include "base/fp_traps.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"

@@ -103,15 +103,12 @@ void find_conservative_pushes_on_walls(const Flow<Dim>& flow, std::span<const st
                                                        const std::vector<double>&, std::span<Vec<Dim>>) const;       \
   template void RobustDiscretisation<Dim>::find_pushes_on_walls(const Flow<Dim>&, std::span<const std::size_t>,      \
                                                                 std::span<const double>, const std::vector<double>&, \
-                                                                std::span<Vec<Dim>>) const;                          \
-  template void find_standard_divergence<Dim>(const Flow<Dim>&, std::span<const Vec<Dim>>, std::span<double>);       \
-  template void find_conservative_pushes<Dim>(const Flow<Dim>&, std::span<const std::size_t>,                        \
-                                              const std::vector<double>&, std::span<Vec<Dim>>);                      \
-  template void find_conservative_pushes_on_walls<Dim>(const Flow<Dim>&, std::span<const std::size_t>,               \
-                                                       std::span<const double>, const std::vector<double>&,          \
-                                                       std::span<Vec<Dim>>);
+                                                                std::span<Vec<Dim>>) const;
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(find_standard_divergence);
+TAILWATER_IN_2D_AND_3D(find_conservative_pushes);
+TAILWATER_IN_2D_AND_3D(find_conservative_pushes_on_walls);
 
 }  // namespace tailwater
