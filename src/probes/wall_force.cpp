@@ -1,5 +1,4 @@
 #include "probes/wall_force.h"
-#include "geometry/from_spec.h"
 
 #include <Eigen/Geometry>
 
@@ -8,11 +7,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "base/assert.h"
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "geometry/facing.h"
+#include "geometry/from_spec.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
 #include "probes/places.h"
@@ -54,19 +55,13 @@ struct WallLoads {
 
   /// Adds up those of all ranks. Collective.
   void gather(const Communicator& ranks) {
-    std::array<double, 3 * Dim + Moment<Dim>::RowsAtCompileTime> sums{};
-    Eigen::Map<Vec<Dim>> all_pressure(sums.data());
-    Eigen::Map<Vec<Dim>> all_friction(sums.data() + Dim);
-    Eigen::Map<Moment<Dim>> all_moments(sums.data() + 2 * Dim);
-    all_pressure = pressure;
-    all_friction = friction;
-    all_moments = moment;
-    sums.back() = power;
-    ranks.sum_of_each(sums);
-    pressure = all_pressure;
-    friction = all_friction;
-    moment = all_moments;
-    power = sums.back();
+    Eigen::Vector<double, 2 * Dim + turns<Dim> + 1> sums;
+    sums << pressure, friction, moment, power;
+    ranks.sum_of_each(std::span(sums.data(), sums.size()));
+    pressure = sums.template head<Dim>();
+    friction = sums.template segment<Dim>(Dim);
+    moment = sums.template segment<turns<Dim>>(2 * Dim);
+    power = sums[2 * Dim + turns<Dim>];
   }
 };
 
