@@ -85,10 +85,9 @@ Readings read_end(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow
     const double off_border = std::abs(before - spacing) / spacing;
     return {of_share(1.0 - off), of_share(std::max(0.0, 1.0 - off_border)), {}};
   });
-  Reading& g = readings.gauge;
-  Reading& b = readings.border;
-  Reading& s = readings.inside;
-  flow.setup.ranks.sum_each(g.volume, g.flux, g.push, b.volume, b.flux, b.excess, s.volume, s.flux);
+  auto& [gauge, border, inside] = readings;
+  flow.setup.ranks.sum_each(gauge.volume, gauge.flux, gauge.push, border.volume, border.flux, border.excess,
+                            inside.volume, inside.flux);
   return readings;
 }
 
