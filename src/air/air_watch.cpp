@@ -92,7 +92,8 @@ void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMark
   const Vec<Dim>& x = walls.particles.position[row];
   const bool moves = boundary.walls[walls.particles.wall[row]].moves();
   grid_->visit_ball(x, cover * spacing_, [&](int r, int begin, int end) {
-    for (int place = tested.next(r, begin, end, false); place < end; place = tested.next(r, place + 1, end, false)) {
+    for (int place = tested.next_unmarked(r, begin, end); place < end;
+         place = tested.next_unmarked(r, place + 1, end)) {
       const Vec<Dim> centre = grid_->centre(grid_->cell(r, place));
       const NearestWall<Dim> nearest = boundary.nearest(centre, search_distance * spacing_);
       if (nearest.face < 0) continue;
@@ -118,7 +119,8 @@ void AirWatch<Dim>::mark_plate(const Walls<Dim>& walls, std::size_t row, CellMar
   const Boundary<Dim>& boundary = walls.boundary;
   const double reach = 0.51 * std::sqrt(static_cast<double>(Dim)) * grid_->edge().maxCoeff();
   grid_->visit_ball(walls.particles.position[row], cover * spacing_, [&](int r, int begin, int end) {
-    for (int place = plates.next(r, begin, end, false); place < end; place = plates.next(r, place + 1, end, false)) {
+    for (int place = plates.next_unmarked(r, begin, end); place < end;
+         place = plates.next_unmarked(r, place + 1, end)) {
       const Vec<Dim> centre = grid_->centre(grid_->cell(r, place));
       for (const int s : boundary.screens_near(centre, reach)) {
         const Screen<Dim>& screen = boundary.screens[s];

@@ -56,9 +56,9 @@ int VoidGrid<Dim>::row_beside(int row, int axis, int direction) const {
   return step(c, axis, direction) ? row_of(c) : -1;
 }
 
-int CellMarks::next(int row, int from, int end, bool marked) const {
+int CellMarks::next(int row, int from, int end, std::uint64_t unlike) const {
   for (int k = from / 64; 64 * k < end; ++k) {
-    const std::uint64_t wanted = (marked ? word(row, k) : ~word(row, k)) & mask(k, from, end);
+    const std::uint64_t wanted = (word(row, k) ^ unlike) & mask(k, from, end);
     if (wanted != 0) return 64 * k + std::countr_zero(wanted);
   }
   return end;

@@ -124,8 +124,10 @@ class CellMarks {
     }
     return false;
   }
-  /// The first place from `from` on, before `end`, that is marked, or is not; `end` if there is none.
-  int next(int row, int from, int end, bool marked) const;
+  /// The first place from `from` on, before `end`, that is marked; `end` if there is none.
+  int next_marked(int row, int from, int end) const { return next(row, from, end, 0); }
+  /// The first that is not.
+  int next_unmarked(int row, int from, int end) const { return next(row, from, end, ~std::uint64_t{0}); }
 
   CellMarks& operator|=(const CellMarks& other);
   /// The marks, for an exchange.
@@ -139,6 +141,9 @@ class CellMarks {
     if (end < 64 * (k + 1)) mask &= ~std::uint64_t{0} >> (64 * (k + 1) - end);
     return mask;
   }
+
+  /// The first whose mark is not as in `unlike`.
+  int next(int row, int from, int end, std::uint64_t unlike) const;
 
   std::size_t words_per_row_ = 0;
   std::vector<std::uint64_t> words_;

@@ -46,10 +46,10 @@ void Voids<Dim>::find_runs(const VoidGrid<Dim>& grid, const CellMarks& filled) {
   const int length = grid.length();
   for (int row = 0; row < grid.rows(); ++row) {
     row_begin_.push_back(runs_.size());
-    for (int begin = filled.next(row, 0, length, false); begin < length;) {
-      const int end = filled.next(row, begin, length, true);
+    for (int begin = filled.next_unmarked(row, 0, length); begin < length;) {
+      const int end = filled.next_marked(row, begin, length);
       runs_.push_back({row, begin, end});
-      begin = filled.next(row, end, length, false);
+      begin = filled.next_unmarked(row, end, length);
     }
   }
   row_begin_.push_back(runs_.size());
