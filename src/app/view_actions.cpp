@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "app/case_templates.h"
+#include "app/check_json.h"
 #include "app/child.h"
 #include "app/processes.h"
 #include "app/ranks.h"
@@ -104,9 +105,9 @@ bool ask_sweep(const fs::path& sweep, const std::string& what) {
 }
 
 /// What `tailwater check - --json` tells of a text.
-Json check_by_child(const fs::path& folder, const std::string& text, bool takes_trial_steps) {
+Json check_by_child(const fs::path& folder, const std::string& text, TrialSteps trial) {
   std::vector<std::string> command{this_program(), "check", "-", "--json"};
-  if (takes_trial_steps) command.emplace_back("--trial-steps");
+  if (trial == TrialSteps::some) command.emplace_back("--trial-steps");
   const ChildEnd end = run_child(command, folder, text, patience);
   Json answer = Json::parse(end.output, nullptr, false);
   if (answer.is_object()) return answer;
@@ -115,10 +116,10 @@ Json check_by_child(const fs::path& folder, const std::string& text, bool takes_
 }
 
 /// One at a time, whoever asks.
-std::function<Json(const std::string&)> checking(const fs::path& folder, bool takes_trial_steps) {
-  return [folder, takes_trial_steps, one_at_a_time = std::make_shared<std::mutex>()](const std::string& text) {
+std::function<Json(const std::string&)> checking(const fs::path& folder, TrialSteps trial) {
+  return [folder, trial, one_at_a_time = std::make_shared<std::mutex>()](const std::string& text) {
     const std::lock_guard lock(*one_at_a_time);
-    return check_by_child(folder, text, takes_trial_steps);
+    return check_by_child(folder, text, trial);
   };
 }
 
@@ -170,8 +171,8 @@ ViewActions view_actions(const ViewContent& content, const std::vector<fs::path>
   actions.ask_sweep = [sweeps](std::size_t k, const std::string& what) {
     return k < sweeps.size() && ask_sweep(sweeps[k], what);
   };
-  actions.check = checking(folder, false);
-  actions.estimate = checking(folder, true);
+  actions.check = checking(folder, TrialSteps::none);
+  actions.estimate = checking(folder, TrialSteps::some);
   actions.start = [folder, case_file](const std::string& text, const std::string& out, int ranks) {
     return start_case(folder, case_file, text, out, ranks);
   };
