@@ -140,8 +140,6 @@ void require_sound_numbers(const Checkpoint<Dim>& checkpoint) {
   require_fit(std::isfinite(checkpoint.reference_step) && checkpoint.reference_step >= 0.0, "run");
 }
 
-}  // namespace
-
 /// What the root reads and deals out to the ranks. Empty on the others.
 struct Dealt {
   std::int64_t writers = 0;          ///< ranks that wrote it
@@ -149,8 +147,6 @@ struct Dealt {
   std::vector<std::string> cuts;     ///< by rank; empty ones for another number of ranks than that of the writers
   std::vector<double> rank_logs;
 };
-
-namespace {
 
 Dealt deal(const Hdf5Reader& image, std::size_t ranks) {
   Dealt dealt;
