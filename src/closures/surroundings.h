@@ -19,7 +19,7 @@ struct Surroundings {
   std::vector<std::uint8_t> is_wet;              ///< wall particles with fluid in reach; ghosts too
   std::vector<std::uint8_t> takes_part;          ///< fluid, and wet walls; ghosts too
   std::vector<std::uint8_t> is_surface;          ///< ghosts too where rows go by it (published)
-  std::vector<double> interior;                  ///< 0 near the free surface, 1 inside (free_surface.h); ghosts too
+  std::vector<double> interior;                  ///< 0 near the surface, 1 inside (free_surface.h); robust: ghosts too
   std::vector<double> mean_interior;             ///< of owned fluid inside: over its fluid neighbours, weights W
   std::vector<Vec<Dim>> crowding;                ///< 1/m; of owned fluid (concentration.h)
   PairVectorField<Dim> pair_vectors;             ///< what they are made of (pair_vectors.h); ghosts too

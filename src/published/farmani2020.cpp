@@ -34,7 +34,6 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
       flow.halo().exchange(here.is_surface);
       find_interior_by_marks<Dim>(flow.pairs(), particles, flow.setup.spacing, here.is_surface, here.interior);
     }
-    flow.halo().exchange(here.interior);
   }
 
   /// For works and the report of the divergence only.

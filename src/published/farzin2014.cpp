@@ -45,7 +45,6 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
       flow.halo().exchange(here.is_surface);
       find_interior_by_marks<Dim>(pairs, particles, flow.setup.spacing, here.is_surface, here.interior);
     }
-    flow.halo().exchange(here.interior);
   }
 
   /// For works and pushes only: gradient and divergence are consistent.
