@@ -20,7 +20,7 @@ template <int Dim>
 StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = flow.setup.formulation.take_step(flow, start, dt);
   report.dt = dt;
-  flow.halo().exchange(flow.state.particles.velocity);
+  flow.halo().exchange(flow.state.particles.velocity, flow.state.particles.pressure);  // probes read ghosts
   flow.state.approach = largest_approach(flow);
   count_passing(flow, start);
   Interventions& counts = report.interventions;

@@ -56,6 +56,16 @@ void run(Flow<Dim>& flow, int count) {
   for (int n = 0; n < count; ++n) pass_and_step(flow);
 }
 
+/// Probes and the next step read what ghosts have after a step.
+template <int Dim>
+void expect_ghosts_up_to_date(Flow<Dim>& flow) {
+  Particles<Dim>& particles = flow.state.particles;
+  const Particles<Dim> before = particles;
+  flow.halo().exchange(particles.velocity, particles.pressure);
+  EXPECT_EQ(particles.velocity, before.velocity);
+  EXPECT_EQ(particles.pressure, before.pressure);
+}
+
 /// Runs the case on all ranks and on one, the root, from velocities set by `prepare`, and compares there.
 template <int Dim, class Prepare>
 void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
@@ -64,6 +74,7 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   Flow<Dim> shared = make_flow<Dim>(spec, world);
   prepare(shared);
   run(shared, steps);
+  expect_ghosts_up_to_date(shared);
   EXPECT_EQ(world.least(shared.state.time), world.largest(shared.state.time));
   const auto owned = world.sum(shared.state.particles.owned);
   const std::vector<Particle<Dim>> found = fluid_of(shared);
