@@ -1,11 +1,10 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import type { Check, Spec } from "../../src/contract.ts";
 import { Mock, run } from "../support/mock.ts";
 import { standingWave } from "../support/flows.ts";
-import { allowed, until, visit } from "../support/browser.ts";
+import { allowed, test, until, visit } from "../support/browser.ts";
 
 const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 const text = `[case]

@@ -2,12 +2,11 @@ import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { deflateSync } from "node:zlib";
 import { basin, standingWave } from "../support/flows.ts";
 import { Mock, run, type MockRun } from "../support/mock.ts";
-import { until, visit } from "../support/browser.ts";
+import { test, until, visit } from "../support/browser.ts";
 
 const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 

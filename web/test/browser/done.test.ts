@@ -1,9 +1,8 @@
 // The page with the program itself behind it.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
-import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { allowed, camera, until } from "../support/browser.ts";
+import { allowed, camera, test, until } from "../support/browser.ts";
 import { measured, withProgram } from "../support/program.ts";
 
 test("a done run: no blank and no jump of the camera through every second frame; a probe is picked; sent as a file", async (context) => {

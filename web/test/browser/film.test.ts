@@ -1,10 +1,9 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { standingWave } from "../support/flows.ts";
 import { Mock, run } from "../support/mock.ts";
-import { until, visit } from "../support/browser.ts";
+import { test, until, visit } from "../support/browser.ts";
 
 const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 

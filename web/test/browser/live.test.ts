@@ -1,8 +1,7 @@
 // The page with the program itself behind it.
 import assert from "node:assert/strict";
 import { renameSync, statSync } from "node:fs";
-import { test } from "node:test";
-import { allowed, camera, until } from "../support/browser.ts";
+import { allowed, camera, test, until } from "../support/browser.ts";
 import { measured, press, withProgram } from "../support/program.ts";
 
 test("a live run on two ranks: its frames are on the screen within a second; stopped, gone on with, gone", async (context) => {

@@ -1,10 +1,9 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { Mock, run } from "../support/mock.ts";
 import { standingWave } from "../support/flows.ts";
-import { allowed, camera, until, visit } from "../support/browser.ts";
+import { allowed, camera, test, until, visit } from "../support/browser.ts";
 
 const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 

@@ -1,11 +1,10 @@
 // The report of `tailwater validate`, with the program itself behind it, and as the file that it makes.
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
-import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import type { Page } from "puppeteer-core";
 import type { Metric, Report } from "../../src/contract.ts";
-import { until } from "../support/browser.ts";
+import { test, until } from "../support/browser.ts";
 import { withProgram } from "../support/program.ts";
 
 const metric = (name: string, more: Partial<Metric>): Metric => ({

@@ -1,8 +1,7 @@
 // The page with the program itself behind it.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { test } from "node:test";
-import { until } from "../support/browser.ts";
+import { test, until } from "../support/browser.ts";
 import { measured, press, withProgram } from "../support/program.ts";
 
 test("a case: what was measured, an error at its place, the time it takes, and run on two ranks", async (context) => {

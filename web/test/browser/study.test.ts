@@ -1,9 +1,8 @@
 // A study: its table, values over the spacings, and the water of its runs, with the program behind it.
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
-import { test } from "node:test";
 import type { SpacingStudy } from "../../src/contract.ts";
-import { until } from "../support/browser.ts";
+import { test, until } from "../support/browser.ts";
 import { withProgram } from "../support/program.ts";
 
 const row = { unit: "m", uncertainty: 0.02, discretisation: 0.01512, chance: null, step: 0.001, notes: "" };

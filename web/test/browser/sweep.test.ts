@@ -1,7 +1,6 @@
 // The page with the program itself behind it.
 import { writeFileSync } from "node:fs";
-import { test } from "node:test";
-import { until } from "../support/browser.ts";
+import { test, until } from "../support/browser.ts";
 import { press, withProgram } from "../support/program.ts";
 
 test("a sweep: members beside each other, one stopped, gone on with", async (context) => {

@@ -1,6 +1,6 @@
 // Debian's Chromium, driven without a screen and without the net.
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
-import { after } from "node:test";
+import { after, test as unlimited, type TestContext } from "node:test";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
@@ -9,6 +9,11 @@ export const chromium = [process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin
 
 /** The longest that a test waits for anything, ms: so long that no busy machine reaches it, and less than CTest waits. */
 const patience = 200_000;
+
+/** The longest that a test takes, ms: one that hangs does not keep those behind it, for all of which CTest waits 1800 s. */
+const limit = 600_000;
+
+export const test = (name: string, body: (context: TestContext) => Promise<void>) => unlimited(name, { timeout: limit }, body);
 
 export interface Visit {
   browser: Browser;

@@ -100,16 +100,15 @@ export async function withProgram(context: TestContext, body: (place: Workplace,
   writeFileSync(place.path("dam.toml"), dam);
   writeFileSync(place.path("lab.csv"), lab);
   const visits: Visit[] = [];
-  try {
-    await body(place, async (address) => {
-      visits.push(await visit(address));
-      return visits.at(-1)!.page;
-    });
-    for (const { faults } of visits) assert.deepEqual(faults, []);
-  } finally {
+  context.after(async () => { // of a test that has hung, too
     for (const one of visits) await one.close();
     await place.close();
-  }
+  });
+  await body(place, async (address) => {
+    visits.push(await visit(address));
+    return visits.at(-1)!.page;
+  });
+  for (const { faults } of visits) assert.deepEqual(faults, []);
 }
 
 /** The measured points in the plot of the gauge, [s, m], and what is told of them. */
