@@ -32,23 +32,22 @@ function superscript(n: number): string {
   return String(n).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]!));
 }
 
-const units: Record<string, string> = {
-  m: "m", s: "s", Pa: "Pa", J: "J", N: "N", Nm: "N m", kg: "kg", rad: "rad", deg: "°", m2: "m²", m3: "m³", Hz: "Hz", W: "W",
-};
-/** Ends of names that hold a unit, longest first. */
-const ends: [string, string][] = [
-  ["_m3_per_s_per_m", "m³/s/m"], ["_m3_per_s", "m³/s"], ["_m2_per_s", "m²/s"], ["_m_per_s2", "m/s²"], ["_m_per_s", "m/s"],
-  ["_rad_per_s", "rad/s"], ["_kg_per_s", "kg/s"], ["_kg_per_m3", "kg/m³"], ["_N_per_m", "N/m"], ["_N_m_per_m", "N m/m"], ["_N_m", "N m"], ["_Pa_s", "Pa s"], ["_per_s", "1/s"],
-  ...Object.entries(units).map(([end, unit]): [string, string] => [`_${end}`, unit]),
+/** Ends of the names of columns (src/probes) that hold a unit, before those that they end with; and the unit in 2D, where
+ * all is per metre of width, if that is another. */
+const ends: [string, string, string?][] = [
+  ["_m3_per_s", "m³/s", "m³/s/m"], ["_m_per_s", "m/s"], ["_rad_per_s", "rad/s"], ["_m_s", "m/s"],
+  ["_N_m_per_m", "N m/m"], ["_N_per_m", "N/m"], ["_W_per_m", "W/m"], ["_N_m", "N m"], ["_Pa_s", "Pa s"],
+  ["_m3", "m³", "m³/m"], ["_J", "J", "J/m"], ["_Pa", "Pa"], ["_N", "N"], ["_W", "W"], ["_rad", "rad"], ["_m", "m"], ["_s", "s"],
 ];
 
 /** "connected_m" is "connected" in m; a name without a known unit is itself. */
-export function split(column: string): { label: string; unit: string } {
-  for (const [end, unit] of ends) {
-    if (column.endsWith(end) && column.length > end.length) return { label: words(column.slice(0, -end.length)), unit };
-  }
-  return { label: words(column), unit: "" };
+export function split(column: string, dimension: 2 | 3): { label: string; unit: string } {
+  const [end, unit, unit2d = unit] = ends.find(([text]) => column.endsWith(text)) ?? ["", ""];
+  return { label: words(column.slice(0, column.length - end.length)), unit: dimension === 2 ? unit2d : unit };
 }
+
+/** A unit as the program writes it, "m^3/s per m", with the signs of print. */
+export const printed = (unit: string) => unit.replace(/\^(\d)/g, (_, n: string) => superscript(Number(n)));
 
 const words = (name: string) => name.replaceAll("_", " ");
 

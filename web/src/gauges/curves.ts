@@ -12,21 +12,32 @@ export interface Curve {
 /** Probes whose tables hold many places at each time. */
 export const isProfile = (probe: Probe) => probe.type === "profile" || probe.type === "velocity-profile";
 
+/** The column along which a profile is drawn. */
+export const alongOf = (probe: Probe) => (probe.type === "velocity-profile" ? "height_m" : "x_m");
+
 /** The columns of a probe that can be plotted over time, as its table has them. */
 export function choices(run: Subject, probe: Probe): string[] {
   const columns = run.table(probe.name)?.columns ?? probe.columns;
-  return columns.filter((name) => name !== "time_s" && !/^[xyz]_m$/.test(name));
+  return columns.filter((name) => name !== "time_s" && name !== alongOf(probe) && !/^[xyz]_m$/.test(name));
 }
 
 /** The one that was measured, else the one that is asked for most often. */
 export function favourite(run: Subject, probe: Probe, columns: string[]): string {
   const measured = run.scene.measurements.find((m) => m.probe === probe.name && columns.includes(m.column));
   if (measured) return measured.column;
+  if (probe.type === "force") return largest(run, probe, columns.filter((name) => name.startsWith("force_"))) ?? columns[0] ?? "";
   const liked: Record<string, string[]> = {
     depth: ["connected_m"], front: ["front_m"], energy: ["total_J"], volume: ["density_error_rms"], profile: ["connected_m"],
-    "velocity-profile": ["velocity_x_m_per_s"], "run-up": ["connected_m"], motion: ["displacement_y_m", "displacement_z_m"], "level-map": ["highest_m"],
+    "velocity-profile": ["u_m_s"], "run-up": ["connected_m"], motion: ["displacement_y_m", "displacement_z_m"], "level-map": ["highest_m"],
   };
   return liked[probe.type]?.find((name) => columns.includes(name)) ?? columns[0] ?? "";
+}
+
+/** The column that is largest over the run: of a weir's force that along the flow, of a ship's that which carries it. */
+function largest(run: Subject, probe: Probe, columns: string[]): string | undefined {
+  const table = run.table(probe.name);
+  const sums = columns.map((name) => (table?.column(name) ?? []).reduce((sum, value) => sum + Math.abs(value), 0));
+  return columns[sums.indexOf(Math.max(...sums))];
 }
 
 export function curves(runs: Subject[], probe: string, column: string): Curve[] {
@@ -52,7 +63,7 @@ export function measuredFor({ time: times, x = [], value }: Measurement, before:
   return now.sort(([a], [b]) => a - b);
 }
 
-export function axisLabel(column: string): string {
-  const { label, unit } = split(column);
+export function axisLabel(column: string, dimension: 2 | 3): string {
+  const { label, unit } = split(column, dimension);
   return unit ? `${label}, ${unit}` : label;
 }

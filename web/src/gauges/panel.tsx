@@ -9,7 +9,7 @@ import { useChanges } from "../store.ts";
 import { block, toCsv, valueAt } from "../tables.ts";
 import { colours } from "../theme.ts";
 import { number, split, withUncertainty } from "../units.ts";
-import { axisLabel, choices, curves, favourite, isProfile, laboratory, measuredFor } from "./curves.ts";
+import { alongOf, axisLabel, choices, curves, favourite, isProfile, laboratory, measuredFor } from "./curves.ts";
 import { limit, meanOf, type Mean } from "./limit.ts";
 import { Plot, type Line } from "./plot.tsx";
 import { saveText } from "../picture/save.ts";
@@ -62,10 +62,12 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
   const rows = runs.map((run) => run.table(probe.name)?.rows ?? 0).join(" ");
   const stamp = owner.id + rows + column + (profile ? `@${blockStamp(owner, probe, app.player.time)}` : "");
   const measured = runs.flatMap((run) => laboratory(run, probe.name, column).map((m) => ({ ...m, run })));
-  const { unit } = split(column);
+  const { dimension } = owner.scene;
+  const { unit } = split(column, dimension);
+  const xLabel = profile ? axisLabel(alongOf(probe), dimension) : "time, s";
   const save = (how: string) => {
     if (how === "csv") saveText(`${probe.name}.csv`, "text/csv", csv(owner, probe.name));
-    else if (how === "svg") saveText(`${probe.name}.svg`, "image/svg+xml", toSvg(lines, profile ? "x, m" : "time, s", axisLabel(column), colours(), probe.name));
+    else if (how === "svg") saveText(`${probe.name}.svg`, "image/svg+xml", toSvg(lines, xLabel, axisLabel(column, dimension), colours(), probe.name));
     else if (how === "png") plot.current?.ctx.canvas.toBlob((blob) => blob && saveText(`${probe.name}.png`, "image/png", blob));
   };
   return (
@@ -77,11 +79,11 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
         {columns.length > 1 ? (
           <select aria-label={`Column of ${probe.name}`} value={column} onChange={(e) => choose(e.currentTarget.value)}>
             {columns.map((name) => (
-              <option value={name}>{axisLabel(name)}</option>
+              <option value={name}>{axisLabel(name, dimension)}</option>
             ))}
           </select>
         ) : (
-          <span class="column">{axisLabel(column)}</span>
+          <span class="column">{axisLabel(column, dimension)}</span>
         )}
         {!profile && <Now app={app} run={owner} probe={probe.name} column={column} unit={unit} />}
         <select class="save" aria-label={`Save ${probe.name}`} title={`Save ${probe.name} as a table or a picture`} value="" onChange={(e) => { save(e.currentTarget.value); e.currentTarget.value = ""; }}>
@@ -93,7 +95,7 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
       </header>
       <div class="read" aria-live="off" />
       {owner.table(probe.name) || (measured.length > 0 && !profile) ? (
-        <Plot lines={lines} xLabel={profile ? "x, m" : "time, s"} yLabel={axisLabel(column)} height={lit ? 250 : 150} player={profile ? null : app.player} stamp={stamp} sync={profile ? `profile-${probe.name}` : "time"} onMake={(u) => (plot.current = u)} />
+        <Plot lines={lines} xLabel={xLabel} yLabel={axisLabel(column, dimension)} height={lit ? 250 : 150} player={profile ? null : app.player} stamp={stamp} sync={profile ? `profile-${probe.name}` : "time"} onMake={(u) => (plot.current = u)} />
       ) : (
         <p class="hint">No reading yet.</p>
       )}
@@ -148,7 +150,7 @@ function Limit({ runs, probe, column, plot }: { runs: Subject[]; probe: string; 
   if (means.some((m) => m === null) || means.length < 3) return null;
   const end = limit(means as Mean[]);
   if (!end) return null;
-  const { unit } = split(column);
+  const { unit } = split(column, runs[0]!.scene.dimension);
   return (
     <p class="score" title="A straight line through the means over the times shown; zoom to where the flow is steady">
       means over {number(span[0], 3)} to {number(span[1], 3)} s: {means.map((m) => number(m!.mean, 4)).join(", ")}; <span class="whole">at dx = 0: <strong>{withUncertainty(end.value, end.uncertainty)} {unit}</strong></span>
@@ -171,7 +173,7 @@ function profileCurves(app: App, runs: Subject[], probe: Probe, column: string):
   const palette = series[app.look.now.theme];
   return runs.flatMap((run, i) => {
     const table = run.table(probe.name);
-    const along = table?.column(probe.type === "velocity-profile" ? "height_m" : "x_m") ?? table?.values[1];
+    const along = table?.column(alongOf(probe)) ?? table?.values[1];
     const y = table?.column(column);
     if (!table || !along || !y) return [];
     const times = table.values[0]!;

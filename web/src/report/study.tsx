@@ -1,7 +1,7 @@
 // What `tailwater study` found: each number of each probe with its interval, over the spacings, and the way to the water.
 import type { App } from "../app.ts";
 import type { Panel, SpacingStudy, StudyRow } from "../contract.ts";
-import { number } from "../units.ts";
+import { number, printed } from "../units.ts";
 import { Figures } from "./figures.tsx";
 import { Paper } from "./paper.tsx";
 import { Table } from "./tables.tsx";
@@ -13,7 +13,7 @@ const numbers = [["value", 4], ["uncertainty", 2], ["low", 4], ["high", 4], ["li
 function panel({ spacings_m: x }: SpacingStudy, row: StudyRow): Panel {
   const level = (label: string, y: number | null, kind: "exact" | "aside" = "aside") => ({ label, kind, x: [0, Math.max(...x)], y: [y, y] });
   return {
-    title: `${row.probe}, ${row.quantity}`, x: "spacing dx (m)", y: row.unit, logarithmic: false, limits: null,
+    title: `${row.probe}, ${row.quantity}`, x: "spacing dx (m)", y: printed(row.unit), logarithmic: false, limits: null,
     curves: [{ label: "computed", kind: "spacings", x: x.toReversed(), y: row.values.toReversed() }, level("limit", row.limit, "exact"), level("interval", row.low), level("interval", row.high)],
   };
 }
@@ -33,7 +33,7 @@ export function StudyPage({ app, study, away }: { app: App; study: SpacingStudy;
             <tr>
               <td>{row.probe}</td>
               <td>{row.quantity}</td>
-              <td>{row.unit}</td>
+              <td>{printed(row.unit)}</td>
               {numbers.map(([word, digits]) => <td class="number">{row[word] === null ? "–" : number(row[word], digits)}</td>)}
             </tr>
             {row.notes && (

@@ -1,10 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { colourMaps, table } from "../../src/colours.ts";
-import { measuredFor } from "../../src/gauges/curves.ts";
+import { choices, favourite, measuredFor } from "../../src/gauges/curves.ts";
 import { wetLines } from "../../src/gauges/profiles.ts";
+import type { Probe } from "../../src/contract.ts";
+import type { Subject } from "../../src/run/subject.ts";
 import { block, Table, toCsv, valueAt } from "../../src/tables.ts";
-import { decimals, duration, length, niceBelow, number, split, timeDecimals, withUncertainty } from "../../src/units.ts";
+import { decimals, duration, length, niceBelow, number, printed, split, timeDecimals, withUncertainty } from "../../src/units.ts";
 import { ticks, toSvg } from "../../src/picture/svg.ts";
 import { bestColumns } from "../../src/water/columns.ts";
 import { Player } from "../../src/time/player.ts";
@@ -23,13 +25,29 @@ test("a place has the decimals of a pixel, a value those of its uncertainty", ()
     ["0.050 ± 0.015", "0.3907 ± 0.0046", "1235 ± 20", "−3.0 ± 1.0", "1 ± 0"]);
 });
 
-test("names of columns end with their unit", () => {
-  assert.deepEqual(split("connected_m"), { label: "connected", unit: "m" });
-  assert.deepEqual(split("discharge_m3_per_s"), { label: "discharge", unit: "m³/s" });
-  assert.deepEqual(split("moment_N_m_per_m"), { label: "moment", unit: "N m/m" });
-  assert.deepEqual(split("largest_Pa"), { label: "largest", unit: "Pa" });
-  assert.deepEqual(split("impulse_Pa_s"), { label: "impulse", unit: "Pa s" });
-  assert.deepEqual(split("wet_share"), { label: "wet share", unit: "" });
+test("names of columns end with their unit, in 2D per metre of width", () => {
+  const units = (dimension: 2 | 3) => (column: string) => split(column, dimension);
+  assert.deepEqual(["connected_m", "largest_Pa", "wet_share", "pockets", "u_m_s"].map(units(2)), [
+    { label: "connected", unit: "m" }, { label: "largest", unit: "Pa" }, { label: "wet share", unit: "" }, { label: "pockets", unit: "" }, { label: "u", unit: "m/s" },
+  ]);
+  const columns = ["discharge_m3_per_s", "volume_in_m3", "total_J", "force_x_N_per_m", "moment_N_m_per_m", "power_to_water_W_per_m", "impulse_Pa_s", "angular_velocity_rad_per_s", "angle_rad", "velocity_x_m_per_s"];
+  assert.deepEqual(columns.map((name) => units(2)(name).unit), ["m³/s/m", "m³/m", "J/m", "N/m", "N m/m", "W/m", "Pa s", "rad/s", "rad", "m/s"]);
+  const in3d = ["discharge_m3_per_s", "gas_m3", "energy_J", "force_x_N", "moment_y_N_m", "power_to_water_W"];
+  assert.deepEqual(in3d.map((name) => units(3)(name).unit), ["m³/s", "m³", "J", "N", "N m", "W"]);
+  assert.equal(printed("m^3/s per m"), "m³/s per m");
+});
+
+test("a gauge opens with the column that matters", () => {
+  const table = new Table();
+  table.append("time_s,force_x_N_per_m,force_y_N_per_m,moment_N_m_per_m\n0,-1,300,900\n1,2,290,900\n");
+  const run = { table: () => table, scene: { measurements: [] } } as unknown as Subject;
+  const probe = (type: string) => ({ name: "it", type, points: [], columns: [], walls: [] }) as unknown as Probe;
+  assert.equal(favourite(run, probe("force"), choices(run, probe("force"))), "force_y_N_per_m");
+  const profile = new Table();
+  profile.append("time_s,height_m,u_m_s,v_m_s,depth_m\n0,0,1,0,0.2\n");
+  const flume = { ...run, table: () => profile } as unknown as Subject;
+  assert.deepEqual(choices(flume, probe("velocity-profile")), ["u_m_s", "v_m_s", "depth_m"]);
+  assert.equal(favourite(flume, probe("velocity-profile"), choices(flume, probe("velocity-profile"))), "u_m_s");
 });
 
 test("a table is read by its tails, whole lines only, and written as it came", () => {
