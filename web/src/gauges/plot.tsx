@@ -96,6 +96,10 @@ function joined(lines: Line[]): uPlot.AlignedData {
   return tables.length === 1 ? tables[0]! : uPlot.join(tables, tables.map(() => [2]));
 }
 
+/** As uPlot chooses it, but values that are all 0 are not shown in a range to 100. */
+export const linear = (_: uPlot | null, low: number | null, high: number | null): uPlot.Range.MinMax =>
+  low === null || high === null ? [null, null] : low === 0 && high === 0 ? [0, 1] : uPlot.rangeNum(low, high, 0.1, true);
+
 function make(holder: HTMLElement, props: PlotProps): uPlot {
   const c = colours();
   const distr = props.logarithmic ? 3 : 1;
@@ -120,7 +124,7 @@ function make(holder: HTMLElement, props: PlotProps): uPlot {
         },
       } as never,
     },
-    scales: { x: { time: false, distr, ...(props.logarithmic ? { range: around } : {}) }, y: { distr, ...(props.logarithmic ? { range: around } : props.limits ? { range: props.limits } : {}) } },
+    scales: { x: { time: false, distr, ...(props.logarithmic ? { range: around } : {}) }, y: { distr, ...(props.logarithmic ? { range: around } : { range: props.limits ?? linear }) } },
     axes: [
       { ...axis(props.xLabel, 30, 2), ...(props.logarithmic ? { splits: (u: uPlot) => u.data[0] as number[], filter: all } : {}) },
       { ...axis(props.yLabel, 52, 3), ...(props.logarithmic ? { splits: decades, filter: all } : {}) },

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { colourMaps, table } from "../../src/colours.ts";
 import { choices, favourite, measuredFor } from "../../src/gauges/curves.ts";
+import { linear } from "../../src/gauges/plot.tsx";
 import { wetLines } from "../../src/gauges/profiles.ts";
 import type { Probe } from "../../src/contract.ts";
 import type { Subject } from "../../src/run/subject.ts";
@@ -35,6 +36,13 @@ test("names of columns end with their unit, in 2D per metre of width", () => {
   const in3d = ["discharge_m3_per_s", "gas_m3", "energy_J", "force_x_N", "moment_y_N_m", "power_to_water_W"];
   assert.deepEqual(in3d.map((name) => units(3)(name).unit), ["m³/s", "m³", "J", "N", "N m", "W"]);
   assert.equal(printed("m^3/s per m"), "m³/s per m");
+});
+
+test("readings that are all 0 are not drawn up to 100", () => {
+  assert.deepEqual(linear(null, 0, 0), [0, 1]);
+  assert.deepEqual(linear(null, null, null), [null, null]);
+  const [low, high] = linear(null, 0, 0.2);
+  assert.ok(low === 0 && high! >= 0.2 && high! < 0.25);
 });
 
 test("a gauge opens with the column that matters", () => {
