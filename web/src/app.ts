@@ -63,6 +63,7 @@ export class App {
       if (this.paper) this.look.change({ reading: true });
       const first = this.paper ? [] : this.state.runs.slice(0, most);
       for (const run of first) await this.open(run.id);
+      if (this.runs[0]?.info?.state === "failed") this.look.change({ tab: "run" }); // which says why
     } catch (error) {
       this.trouble = error instanceof Error ? error.message : String(error);
     }

@@ -101,9 +101,13 @@ function Choice({ app }: { app: App }) {
   );
 }
 
+/** Lines of `tailwater info` that the panel tells in its own way, above. */
+const above = ["message", "warnings"];
+
 function OneRun({ app, run }: { app: App; run: RunModel }) {
   const [word, tell] = useState("");
   const info = run.info;
+  const message = info?.lines.find(({ label }) => label === "message")?.text;
   const press = async (what: string) => {
     try {
       tell((await run.control(what)) || buttons[what]!.done);
@@ -124,6 +128,7 @@ function OneRun({ app, run }: { app: App; run: RunModel }) {
             <strong>{stateWords[info.state] ?? info.state}</strong>
             {info.state === "running" && info.time_left !== null && `, ${duration(info.time_left)} left`}
           </p>
+          {message && <p class={info.state === "failed" ? "reason" : "hint"}>{message}</p>}
           <div class="progress" role="progressbar" aria-valuemin={0} aria-valuemax={100} aria-valuenow={Math.round(100 * info.progress)} aria-label="Progress of the run">
             <div style={{ width: `${100 * Math.min(1, info.progress)}%` }} />
           </div>
@@ -148,7 +153,7 @@ function OneRun({ app, run }: { app: App; run: RunModel }) {
             </ul>
           )}
           <dl>
-            {info.lines.map(({ label, text }) => (
+            {info.lines.filter(({ label, text }) => !above.includes(label) && text !== info.state).map(({ label, text }) => (
               <>
                 <dt>{label}</dt>
                 <dd>{text}</dd>
