@@ -38,7 +38,7 @@ export function StudyPage({ app, study, away }: { app: App; study: SpacingStudy;
             </tr>
             {row.notes && (
               <tr>
-                <td class="faint" colSpan={12}>{row.notes}</td>
+                <td class="faint" colSpan={12}><span class="note">{row.notes}</span></td>
               </tr>
             )}
           </>
