@@ -1,5 +1,6 @@
 // The keyboard: keys as in any player. Keys typed into fields and the editor stay there.
 import type { App } from "./app.ts";
+import { Dialog } from "./dialog.tsx";
 import { colourings } from "./water/value.ts";
 
 export const keyList: [string, string][] = [
@@ -111,11 +112,7 @@ function next<T>(list: readonly T[], now: T): T {
 
 export function KeysDialog({ app }: { app: App }) {
   return (
-    <div class="dialog" role="dialog" aria-label="Keys" aria-modal="true">
-      <header>
-        <h2>Keys</h2>
-        <button autofocus onClick={() => app.look.change({ dialog: "" })}>Close</button>
-      </header>
+    <Dialog title="Keys" close={() => app.look.change({ dialog: "" })}>
       <dl>
         {keyList.map(([key, word]) => (
           <>
@@ -124,6 +121,6 @@ export function KeysDialog({ app }: { app: App }) {
           </>
         ))}
       </dl>
-    </div>
+    </Dialog>
   );
 }

@@ -1,5 +1,6 @@
-import { useRef, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import type { App } from "../app.ts";
+import { Dialog } from "../dialog.tsx";
 import { number } from "../units.ts";
 import { filmType, pictures, record, saveFilm } from "./film.ts";
 
@@ -11,10 +12,7 @@ export function FilmDialog({ app }: { app: App }) {
   const [word, tell] = useState("");
   const stop = useRef(false);
   const plan = { from, to, speed: app.player.speed, rate: 30 };
-  const close = () => {
-    stop.current = true;
-    app.look.change({ dialog: "" });
-  };
+  useEffect(() => () => void (stop.current = true), []);
   const make = async () => {
     stop.current = false;
     setShare(0);
@@ -40,11 +38,7 @@ export function FilmDialog({ app }: { app: App }) {
     </label>
   );
   return (
-    <div class="dialog film" role="dialog" aria-label="Film" aria-modal="true">
-      <header>
-        <h2>A film of this view</h2>
-        <button autofocus onClick={close}>Close</button>
-      </header>
+    <Dialog title="A film of this view" kind="film" close={() => app.look.change({ dialog: "" })}>
       {filmType() === "" ? (
         <p>This browser cannot record films; remedy: Chromium, Chrome, Edge or Firefox.</p>
       ) : (
@@ -63,6 +57,6 @@ export function FilmDialog({ app }: { app: App }) {
           {word && <p role="status">{word}</p>}
         </>
       )}
-    </div>
+    </Dialog>
   );
 }

@@ -61,10 +61,14 @@ test("an exported page works from disk, in 3D, by the keyboard alone", async () 
     await until(view, "app.look.now.colouring === 'depth' && app.limits?.[1] > 0.3");
     await view.keyboard.press("t");
     await until(view, "document.documentElement.dataset.theme === 'dark'");
-    await view.keyboard.press("?");
-    await view.waitForSelector(".dialog");
+    await view.focus("[aria-label=Keys]");
+    await view.keyboard.press("Enter");
+    await view.waitForSelector(".dialog[open]");
+    for (let i = 0; i < 3; ++i) await view.keyboard.press("Tab");
+    assert.ok(await view.evaluate("!document.querySelector('.page > header').contains(document.activeElement)"), "the focus stays in the dialog");
     await view.keyboard.press("Escape");
-    await until(view, "!document.querySelector('.dialog')");
+    await until(view, "!document.querySelector('.dialog') && document.activeElement.ariaLabel === 'Keys'");
+    await view.evaluate("document.activeElement.blur()");
     await view.keyboard.press("Space");
     await until(view, "app.player.playing");
     assert.deepEqual(visitor.faults, []);
