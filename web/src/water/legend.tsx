@@ -47,7 +47,7 @@ export function Legend({ app, run }: { app: App; run: Subject }) {
       <div class="legend-bar" ref={bar} style={{ background: gradient(look.map) }} />
       <div class="legend-ends">
         <input aria-label={`Lowest ${kind.title}, ${kind.unit}`} value={number(low, 3)} onChange={(e) => change(0, e.currentTarget.value)} />
-        <button class="link" title="Limits of the run so far, of the moment, or fixed by the two fields" onClick={free}>
+        <button class="link" title="Limits of the run, as far as it was read, of the moment, or fixed by the two fields" onClick={free}>
           {fixed ? "fixed" : look.momentary ? "of the moment" : "of the run"}
         </button>
         <input aria-label={`Highest ${kind.title}, ${kind.unit}`} value={number(high, 3)} onChange={(e) => change(1, e.currentTarget.value)} />

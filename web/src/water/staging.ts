@@ -9,6 +9,9 @@ import { Stage } from "./stage.ts";
 import { origins, quantity, spread } from "./value.ts";
 import type { WaterView } from "./view.ts";
 
+/** Particles whose values are looked at for one picture, beside those that are shown: they take a few ms. */
+const most = 2e6;
+
 export class Staging {
   shown: { run: Subject; stage: Stage }[] = [];
   private key = "";
@@ -66,12 +69,21 @@ export class Staging {
     if (look.momentary) return spread(run, frame, colouring, stage.up);
     const known = this.spreads.get(run) ?? { by: new Map<string, [number, number]>(), seen: new WeakMap<Frame, Set<string>>() };
     this.spreads.set(run, known);
-    const seen = known.seen.get(frame) ?? new Set();
-    if (!seen.has(colouring)) {
-      known.seen.set(frame, seen.add(colouring));
-      const [low, high] = spread(run, frame, colouring, stage.up);
+    const take = (one: Frame): boolean => {
+      const seen = known.seen.get(one) ?? new Set();
+      if (seen.has(colouring)) return false;
+      known.seen.set(one, seen.add(colouring));
+      const [low, high] = spread(run, one, colouring, stage.up);
       const [l, h] = known.by.get(colouring) ?? [low, high];
       known.by.set(colouring, [Math.min(l, low), Math.max(h, high)]);
+      return true;
+    };
+    take(frame);
+    // All frames that are at hand, so that colours mean the same from the first on; some of them at a time.
+    const { list } = run.frames;
+    for (let place = 0, room = most; colouring !== "depth" && place < list.length && room > 0; ++place) {
+      const other = run.frames.frame(place);
+      if (other && take(other)) room -= other.count;
     }
     const [low, high] = known.by.get(colouring)!;
     return [colouring === "speed" ? 0 : low, high];

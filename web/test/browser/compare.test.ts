@@ -26,6 +26,8 @@ test("two runs side by side and one over the other: same time, same camera, thei
   try {
     const view = visitor.page;
     await until(view, "app.shown().length === 2 && app.view.cells.length === 2 && app.shown().every((s) => s.frames.at(1)?.exact)");
+    // At the start the water is at rest: the colours are those of the run all the same.
+    await until(view, "app.player.time === 0 && app.limits?.[1] > 0.1");
     await view.evaluate("tailwater.player.seek(1)");
     assert.deepEqual(await view.$$eval(".run-name", (all) => all.map((e) => e.textContent)), ["coarse", "fine"]);
     await view.keyboard.press("r");
