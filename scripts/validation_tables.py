@@ -35,7 +35,8 @@ def others(metric):
     if not metric["peers"]:
         return ""
     lowest, highest = (pick(end for peer in metric["peers"] for end in peer["range"]) for pick in (min, max))
-    return f"{lowest:g}..{highest:g} ({len(metric['peers'])} codes)"
+    values = f"{lowest:g}" if lowest == highest else f"{lowest:g}..{highest:g}"
+    return f"{values} ({len(metric['peers'])} code{'s' * (len(metric['peers']) > 1)})"
 
 
 def row(metric):

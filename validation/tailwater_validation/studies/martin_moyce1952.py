@@ -100,7 +100,7 @@ def of_laboratory(run):
                  FRONT_TARGET if label == "table" else None) for label, curve in fronts(run).items()),
         measure(Metric("speed front", "speed of the front, x/a {:g}..{:g}".format(*SPEED_BETWEEN), "a/T", speeds(run)),
                 lambda: speed(front(run))),
-        beside("rms height", "RMS of the column's height, tau {:g}..{:g}", "n2 a", "table", laboratory_height(run),
+        beside("rms height", "RMS of the column's height, tau {:.3g}..{:.3g}", "n2 a", "table", laboratory_height(run),
                partial(height, run), HEIGHT_TARGET)]
 
 
