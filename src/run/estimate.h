@@ -29,7 +29,7 @@ struct RunEstimate {
   double largest_fluid = 0.0;  ///< most fluid particles, with what comes in
   double memory = 0.0;         ///< bytes
   double steps = 0.0;          ///< to the end, if speeds stay near those of free fall through the fluid's height
-  double seconds = 0.0;        ///< on this machine, from trial steps
+  double seconds = 0.0;        ///< of CPU time on this machine, from trial steps
   bool is_from_tank = false;   ///< the steps were those of a tank, and `seconds` is no more than a first guess
   bool grows_much = false;     ///< because far more water comes in than there is at the start
 };
