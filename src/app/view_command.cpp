@@ -97,6 +97,22 @@ std::string name_of_folder(const fs::path& folder) {
   return whole.filename().string();
 }
 
+/// Of a folder that cannot be shown: the runs that it holds, with the command that shows them, or what it lacks.
+std::string what_it_has(const fs::path& folder) {
+  constexpr std::size_t most_named = 4;
+  std::vector<std::string> runs;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.is_directory(error) && is_run(entry.path())) runs.push_back(entry.path().string());
+  }
+  if (runs.empty()) {
+    return fmt::format("none of {}, {}, {} and {}", effective_case_name, sweep_record_name, report_name, study_name);
+  }
+  std::ranges::sort(runs);
+  if (runs.size() > most_named) runs.resize(most_named);
+  return fmt::format("runs in it; remedy: tailwater view {}", fmt::join(runs, " "));
+}
+
 /// What the paths of the command line are; adds those that are sweeps to `sweeps`.
 ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>& sweeps) {
   ViewContent content{.mode = "run", .runs = {}, .case_file = {}};
@@ -116,9 +132,8 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
       } else if (is_run(path)) {
         content.runs.push_back({name_of_folder(path), fs::absolute(path)});
       } else {
-        throw InputError(
-            "'{}' is not the folder of a run, of a sweep, of a report or of a study: it has none of {}, {}, {} and {}",
-            path.string(), effective_case_name, sweep_record_name, report_name, study_name);
+        throw InputError("'{}' is not the folder of a run, of a sweep, of a report or of a study: it has {}",
+                         path.string(), what_it_has(path));
       }
     } else if (fs::is_regular_file(path, error) && path.extension() == ".toml") {
       if (paths.size() > 1) throw InputError("a case is shown alone; remedy: name one case, or runs only");

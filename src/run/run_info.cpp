@@ -175,7 +175,7 @@ Json read_summary(const fs::path& run) {
   const fs::path path = run / summary_name;
   std::ifstream file(path);
   if (!file) {
-    throw IoError("cannot read '{}'; is '{}' the folder of a run that has ended?", path.string(), run.string());
+    throw IoError("cannot read '{}'; is '{}' the folder of a run?", path.string(), run.string());
   }
   Json summary = Json::parse(file, nullptr, false);
   if (summary.is_discarded()) throw IoError("'{}' is not valid JSON", path.string());

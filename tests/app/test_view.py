@@ -326,7 +326,7 @@ class OfADoneRun(Viewed):
 
     def test_says_what_cannot_be_viewed(self):
         for words, part in ((("nothing",), "neither the folder of a run nor a case file"),
-                            ((".",), "is not the folder of a run"), (("small.toml", "run"), "a case is shown alone"),
+                            ((".",), "it has runs in it; remedy: tailwater view ./"), (("small.toml", "run"), "a case is shown alone"),
                             (("small.toml", "--export", "x.html"), "nothing to show before it has run")):
             self.assertIn(part, self.call("view", *words, expect=2).stderr)
         self.view("run")
