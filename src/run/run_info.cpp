@@ -121,6 +121,12 @@ std::string state_of(const std::string& status, bool is_at_work) {
   return status.empty() ? "waiting" : "stopped";
 }
 
+/// What may be asked of a run: one that is done goes on only with a later end.
+Json controls_of(const std::string& state, bool is_at_work) {
+  if (is_at_work) return Json::array({"stop", "checkpoint"});
+  return state == "done" ? Json::array() : Json::array({"resume"});
+}
+
 Json info_from(const fs::path& run, const Json& summary) {
   const bool is_at_work = FolderLock::is_held(run);
   const std::string status = summary.value("status", "");
@@ -144,7 +150,7 @@ Json info_from(const fs::path& run, const Json& summary) {
           {"lines", std::move(shown)},
           {"warnings", summary.at("warnings")},
           {"measurements", is_live ? scores_so_far(run) : summary.value("measurements", Json::array())},
-          {"controls", is_at_work ? Json::array({"stop", "checkpoint"}) : Json::array({"resume"})}};
+          {"controls", controls_of(state, is_at_work)}};
 }
 
 }  // namespace

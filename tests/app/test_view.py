@@ -99,7 +99,7 @@ class OfADoneRun(Viewed):
         self.assertEqual([frame["index"] for frame in later], list(range(3, len(written))))
         self.assertEqual(self.ask("api/run/0/frame/2")[2], (self.folder / "run/view/00002.frame").read_bytes())
         info = self.json("api/run/0/info")
-        self.assertEqual((info["state"], info["progress"], info["controls"]), ("done", 1.0, ["resume"]))
+        self.assertEqual((info["state"], info["progress"], info["controls"]), ("done", 1.0, []))
         digest = self.call("info", "run").stdout
         for line in info["lines"]:
             self.assertIn(line["text"], digest)

@@ -57,7 +57,7 @@ function info(time: number, end: number): Info {
       { label: "energy", text: "1000 J at the start, 998 J now" },
       { label: "cost", text: "12 s, 3 CPU s per simulated s, 80 MB on 1 rank" },
     ],
-    warnings: [], measurements: [], controls: done ? ["resume"] : ["stop", "checkpoint"],
+    warnings: [], measurements: [], controls: done ? [] : ["stop", "checkpoint"],
   };
 }
 
