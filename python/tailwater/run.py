@@ -9,12 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from . import tables
+from . import case_text, tables
 from .curves import Curve, read_curve
 from .errors import DataError, RunWarning
 from .fields import Frame, list_frames, nearest_frames
 from .netcdf import EPOCH, write_netcdf
 from .paraview import write_paraview
+from .program import call
 from .view import View
 from .vtkhdf import write_vtkhdf
 
@@ -76,6 +77,22 @@ class Run:
             raise DataError(f"{path}: {error}") from error
 
     @property
+    def status(self) -> str:
+        """"done", "interrupted" or "failed"; "running" while it goes on, and of one that was killed."""
+        return self.summary.get("status", "running")
+
+    def resume(self, changes=(), *, ranks=None, progress: bool = False) -> "Run":
+        """Goes on from the newest checkpoint, in as many ranks as the run had unless told. `changes` may set what changes
+        no result, as in {"time.end": 20}. Returns the run as it is then. Throws as `Case.run` does."""
+        words = [word for key, value in dict(changes).items() for word in ("--set", f"{key}={case_text.toml_value(value)}")]
+        call("resume", self.path, *words, *(["-n", ranks] if ranks else []), *([] if progress else ["--quiet"]),
+             progress=progress)
+        run = Run(self.path)
+        if not progress:
+            warn_of(run)
+        return run
+
+    @property
     def results(self) -> dict:
         """What the probes have found, by the probe's name (docs/theory/probes.md); empty until the run has ended."""
         return self.summary.get("results", {})
@@ -109,7 +126,11 @@ class Run:
 
     def curve(self, probe: str, column: str) -> Curve:
         """A column of a probe over time, as `curve("gauge", "highest_m")`; without pandas. Throws DataError."""
-        return read_curve(self.path / "probes" / f"{probe}.csv", column)
+        file = self.path / "probes" / f"{probe}.csv"
+        if not file.exists():
+            there = ", ".join(sorted(other.stem for other in file.parent.glob("*.csv")))
+            raise DataError(f"{file}: there is no such probe; there are: {there or 'none'}")
+        return read_curve(file, column)
 
     def step_curve(self, column: str) -> Curve:
         """A column of steps.csv over time. Throws DataError."""

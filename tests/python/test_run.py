@@ -39,6 +39,8 @@ class Runs(PackageTest):
         with self.assertRaisesRegex(tw.DataError, "has no column lowest_m; it has time_s, "):
             run.curve("depth", "lowest_m")
         self.assertEqual(run.step_curve("kinetic_J").value.size, run.summary["steps"]["count"])
+        with self.assertRaisesRegex(tw.DataError, "dept.csv: there is no such probe; there are: depth"):
+            run.curve("dept", "highest_m")
         self.assertEqual([run.fluid_particles, run.integrator], [50, run.case["scheme"]["integrator"]])
 
     def test_fields_are_arrays(self):
@@ -153,11 +155,21 @@ class Runs(PackageTest):
             self.case.run("out")
         self.case.run("out", force=True)
 
+    def test_goes_on_to_a_later_end(self):
+        run = self.case.copy().update({"time.end": 0.05}).run("out")
+        before = len(run.probes["depth"])
+        longer = run.resume({"time.end": 0.1})
+        self.assertEqual([longer.status, longer.case["time"]["end"]], ["done", 0.1])
+        self.assertGreater(len(longer.probes["depth"]), before)
+        self.assertEqual(longer.last().position.tolist(), self.case.run("whole").last().position.tolist())
+        with self.assertRaisesRegex(tw.InputError, "a run that goes on keeps its case"):
+            run.resume({"particles.spacing": 0.2})
+
     def test_failed_step_is_a_solver_error(self):
         self.case["pressure_solver.max_iterations"] = 1
         with self.assertRaisesRegex(tw.SolverError, "max_iterations"):
             self.case.run("out")
-        self.assertEqual(tw.Run("out").summary["status"], "failed")
+        self.assertEqual(tw.Run("out").status, "failed")
 
     def test_ranks(self):
         self.assertEqual(self.case.run("out", ranks=2).summary["ranks"]["count"], 2)
