@@ -134,6 +134,14 @@ class Case:
             self._require_known(key, steps)
             return known_tables()[steps[0]][1].get(steps[-1])
 
+    def __contains__(self, key: str) -> bool:
+        """Whether the case itself says it, and not only a default."""
+        try:
+            case_text.find(self._data, case_text.steps_of(key))
+        except (KeyError, IndexError, TypeError):
+            return False
+        return True
+
     def __setitem__(self, key: str, value):
         steps = case_text.steps_of(key)
         case_text.toml_value(value)
@@ -158,7 +166,11 @@ class Case:
             last = [step for step in steps if isinstance(step, str)][-1]
             if last in (self._data.get(steps[0], {}) if has_free_keys else keys):
                 return
-        call("check", *self.words(), "--set", f"{key}=0")
+        try:
+            call("check", *self.words(), "--set", f"{key}=0")
+        except InputError as error:  # in words of a script, not of a command line
+            told = str(error).removeprefix(f"--set {key}=0: ").replace(f"{key} = 0:", f"{key}:")
+            raise InputError(told) from error
 
     def words(self, without=()) -> list:
         """The case as words of a command line: its file and its changes, but of keys `without` change."""

@@ -7,7 +7,7 @@ __all__ = ["DataError", "Error", "InputError", "IoError", "RunWarning", "SolverE
 # "FILE:12:5: ", or of a change "--set KEY=VALUE: ", before what is wrong.
 PLACE = re.compile(r"(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+): ")
 CHANGE = re.compile(r"--set (?P<key>[^=\s]+)=")
-KEY = re.compile(r"(?P<key>[A-Za-z_][\w.\[\]]*)(?: = | is missing)")
+KEY = re.compile(r"(?P<key>[A-Za-z_][\w.\[\]]*)(?: = | is missing|: unknown key)")
 
 
 class Error(Exception):

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import uncertainty
 from .errors import DataError, InputError
+from .run import Run
 from .sweep import sweep
 
 __all__ = ["Study", "study"]
@@ -80,6 +81,18 @@ class Study:
         if others and self._base is None:
             raise DataError(f"{others[0].path}: no run of the study has its spacing, {others[0].spacing:g} m")
         self.rows = self._rows(quantities)
+
+    @classmethod
+    def load(cls, folder, quantities=quantities_of) -> "Study":
+        """The study in a folder, from its runs. Throws DataError if it is none."""
+        path = Path(folder) / "study.json"
+        try:
+            told = json.loads(path.read_text(encoding="utf-8"))
+            runs, starts = ([Run(path.parent / name) for name in told[which]] for which in ("runs", "starts"))
+            step = told["step"] and Run(path.parent / told["step"])
+        except (OSError, ValueError, KeyError) as error:
+            raise DataError(f"{path}: is not the table of a study ({error})") from error
+        return cls(runs, starts, step, quantities)
 
     def _rows(self, quantities):
         of_runs = [quantities(run) for run in self.runs]
@@ -242,6 +255,8 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
     Throws InputError before anything is run; DataError if a run fails."""
     out = Path(out or f"{case.file.stem}_study")
     runner = {"jobs": jobs, "ranks": ranks, "progress": progress}
+    if budget is not None and not (isinstance(budget, (int, float)) and budget > 0):
+        raise InputError(f"budget = {budget!r}: give seconds of computing time, as a number")
     if starts < 0:
         raise InputError(f"starts = {starts}: give 0 or more")
     if spacings is not None:

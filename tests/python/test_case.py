@@ -69,6 +69,11 @@ class Text(PackageTest):
             expected = case_text.put(expected, case_text.steps_of(key), value)
         self.assertEqual(tomllib.loads(text), expected)
 
+    def test_tells_what_the_case_says_itself(self):
+        case = tw.Case(self.write("dam.toml", DAM))
+        self.assertEqual([key in case for key in ("particles.spacing", "fluid[0].max", "physics.density", "no.key")],
+                         [True, True, False, False])
+
     def test_text_that_is_written_otherwise_is_left_alone(self):
         with self.assertRaisesRegex(tw.InputError, "cannot be changed in the text"):
             case_text.changed_text('case.title = "dotted"\n[particles]\nspacing = 0.1\n', "case.title", "other")
@@ -105,6 +110,9 @@ class Checks(PackageTest):
 
     def test_error_of_a_change_has_its_key(self):
         case = tw.Case(self.write("dam.toml", DAM))
+        with self.assertRaisesRegex(tw.InputError, "^particles.spacin: unknown key") as caught:
+            case["particles.spacin"] = 1
+        self.assertEqual(caught.exception.key, "particles.spacin")
         case["particles.spacing"] = -1
         with self.assertRaises(tw.InputError) as caught:
             case.run("out")

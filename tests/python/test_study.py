@@ -39,6 +39,8 @@ class Studies(PackageTest):
         self.assertEqual([told["spacings_m"], len(told["results"])], [found.spacings, len(found.rows)])
         self.assertEqual([Path("s", name).resolve() for name in told["runs"]], [run.path.resolve() for run in found.runs])
         self.assertIn("depth, depth: ", Path("s/study.txt").read_text(encoding="utf-8"))
+        loaded = tw.Study.load("s")
+        self.assertEqual([repr(loaded), loaded.step.path.resolve()], [repr(found), found.step.path.resolve()])
         # Called again it runs nothing.
         before = [run.path.joinpath("summary.json").stat().st_mtime_ns for run in found.runs]
         again = tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=1)
@@ -57,6 +59,13 @@ class Studies(PackageTest):
         self.case["pressure_solver.max_iterations"] = 1
         with self.assertRaisesRegex(tw.DataError, "particles.spacing=0.*max_iterations"):
             tw.study(self.case, out="s", spacings=[0.16, 0.125, 0.1])
+
+    def test_what_is_no_study(self):
+        with self.assertRaisesRegex(tw.DataError, "nowhere/study.json: is not the table of a study"):
+            tw.Study.load("nowhere")
+        for budget in ("10min", -1):
+            with self.assertRaisesRegex(tw.InputError, "seconds"):
+                tw.study(self.case, budget=budget)
 
     def test_two_spacings_are_no_study(self):
         for spacings in ([0.1, 0.2, 0.1], [0.1, 0.2, -0.1]):
