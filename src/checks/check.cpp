@@ -28,6 +28,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_open_ends(spec, boundary, fluid));
   const Findings flows = check_end_flows(spec, boundary);
   append(findings, flows);
+  if (!has_error(findings)) append(findings, check_closed_space(spec, boundary, fluid));
   append(findings, check_wave_makers(spec, fluid));
   if (!has_error(flows)) append(findings, check_speeds<Dim>(spec));
   append(findings, check_moorings(spec, boundary));

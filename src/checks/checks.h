@@ -69,6 +69,11 @@ Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, co
 template <int Dim>
 Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
+/// Error: an inlet that brings more water than the space it opens into holds, which has no way out. Spaces that a wall
+/// that moves may open are left alone.
+template <int Dim>
+Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
 /// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Open ends count
 /// as closed.
 template <int Dim>

@@ -1,4 +1,5 @@
-// What `check` says of holes in the floor, of profiles of inlets, and of the depth of wave makers.
+// What `check` says of holes in the floor, of profiles of inlets and the space they open into, and of the depth of wave
+// makers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -89,6 +90,27 @@ TEST(EndChecks, RowsBringTheWholeProfile) {
       EXPECT_NEAR(flow.largest_in_profile(rows) / std::sqrt(rows), 1.0, 0.02) << rows;
     }
   }
+}
+
+/// A duct of 1.0 x 0.2 m has room for what enters in 1 s, not in 3 s, unless it has an outlet or a hole.
+TEST(EndChecks, AnInletNeedsASpaceForItsWater) {
+  CaseSpec spec = empty_case(0.02);
+  spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.2}, {0.0, 0.2}})};
+  spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.2}, 0.1)};
+  spec.time.end = 1.0;
+  EXPECT_EQ(errors_of(spec), "");
+  spec.time.end = 3.0;
+  const std::string refused = errors_of(spec);
+  EXPECT_NE(refused.find("inlet 'inlet1' brings 0.3 m^2 by t = 3 s into a space without a way out"), std::string::npos)
+      << refused;
+  EXPECT_NE(refused.find("closed by wall 'wall1'"), std::string::npos) << refused;
+  CaseSpec with_outlet = spec;
+  with_outlet.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}}), polyline({{1.0, 0.2}, {0.0, 0.2}})};
+  with_outlet.outlets = {outlet({1.0, 0.0}, {1.0, 0.2})};
+  EXPECT_EQ(errors_of(with_outlet), "");
+  spec.walls[0].points.back() = {0.5, 0.2};
+  spec.walls.push_back(polyline({{0.3, 0.2}, {0.0, 0.2}}));
+  EXPECT_EQ(errors_of(spec), "");
 }
 
 TEST(EndChecks, AWaveMakerWantsTheDepthOfItsWater) {

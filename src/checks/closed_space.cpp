@@ -1,0 +1,85 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "checks/cell_space.h"
+#include "checks/checks.h"
+#include "geometry/from_spec.h"
+#include "motion/channel_end.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double most_cells_of_space = 4e6;
+constexpr int moments_of_inflow = 1000;
+
+/// Cells between the walls and the `ends` that prescribe what flows. Other ends are ways out.
+template <int Dim>
+CellSpace<Dim> space_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
+                        const std::vector<ChannelEnd<Dim>>& ends) {
+  std::vector<WallFace<Dim>> faces = boundary.faces;
+  for (const ChannelEnd<Dim>& end : ends) {
+    if (!end.flow.feeds()) continue;
+    const std::vector<WallFace<Dim>> closing = end.opening.as_faces();
+    faces.insert(faces.end(), closing.begin(), closing.end());
+  }
+  return CellSpace<Dim>(spec, std::move(faces), fluid.box(), most_cells_of_space);
+}
+
+/// All that an end brings into a space that is full, m^Dim.
+template <int Dim>
+double inflow_of(const ChannelEnd<Dim>& end, double last) {
+  double sum = 0.0;
+  for (int k = 0; k < moments_of_inflow; ++k) {
+    sum += end.discharge_per_width(last * (k + 0.5) / moments_of_inflow, end.height);
+  }
+  return sum / moments_of_inflow * last * end.width;
+}
+
+/// Adds an error if water that enters at an end finds no way out and too little room.
+template <int Dim>
+void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, const Boundary<Dim>& boundary, double last,
+                    Findings& findings) {
+  const double cell = std::pow(space.volume(), 1.0 / Dim);
+  const Vec<Dim> middle = end.low + 0.5 * (end.height * end.rise + end.width * end.aside);
+  const Vec<Dim> inside = middle - cell * end.opening.normal;
+  const auto start = space.cell_of(inside);
+  if (space.face_between(start, inside, space.centre(start)) >= 0) return;  // cells too large to tell
+  const Spread<Dim> reached = spread(space, {start}, Vec<Dim>(Vec<Dim>::Zero()));
+  // A cell at a wall counts whole or not at all, so up to half a cell may be missing per side.
+  const double room =
+      space.volume() * (static_cast<double>(reached.cells.size()) + 0.5 * static_cast<double>(reached.sides));
+  const double inflow = inflow_of(end, last);
+  if (reached.way_out || inflow <= room) return;
+  std::set<std::string> walls;
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    const int wall = boundary.faces[f].wall;
+    if (!reached.met[f]) continue;
+    if (boundary.walls[wall].moves()) return;  // it may open
+    walls.insert(wall_label(boundary, wall));
+  }
+  findings.push_back(Finding::error(
+      "{} brings {:.3g} m^{} by t = {:.6g} s into a space without a way out that holds {:.3g} m^{} at most, closed by "
+      "{}: open it (of a box: open = [...]), give it an outlet, or let less enter",
+      end.opening.label(), inflow, Dim, last, room, Dim, fmt::join(walls, " and ")));
+}
+
+}  // namespace
+
+template <int Dim>
+Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
+  const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
+  if (std::ranges::none_of(ends, [](const auto& end) { return end.flow.feeds(); })) return {};
+  const CellSpace<Dim> space = space_of(spec, boundary, fluid, ends);
+  Findings findings;
+  for (const ChannelEnd<Dim>& end : ends) {
+    if (end.flow.feeds() && end.circuit < 0) check_space_of(end, space, boundary, spec.time.end, findings);
+  }
+  return findings;
+}
+
+TAILWATER_IN_2D_AND_3D(check_closed_space);
+
+}  // namespace tailwater
