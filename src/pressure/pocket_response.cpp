@@ -92,6 +92,7 @@ double come_nearer(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) {
   std::vector<double> change(response.pressure.size(), 0.0);
   solve_roughly(flow, change, tolerance_of_pass(flow.pressure_solver.tolerance()));
   spread(flow, change);
+  flow.halo().exchange(change);
   for_each(change.size(), [&](std::size_t i) { response.pressure[i] += change[i]; });
   return flow.setup.ranks.largest(
       largest_over(divergence.size(), 0.0, [&](std::size_t i) { return std::abs(change[i]); }));
@@ -106,7 +107,6 @@ void spread(const Flow<Dim>& flow, std::vector<double>& field) {
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] == Role::wall) field[i] = rows.scale(i) * rows.whole().sum(i, field.data());
   });
-  flow.halo().exchange(field);
 }
 
 template <int Dim>

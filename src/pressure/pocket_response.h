@@ -14,8 +14,8 @@
 
 namespace tailwater {
 
-/// Gives walls the mean of the water beside them, as they have it of the pressure, and ghosts what their owners have.
-/// Collective.
+/// Gives walls the mean of the water beside them, as they have it of the pressure, and ghosts of water what their
+/// owners have. Collective.
 template <int Dim>
 void spread(const Flow<Dim>& flow, std::vector<double>& field);
 
