@@ -34,6 +34,8 @@ struct Particle {
   Vec<Dim> position;
   Vec<Dim> velocity;
   double pressure;
+  double wall_distance;
+  bool is_inside;
 };
 
 /// The fluid of all ranks by id, on the root.
@@ -43,7 +45,8 @@ std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.state.particles.is_fluid(i)) continue;
     own.push_back({flow.state.particles.id[i], flow.neighbourhood.wrapped(flow.state.particles.position[i]),
-                   flow.state.particles.velocity[i], flow.state.particles.pressure[i]});
+                   flow.state.particles.velocity[i], flow.state.particles.pressure[i],
+                   flow.state.particles.wall_distance[i], flow.is_inside(i)});
   }
   std::vector<Particle<Dim>> all = flow.setup.ranks.gather(own);
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -99,6 +102,9 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
     EXPECT_LT((found[k].velocity - expected[k].velocity).norm(), du) << "particle " << found[k].id;
     EXPECT_LT((found[k].position - expected[k].position).norm(), alone.state.time * du) << "particle " << found[k].id;
     EXPECT_LT(std::abs(found[k].pressure - expected[k].pressure), dp + P * du / speed_scale);
+    // It goes from neighbour to neighbour, one in a step.
+    EXPECT_NEAR(found[k].wall_distance, expected[k].wall_distance, 2.0 * steps * alone.state.time * du);
+    EXPECT_EQ(found[k].is_inside, expected[k].is_inside) << "particle " << found[k].id;
   }
 }
 
