@@ -72,7 +72,8 @@ struct Boundary {
   double filed_reach() const { return resting_.reach(); }
 
   /// Makes the screens of the plates where the faces are now. An end of a plate that is on another wall, or nearer to
-  /// it than `closed_gap` (m), leaves no opening: the screen goes on behind that wall by `reach` (m).
+  /// it than `closed_gap` (m), leaves no opening: the screen goes on behind that wall by `reach` (m). An end that
+  /// points away from the wall does not.
   void hang_screens(double closed_gap, double reach);
   void hang_screens() { hang_screens(closed_gap_, screen_reach_); }
 

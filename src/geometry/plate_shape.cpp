@@ -9,6 +9,8 @@ namespace {
 /// 1 + cos of the angle by which a rim turns. Where it turns by more than 120 degrees, its corner is not drawn on.
 constexpr double least_opening = 0.5;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// Radians; a rim that turns by less goes straight on.
 constexpr double straight = 1e-6;
 
@@ -17,18 +19,21 @@ constexpr double straight = 1e-6;
 template <int Dim>
 WallBesidePlate wall_beside_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x) {
   WallBesidePlate beside;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
     if (boundary.walls[face.wall].is_plate) return;
     const double distance = (closest_point(face, x) - x).norm();
     if (distance > nearest) return;
     nearest = distance;
-    beside = {face.wall, face.height(x) < 0.0 ? -distance : distance};
+    beside = {f, face.height(x) < 0.0 ? -distance : distance};
   });
-  for (const WallMesh& mesh : boundary.meshes) {
-    const double height = boundary.height_above(mesh, x, std::numeric_limits<double>::infinity());
-    if (height < beside.distance) beside = {mesh.wall, height};
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : boundary.meshes) {
+      const SurfacePlace place = mesh.surface->nearest(x - boundary.displacement_of(mesh), infinity);
+      if (place.triangle < 0 || place.signed_distance >= beside.distance) continue;
+      beside = {mesh.first_face + place.triangle, place.signed_distance};
+    }
   }
   return beside;
 }
@@ -50,7 +55,7 @@ Screen<3> rectangle_of(const Boundary<3>& boundary, const WallPlate& plate) {
 }
 
 WidenedSheet widened(const MeshSurface& sheet, double reach,
-                     const std::function<bool(const Vec<3>&, const Vec<3>&)>& is_wanted) {
+                     const std::function<bool(const Vec<3>&, const Vec<3>&, const Vec<3>&)>& is_wanted) {
   struct Strip {
     int triangle;
     Vec<3> out;      ///< unit vector
@@ -76,8 +81,8 @@ WidenedSheet widened(const MeshSurface& sheet, double reach,
       const int b = mesh.triangles[t][(e + 1) % 3];
       const Vec<3> from = mesh.points[a];
       const Vec<3> to = mesh.points[b];
-      if (sheet.neighbours()[t][e] >= 0 || !is_wanted(from, to)) continue;
       const Vec<3> out = (to - from).cross(mesh.area_normal(t)).normalized();
+      if (sheet.neighbours()[t][e] >= 0 || !is_wanted(from, to, out)) continue;
       const Strip strip{t, out, add_point(from + reach * out), add_point(to + reach * out)};
       add(b, a, strip.begin, t);
       add(b, strip.begin, strip.end, t);

@@ -12,7 +12,7 @@ namespace tailwater {
 
 /// The wall nearest to the end of a plate.
 struct WallBesidePlate {
-  int wall = -1;                                              ///< index into Boundary::walls; -1: none
+  int face = -1;                                              ///< index into Boundary::faces; -1: none
   double distance = std::numeric_limits<double>::infinity();  ///< m; below 0 behind it
 };
 
@@ -30,8 +30,8 @@ struct WidenedSheet {
 };
 
 /// Draws a sheet on by `reach` (m), each triangle in its own plane, beyond the edges of its rim for which
-/// is_wanted(from, to) is true, and around corners where two of these meet.
+/// is_wanted(from, to, out) is true, and around corners where two of these meet.
 WidenedSheet widened(const MeshSurface& sheet, double reach,
-                     const std::function<bool(const Vec<3>&, const Vec<3>&)>& is_wanted);
+                     const std::function<bool(const Vec<3>&, const Vec<3>&, const Vec<3>&)>& is_wanted);
 
 }  // namespace tailwater

@@ -23,17 +23,20 @@ Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int p
           plate.first_face + plate.pieces + piece};
 }
 
-/// Whether a place is on a wall that is no plate, nearer to it than `gap`, or behind it.
+/// Whether a plate that ends at `x` and points `out` there ends on a wall that is no plate, nearer to it than `gap`, or
+/// behind it. A wall that it points away from, as that of a pipe which opens beside the plate, does not close it.
 template <int Dim>
-bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, double gap) {
-  return wall_beside_plate(boundary, x).distance <= gap;
+bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap) {
+  const WallBesidePlate beside = wall_beside_plate(boundary, x);
+  return beside.distance <= gap && boundary.faces[beside.face].normal.dot(out) <= corner_tolerance;
 }
 
 /// Whether an edge, looked at in steps of dx, is closed by walls all along.
-bool is_closed_by_walls(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, double gap) {
+bool is_closed_by_walls(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out,
+                        double gap) {
   const int last = std::max(1, static_cast<int>(std::ceil((to - from).norm() / (2.0 * gap))));
   for (int k = 0; k <= last; ++k) {
-    if (!is_closed_by_wall(boundary, Vec<3>(from + k * (to - from) / last), gap)) return false;
+    if (!is_closed_by_wall(boundary, Vec<3>(from + k * (to - from) / last), out, gap)) return false;
   }
   return true;
 }
@@ -72,15 +75,17 @@ std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& 
   std::vector<Screen<2>> screens;
   for (int piece = 0; piece < plate.pieces; ++piece) screens.push_back(bare_screen(boundary, plate, piece));
   const WallFace<2>& last = boundary.faces[plate.first_face + plate.pieces - 1];
-  if (is_closed_by_wall(boundary, screens.front().corner, gap)) screens.front().range[0][0] -= reach;
-  if (is_closed_by_wall(boundary, last.corners[1], gap)) screens.back().range[0][1] += reach;
+  const Vec<2> before = -screens.front().along[0];
+  const Vec<2> after = screens.back().along[0];
+  if (is_closed_by_wall(boundary, screens.front().corner, before, gap)) screens.front().range[0][0] -= reach;
+  if (is_closed_by_wall(boundary, last.corners[1], after, gap)) screens.back().range[0][1] += reach;
   return screens;
 }
 
 std::vector<Screen<3>> screens_of_sheet(const Boundary<3>& boundary, const WallPlate& plate, double gap, double reach) {
   const Vec<3> moved = displacement_of(boundary, plate);
-  const WidenedSheet wide = widened(*plate.sheet, reach, [&](const Vec<3>& from, const Vec<3>& to) {
-    return is_closed_by_walls(boundary, from + moved, to + moved, gap);
+  const WidenedSheet wide = widened(*plate.sheet, reach, [&](const Vec<3>& from, const Vec<3>& to, const Vec<3>& out) {
+    return is_closed_by_walls(boundary, from + moved, to + moved, out, gap);
   });
   std::vector<Screen<3>> screens;
   for (int t = 0; t < static_cast<int>(wide.mesh.triangles.size()); ++t) {
@@ -98,7 +103,8 @@ std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& 
     for (const int end : {0, 1}) {
       const Vec<3> from = bare.corner + bare.range[axis][end] * bare.along[axis];
       const Vec<3> to = from + length * bare.along[1 - axis];
-      if (is_closed_by_walls(boundary, from, to, gap)) screen.range[axis][end] += (end == 0 ? -1.0 : 1.0) * reach;
+      const double side = end == 0 ? -1.0 : 1.0;
+      if (is_closed_by_walls(boundary, from, to, side * bare.along[axis], gap)) screen.range[axis][end] += side * reach;
     }
   }
   return {screen};

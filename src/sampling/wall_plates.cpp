@@ -38,7 +38,7 @@ WallParticles<2> sample_side(const Boundary<2>& boundary, const WallPlate& plate
 WallParticles<3> sample_side_of_sheet(const Boundary<3>& boundary, const WallPlate& plate, bool is_front,
                                       const WallLayers& layers, const Lattice<3>& lattice) {
   const double depth = layers.count * layers.spacing;
-  WidenedSheet wide = widened(*plate.sheet, depth, [](const Vec<3>&, const Vec<3>&) { return true; });
+  WidenedSheet wide = widened(*plate.sheet, depth, [](const auto&...) { return true; });
   const MeshSurface surface(std::move(wide.mesh));
   WallParticleCollector<3> collector(boundary, layers);
   const auto propose = [&](const Vec<3>& x, const SurfacePlace& place) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -201,6 +202,35 @@ void expect_the_same_nearest(const CaseSpec& spec, const Vec<Dim>& low, const Ve
     }
   }
   EXPECT_GT(found, 500);
+}
+
+/// Whether a plate hides one place from another.
+template <int Dim>
+bool hides(const CaseSpec& spec, const Vec<Dim>& from, const Vec<Dim>& to) {
+  const Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  return std::ranges::any_of(boundary.screens, [&](const auto& screen) { return screen.is_between(from, to); });
+}
+
+// A basin with a plate below the mouth of a channel, from whose bed the plate goes down to the bed of the basin.
+TEST(Screens, GoOnBehindAWallAndNotInFrontOfIt) {
+  CaseSpec spec = empty_case(0.1);
+  WallTable plate = polyline({{0.0, 0.0}, {0.0, 0.4}});
+  plate.shape = WallShape::plate;
+  spec.walls = {polyline({{-1.0, 0.4}, {0.0, 0.4}}), polyline({{-1.0, 0.0}, {1.0, 0.0}}), plate};
+  EXPECT_TRUE(hides<2>(spec, {-0.05, -0.15}, {0.05, -0.15}));
+  EXPECT_TRUE(hides<2>(spec, {-0.05, 0.2}, {0.05, 0.2}));
+  EXPECT_FALSE(hides<2>(spec, {-0.05, 0.5}, {0.05, 0.5}));
+}
+
+TEST(Screens, GoOnBehindAWallAndNotInFrontOfItIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.points = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 1.0, 0.4}, {0.0, 0.0, 0.4}};
+  spec.walls = {box_wall({-1, 0, 0.4}, {0, 1, 1}, {"+x", "+z"}), box_wall({0, 0, 0}, {1, 1, 1}, {"-x", "+z"}), plate};
+  EXPECT_TRUE(hides<3>(spec, {-0.05, 0.5, -0.15}, {0.05, 0.5, -0.15}));
+  EXPECT_TRUE(hides<3>(spec, {-0.05, -0.15, 0.2}, {0.05, -0.15, 0.2}));
+  EXPECT_FALSE(hides<3>(spec, {-0.05, 0.5, 0.5}, {0.05, 0.5, 0.5}));
 }
 
 TEST(FiledFaces, GiveTheNearestOfAll) {
