@@ -143,7 +143,9 @@ std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, const s
     for (const int f : near) {
       const Vec<Dim> offset = closest_point(boundary.faces[f], x) - x;
       const double width = offset.norm();
-      if (width >= narrow * dx || offset.dot(edge.out) < least_beyond_edge * width) continue;
+      // What touches the edge is on no side of it.
+      const bool is_beside = width > narrowest_drawn * dx && offset.dot(edge.out) < least_beyond_edge * width;
+      if (width >= narrow * dx || is_beside) continue;
       if (!nearest || width < nearest->width) nearest = Gap<Dim>{plate, boundary.faces[f].wall, width, x};
     }
     if (!nearest) return std::nullopt;

@@ -639,6 +639,19 @@ TEST(Check, AGapBesideAPlateIsToldIn3D) {
   EXPECT_TRUE(check<3>(weir).empty()) << listed(check<3>(weir));
 }
 
+// By rounding, the points of an edge are a hair beside the plates that it touches.
+TEST(Check, PlatesThatMeetLeaveNoGapIn3D) {
+  for (const double side : {0.7, 0.83, 1.1}) {
+    CaseSpec spec = flume_with_slot(2.0, 0.0, 0.0);
+    WallTable plate = spec.walls[1];
+    plate.points = {{1, 0, 1.2}, {1, side, 1.2}, {1, side, 1.9}, {1, 0, 1.9}};
+    spec.walls.push_back(plate);
+    plate.points = {{1, side, 1.2}, {1, 2, 1.2}, {1, 2, 1.9}, {1, side, 1.9}};
+    spec.walls.push_back(plate);
+    EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  }
+}
+
 TEST(Check, AnOutletIn3DIsNoLeak) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
