@@ -28,7 +28,7 @@ export class ParticleMark {
   private shown: { a: Frame; b: Frame } | null = null;
   private chosen: { frame: Frame; choice: Choice } | null = null;
   private index = new BufferAttribute(new Uint32Array(0), 1);
-  private capacity = 0;
+  private capacity = -1; // a moment without water needs room, too
   private levelsOf: Frame | null = null;
 
   constructor(dim: 2 | 3, private spacing: number, private up: { axis: number; sign: 1 | -1 }) {
