@@ -9,6 +9,11 @@ import { withProgram, type Workplace } from "../support/program.ts";
 
 const images = join(process.env["TAILWATER_WEB"]!, "../docs/images");
 
+/** What the page shows now, as of a run that goes on. */
+async function saveNow(page: Page, name: string): Promise<void> {
+  await page.screenshot({ path: join(images, `view_${name}.webp`), type: "webp", quality: 80 });
+}
+
 /** What the page shows, once the picture is whole and rests. */
 async function save(page: Page, name: string, height = 720): Promise<void> {
   await page.setViewport({ width: 1280, height });
@@ -20,7 +25,7 @@ async function save(page: Page, name: string, height = 720): Promise<void> {
       rests = setTimeout(() => ((app.drawn = null), found()), 1500);
     };
   })`);
-  await page.screenshot({ path: join(images, `view_${name}.webp`), type: "webp", quality: 80 });
+  await saveNow(page, name);
 }
 
 /** The water of all runs at a time (s). */
@@ -46,7 +51,7 @@ test("the walk of guide/film_of_a_weir.md: case, live, weir, film", async (conte
     await save(page, "case");
     await page.click("button.primary");
     await until(page, "app.look.now.tab === 'run' && app.shownRuns()[0]?.end > 1.5");
-    await save(page, "live");
+    await saveNow(page, "live");
     await until(page, "app.shownRuns()[0].info.state === 'done'");
     await page.keyboard.press("g");
     await page.evaluate("tailwater.pick('upstream', true)");
