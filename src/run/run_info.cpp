@@ -28,21 +28,26 @@ namespace fs = std::filesystem;
 double number_of(const Json& block, const char* key) { return block.at(key).get<double>(); }
 std::string text_of_key(const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); }
 
-std::string water_line(const Json& water) {
-  std::string line = fmt::format("{:.6g} kg at the start", number_of(water.at("start"), "mass_kg"));
+/// Behind a unit: in 2D all is per metre of width. Summaries of earlier programs do not tell the dimension.
+std::string_view per_metre(const Json& summary) { return summary.value("dimension", 3) == 2 ? " per m" : ""; }
+
+std::string water_line(const Json& summary) {
+  const Json& water = summary.at("water_balance");
+  std::string line =
+      fmt::format("{:.6g} kg{} at the start", number_of(water.at("start"), "mass_kg"), per_metre(summary));
   for (const char* part : {"in", "inside", "outside", "out"}) {
     line += fmt::format(", {:.6g} {}", number_of(water.at(part), "mass_kg"), part);
   }
   return line;
 }
 
-std::string pockets_in_words(double count, double volume, double pressure) {
+std::string pockets_in_words(double count, double volume, double pressure, std::string_view per_metre) {
   if (count == 0.0) return "no pocket";
-  return fmt::format("{:.0f} pocket{}, {:.4g} m3, {:.4g} Pa in the largest", count, count == 1.0 ? "" : "s", volume,
-                     pressure);
+  return fmt::format("{:.0f} pocket{}, {:.4g} m^3{}, {:.4g} Pa in the largest", count, count == 1.0 ? "" : "s", volume,
+                     per_metre, pressure);
 }
 
-std::string air_line(const Json& air) {
+std::string air_line(const Json& air, std::string_view per_metre) {
   double volume = 0.0;
   double largest = 0.0;
   double pressure = 0.0;
@@ -52,12 +57,14 @@ std::string air_line(const Json& air) {
     if (own > largest) pressure = number_of(pocket, "pressure_Pa");
     largest = std::max(largest, own);
   }
-  std::string line = fmt::format("{}; {:.0f} begun, {:.0f} ended, which lost {:.4g} m3 of gas",
-                                 pockets_in_words(static_cast<double>(air.at("now").size()), volume, pressure),
-                                 number_of(air, "begun"), number_of(air, "ended"), number_of(air, "gas_lost_m3"));
+  std::string line =
+      fmt::format("{}; {:.0f} begun, {:.0f} ended, which lost {:.4g} m^3{} of gas",
+                  pockets_in_words(static_cast<double>(air.at("now").size()), volume, pressure, per_metre),
+                  number_of(air, "begun"), number_of(air, "ended"), number_of(air, "gas_lost_m3"), per_metre);
   const double vented = air.value("gas_vented_m3", 0.0);
   if (vented != 0.0) {
-    line += fmt::format("; {:.4g} m3 {} through vents", std::abs(vented), vented > 0.0 ? "left" : "came in");
+    line +=
+        fmt::format("; {:.4g} m^3{} {} through vents", std::abs(vented), per_metre, vented > 0.0 ? "left" : "came in");
   }
   return line;
 }
@@ -83,18 +90,19 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
   if (!step.empty()) {
     lines.push_back({"step", fmt::format("{:.0f}, of {:.3g} s", value("step"), value("dt_s"))});
     lines.push_back({"speed", fmt::format("{:.3g} m/s at most", value("speed_max_m_per_s"))});
-    lines.push_back(
-        {"energy", fmt::format("{:.4g} J kinetic, {:.4g} J potential", value("kinetic_J"), value("potential_J"))});
+    lines.push_back({"energy", fmt::format("{:.4g} J{} kinetic, {:.4g} potential", value("kinetic_J"),
+                                           per_metre(summary), value("potential_J"))});
     if (step.contains("pockets")) {
-      lines.push_back(
-          {"air", pockets_in_words(value("pockets"), value("pockets_volume_m3"), value("pocket_pressure_Pa"))});
+      lines.push_back({"air", pockets_in_words(value("pockets"), value("pockets_volume_m3"),
+                                               value("pocket_pressure_Pa"), per_metre(summary))});
     }
     lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", value("density_error_mean"),
                                             value("density_error_rms"))});
     lines.push_back({"solver", fmt::format("{:.0f} iterations in the last step", value("iterations"))});
-    lines.push_back({"water", fmt::format("{:.6g} kg at the start, {:.4g} m3 in, {:.4g} m3 out",
-                                          number_of(summary.at("water_balance").at("start"), "mass_kg"),
-                                          value("volume_in_m3"), value("volume_out_m3"))});
+    lines.push_back(
+        {"water", fmt::format("{:.6g} kg{} at the start, {:.4g} m^3{} in, {:.4g} out",
+                              number_of(summary.at("water_balance").at("start"), "mass_kg"), per_metre(summary),
+                              value("volume_in_m3"), per_metre(summary), value("volume_out_m3"))});
   }
   const Json& particles = summary.at("particles");
   lines.push_back(
@@ -212,11 +220,12 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
   const Json& particles = summary.at("particles");
   lines.push_back({"particles", fmt::format("{:.0f} fluid, {:.0f} wall, spacing {:g} m", number_of(particles, "fluid"),
                                             number_of(particles, "wall"), number_of(summary, "spacing_m"))});
-  lines.push_back({"water", water_line(summary.at("water_balance"))});
-  if (const auto air = summary.find("pockets"); air != summary.end()) lines.push_back({"air", air_line(*air)});
+  lines.push_back({"water", water_line(summary)});
+  if (const auto air = summary.find("pockets"); air != summary.end())
+    lines.push_back({"air", air_line(*air, per_metre(summary))});
   const Json& energy = summary.at("energy");
-  lines.push_back({"energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, largest rise {:.2g} J",
-                                         number_of(energy, "start_J"), number_of(energy, "end_J"),
+  lines.push_back({"energy", fmt::format("{:.6g} J{} at the start, {:.6g} at the end, largest rise {:.2g}",
+                                         number_of(energy, "start_J"), per_metre(summary), number_of(energy, "end_J"),
                                          number_of(energy, "largest_rise_J"))});
   const Json& volume = summary.at("volume");
   lines.push_back(

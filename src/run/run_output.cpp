@@ -309,6 +309,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                   {"exit_code", nullptr},
                   {"message", message},
                   {"warnings", warnings()},
+                  {"dimension", spec_.general.dimension},
                   {"spacing_m", spec_.particles.spacing},
                   {"seed", spec_.particles.seed},
                   {"particles", {{"fluid", fluid}, {"wall", flow.walls.all}}},
