@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -29,23 +30,40 @@ Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached)
   return findings;
 }
 
+/// The name of the wall or open end nearest to a place.
+template <int Dim>
+std::string nearest_label(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends, const Vec<Dim>& x) {
+  const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
+  std::string label = wall_label(boundary, boundary.faces[wall.face].wall);
+  double nearest = std::abs(wall.signed_distance);
+  for (const Opening<Dim>& end : ends) {
+    for (const WallFace<Dim>& face : end.as_faces()) {
+      const double distance = (closest_point(face, x) - x).norm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      label = end.label();
+    }
+  }
+  return label;
+}
+
 }  // namespace
 
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.all == 0) return {};
+  const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
   std::vector<WallFace<Dim>> faces = boundary.faces;
-  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+  for (const Opening<Dim>& end : ends) {
     const std::vector<WallFace<Dim>> closing = end.as_faces();
     faces.insert(faces.end(), closing.begin(), closing.end());
   }
   const CellSpace<Dim> space(spec, std::move(faces), fluid.box(), most_cells_of_flood);
   const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid), Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return water_behind(boundary, reached);
-  const NearestWall<Dim> wall = boundary.nearest(*reached.way_out, std::numeric_limits<double>::infinity());
-  return {Finding::error("the water would pour out of the case at {}, near {}: close the wall there, or make it higher",
-                         place(*reached.way_out), wall_label(boundary, boundary.faces[wall.face].wall))};
+  return {Finding::error("the water would pour out of the case at {}, near {}: close it there, or make it higher",
+                         place(*reached.way_out), nearest_label(boundary, ends, *reached.way_out))};
 }
 
 TAILWATER_IN_2D_AND_3D(check_leaks);

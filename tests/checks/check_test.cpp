@@ -188,6 +188,16 @@ TEST(Check, WaterThatPoursOverALowWallOrThroughAHole) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+TEST(Check, WaterThatPoursOverAnOutletThatIsTooLow) {
+  CaseSpec spec = tank();
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.3}, {0.5, 0.3}, {0.5, 0.0}, {2.0, 0.0}})};
+  spec.fluid = {box_fluid({0, 0.3}, {0.5, 0.5})};
+  spec.outlets = {outlet({2.0, 0.0}, {2.0, 0.4})};
+  expect_among(check(spec), Severity::error, {"pour out", "near outlet"});
+  spec.outlets[0].to = {2.0, 0.6};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 // Slopes of 45 degrees pass exactly through the centres of a grid that is in step with the lattice.
 TEST(Check, SlantedWallsAreTight) {
   for (const double shift : {0.0, 0.025, 0.05, 0.075}) {
