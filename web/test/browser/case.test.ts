@@ -1,12 +1,9 @@
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
 import type { Check, Spec } from "../../src/contract.ts";
-import { Mock, run } from "../support/mock.ts";
+import { Mock, page, run } from "../support/mock.ts";
 import { standingWave } from "../support/flows.ts";
 import { allowed, test, until, visit } from "../support/browser.ts";
 
-const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 const text = `[case]
 title = "Tank"
 

@@ -1,14 +1,12 @@
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { deflateSync } from "node:zlib";
 import { basin, standingWave } from "../support/flows.ts";
-import { Mock, run, type MockRun } from "../support/mock.ts";
+import { Mock, page, run, type MockRun } from "../support/mock.ts";
 import { test, until, visit } from "../support/browser.ts";
-
-const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 
 /** The page as `view --export` makes it. */
 function exported(runs: MockRun[]): string {

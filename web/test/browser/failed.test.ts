@@ -1,6 +1,6 @@
 // The page with the program itself behind it.
 import assert from "node:assert/strict";
-import { test } from "node:test";
+import { test } from "../support/browser.ts";
 import { withProgram } from "../support/program.ts";
 
 test("a failed run: the page opens with the reason, once", async (context) => {

@@ -1,11 +1,7 @@
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
 import { standingWave } from "../support/flows.ts";
-import { Mock, run } from "../support/mock.ts";
+import { Mock, page, run } from "../support/mock.ts";
 import { test, until, visit } from "../support/browser.ts";
-
-const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 
 test("a still and a film of the view are saved", async () => {
   const mock = new Mock({ page, runs: [run("a", "wave", standingWave(8), 9)] });

@@ -1,11 +1,7 @@
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import { Mock, run } from "../support/mock.ts";
+import { Mock, page, run } from "../support/mock.ts";
 import { standingWave } from "../support/flows.ts";
 import { allowed, camera, test, until, visit } from "../support/browser.ts";
-
-const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 
 test("a live run: frames come in, the page follows, the camera stays; scrubbing, picking and stopping", async () => {
   const mock = new Mock({ page, runs: [run("a", "wave", standingWave(10), 41, 20)] });

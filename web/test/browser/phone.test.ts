@@ -1,12 +1,7 @@
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import { test } from "node:test";
 import { standingWave } from "../support/flows.ts";
-import { Mock, run } from "../support/mock.ts";
-import { until, visit } from "../support/browser.ts";
-
-const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
+import { Mock, page, run } from "../support/mock.ts";
+import { test, until, visit } from "../support/browser.ts";
 
 test("as wide as a phone: the title is whole, buttons are as large as a finger wants them, and the time has a row", async () => {
   const mock = new Mock({ page, runs: [run("a", "a run", standingWave(8), 21)] });

@@ -2,15 +2,12 @@
 import { readFileSync } from "node:fs";
 import { readdirSync } from "node:fs";
 import { cpus } from "node:os";
-import { join } from "node:path";
 import { test } from "node:test";
 import { readHeader } from "../../src/frames/format.ts";
 import { visit, until } from "../support/browser.ts";
 import { bulk } from "../support/bulk.ts";
-import { Mock, run, type MockRun } from "../support/mock.ts";
+import { Mock, page, run, type MockRun } from "../support/mock.ts";
 import { basin, standingWave } from "../support/flows.ts";
-
-const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 
 function large(n: number, dim: 2 | 3, frames: number): MockRun {
   const flow = dim === 2 ? standingWave(4, frames / 50) : basin(100, frames / 50);

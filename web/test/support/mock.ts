@@ -1,10 +1,15 @@
 // A server that answers as the program's does, with flows made of formulas; a run can be going: frames come one by one.
+import { readFileSync } from "node:fs";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
 import type { AddressInfo } from "node:net";
+import { join } from "node:path";
 import type { Check, Info, Scene, Spec, State } from "../../src/contract.ts";
 import { readHeader } from "../../src/frames/format.ts";
 import { Encoder } from "./encode.ts";
 import type { Flow } from "./flows.ts";
+
+/** The page as it is built. */
+export const page = readFileSync(join(process.env["TAILWATER_WEB"]!, "dist/view.html"), "utf8");
 
 export interface MockFrame {
   index: number;
