@@ -89,8 +89,8 @@ std::optional<Gap<Dim>> closed_gap_beside(const Boundary<Dim>& boundary, int pla
   for (const Vec<Dim>& x : edge.points) {
     const WallBesidePlate beside = wall_beside_plate(boundary, x);
     if (beside.distance > closed * dx) return std::nullopt;
-    if (!widest || beside.distance > widest->width)
-      widest = Gap<Dim>{plate, boundary.faces[beside.face].wall, beside.distance, x};
+    if (widest && beside.distance <= widest->width) continue;
+    widest = Gap<Dim>{plate, boundary.faces[beside.face].wall, beside.distance, x};
   }
   if (!widest || widest->width <= narrowest_drawn * dx) return std::nullopt;
   return widest;
