@@ -10,6 +10,16 @@
 namespace tailwater {
 
 template <int Dim>
+std::vector<WallFace<Dim>> faces_with(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends) {
+  std::vector<WallFace<Dim>> faces = boundary.faces;
+  for (const Opening<Dim>& end : ends) {
+    const std::vector<WallFace<Dim>> closing = end.as_faces();
+    faces.insert(faces.end(), closing.begin(), closing.end());
+  }
+  return faces;
+}
+
+template <int Dim>
 CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces,
                           const Eigen::AlignedBox<double, Dim>& water, double most)
     : tolerance_(corner_tolerance * spec.particles.spacing) {
@@ -212,6 +222,7 @@ std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space,
 
 template class CellSpace<2>;
 template class CellSpace<3>;
+TAILWATER_IN_2D_AND_3D(faces_with);
 TAILWATER_IN_2D_AND_3D(spread);
 TAILWATER_IN_2D_AND_3D(cells_of);
 

@@ -8,9 +8,17 @@
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "geometry/opening.h"
 #include "sampling/fluid_particles.h"
 
 namespace tailwater {
+
+/// Largest number of cells of a whole case; if cells of size dx were more, they are larger.
+constexpr double most_cells_of_case = 4e6;
+
+/// The faces of the walls, and those that close the `ends`.
+template <int Dim>
+std::vector<WallFace<Dim>> faces_with(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends);
 
 /// Cells that cover `faces` and the box of the `water`. Their size is dx, or larger to limit their number to `most`.
 /// Whether a path meets a wall does not depend on their size.

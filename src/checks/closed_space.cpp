@@ -1,6 +1,5 @@
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -12,21 +11,7 @@
 namespace tailwater {
 namespace {
 
-constexpr double most_cells_of_space = 4e6;
 constexpr int moments_of_inflow = 1000;
-
-/// Cells between the walls and the `ends` that prescribe what flows. Other ends are ways out.
-template <int Dim>
-CellSpace<Dim> space_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
-                        const std::vector<ChannelEnd<Dim>>& ends) {
-  std::vector<WallFace<Dim>> faces = boundary.faces;
-  for (const ChannelEnd<Dim>& end : ends) {
-    if (!end.flow.feeds()) continue;
-    const std::vector<WallFace<Dim>> closing = end.opening.as_faces();
-    faces.insert(faces.end(), closing.begin(), closing.end());
-  }
-  return CellSpace<Dim>(spec, std::move(faces), fluid.box(), most_cells_of_space);
-}
 
 /// All that an end brings into a space that is full, m^Dim.
 template <int Dim>
@@ -71,8 +56,12 @@ void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, con
 template <int Dim>
 Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
-  if (std::ranges::none_of(ends, [](const auto& end) { return end.flow.feeds(); })) return {};
-  const CellSpace<Dim> space = space_of(spec, boundary, fluid, ends);
+  std::vector<Opening<Dim>> feeding;  // what leaves the other ends leaves the space
+  for (const ChannelEnd<Dim>& end : ends) {
+    if (end.flow.feeds()) feeding.push_back(end.opening);
+  }
+  if (feeding.empty()) return {};
+  const CellSpace<Dim> space(spec, faces_with(boundary, feeding), fluid.box(), most_cells_of_case);
   Findings findings;
   for (const ChannelEnd<Dim>& end : ends) {
     if (end.flow.feeds() && end.circuit < 0) check_space_of(end, space, boundary, spec.time.end, findings);

@@ -10,9 +10,6 @@
 namespace tailwater {
 namespace {
 
-/// Largest number of cells; if cells of size dx were more, they are larger.
-constexpr double most_cells_of_flood = 4e6;
-
 /// Where water reaches the back of a wall, one finding per wall.
 template <int Dim>
 Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached) {
@@ -54,12 +51,7 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.all == 0) return {};
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
-  std::vector<WallFace<Dim>> faces = boundary.faces;
-  for (const Opening<Dim>& end : ends) {
-    const std::vector<WallFace<Dim>> closing = end.as_faces();
-    faces.insert(faces.end(), closing.begin(), closing.end());
-  }
-  const CellSpace<Dim> space(spec, std::move(faces), fluid.box(), most_cells_of_flood);
+  const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), most_cells_of_case);
   const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid), Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return water_behind(boundary, reached);
   return {Finding::error("the water would pour out of the case at {}, near {}: close it there, or make it higher",

@@ -21,9 +21,6 @@ bool shares_corner(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolera
   });
 }
 
-/// Largest number of cells; if cells of size dx were more, they are larger.
-constexpr double most_cells_of_wet = 4e6;
-
 /// Whether this is a body in the water. Where it rests on another wall, the two touch back to back and stay dry.
 bool is_obstacle(const WallTable& wall) {
   return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
@@ -33,18 +30,14 @@ bool is_obstacle(const WallTable& wall) {
 /// walls, count as closed.
 template <int Dim>
 std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
-  std::vector<WallFace<Dim>> faces = boundary.faces;
-  std::vector<Vec<Dim>> sources;
-  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
-    const std::vector<WallFace<Dim>> closing = end.as_faces();
-    faces.insert(faces.end(), closing.begin(), closing.end());
+  const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
+  const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), most_cells_of_case);
+  std::vector<typename CellSpace<Dim>::Cell> start = cells_of<Dim>(space, fluid);
+  for (const Opening<Dim>& end : ends) {
     Vec<Dim> middle = end.corner;
     for (const Vec<Dim>& edge : end.edges) middle += 0.5 * edge;
-    sources.push_back(middle - 0.5 * spec.particles.spacing * end.normal);
+    start.push_back(space.cell_of(middle - 0.5 * spec.particles.spacing * end.normal));
   }
-  const CellSpace<Dim> space(spec, std::move(faces), fluid.box(), most_cells_of_wet);
-  std::vector<typename CellSpace<Dim>::Cell> start = cells_of<Dim>(space, fluid);
-  for (const Vec<Dim>& x : sources) start.push_back(space.cell_of(x));
   return spread(space, start, Vec<Dim>(Vec<Dim>::Zero()), Edge::holds).wet;
 }
 
