@@ -2,7 +2,7 @@
 // consecutive numbers are near each other, and the 2^Dim that make up one twice as large follow each other.
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/vec.h"
@@ -28,14 +28,16 @@ constexpr std::uint64_t spread_bits(std::uint64_t value) {
 }
 
 /// The number of the cell of the given edge [m] that holds `position`. Its last Dim bits are its place in the cell
-/// twice as large, of which the others are the number.
+/// twice as large, of which the others are the number. Numbers repeat after 2^21 cells along an axis, so that it does
+/// not matter how far from the origin the positions are.
 template <int Dim>
 std::uint64_t z_number(const Vec<Dim>& position, double edge) {
-  constexpr double half = 0x100000;  // 21 bits for each coordinate; cells farther out share the outermost
+  constexpr std::uint64_t period = 0x200000;  // 21 bits for each coordinate
+  constexpr double half = 0x100000;           // the curve is cut there, and not at the origin
   std::uint64_t number = 0;
   for (int d = 0; d < Dim; ++d) {
-    const double coordinate = std::clamp(position[d] / edge + half, 0.0, 2.0 * half - 1.0);
-    number |= spread_bits<Dim>(static_cast<std::uint64_t>(coordinate)) << d;
+    const auto coordinate = static_cast<std::int64_t>(std::floor(position[d] / edge + half));
+    number |= spread_bits<Dim>(static_cast<std::uint64_t>(coordinate) % period) << d;
   }
   return number;
 }

@@ -131,6 +131,15 @@ TEST(CellMultigrid, AClosedTankIsNoHarder) {
   EXPECT_LE(iterations_in(Tank<3>(12, Top::lid)), most_iterations);
 }
 
+TEST(CellMultigrid, WaterFarFromTheOriginIsNoHarder) {
+  Tank<2> flat(50, Top::surface);
+  for (Vec<2>& x : flat.set.particles.position) x += Vec<2>(-6e6, 5.3e6);
+  EXPECT_LE(iterations_in(flat), most_iterations);
+  Tank<3> solid(12, Top::surface);
+  for (Vec<3>& x : solid.set.particles.position) x += Vec<3>(6e6, 5.3e6, -4e6);
+  EXPECT_LE(iterations_in(solid), most_iterations);
+}
+
 /// Iterations of a tank of which some rows near the surface have got larger diagonals, as where water may not pull,
 /// from a share of the solution before; with the multigrid of the solve before, or a new one.
 int iterations_after_division(double share_of_solution, bool has_solved_before) {
