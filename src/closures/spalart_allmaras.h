@@ -35,7 +35,7 @@ inline constexpr double c_w2 = 0.3;
 inline constexpr double c_w3 = 2.0;
 inline constexpr double c_v1 = 7.1;
 
-/// y u_tau/nu where the laminar and the turbulent law of a smooth wall meet: the thinnest turbulent layer.
+/// y u_tau/nu of the thinnest turbulent layer: just beyond 11.33, where the two laws of a smooth wall meet.
 inline constexpr double thinnest_layer = 11.4;
 
 /// 1/f_v1 of nu/nu~.

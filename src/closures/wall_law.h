@@ -4,7 +4,7 @@
 //   u(y) = u_tau^2 y/nu                                                  (laminar)
 //
 // with the friction velocity u_tau, whose square is the stress over the density, and the equivalent sand roughness k_s.
-// The larger stress holds; both laws meet at y u_tau/nu = 11.4 on a smooth wall.
+// The larger stress holds; both laws meet at y u_tau/nu = 11.33 on a smooth wall.
 #pragma once
 
 #include <algorithm>
