@@ -206,6 +206,15 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
 }
 
 template <int Dim>
+std::optional<typename CellSpace<Dim>::Cell> cell_inside(const CellSpace<Dim>& space, const Opening<Dim>& end,
+                                                         const Vec<Dim>& place_on_end) {
+  const Vec<Dim> inside = place_on_end - space.edge() * end.normal;
+  const auto c = space.cell_of(inside);
+  if (space.face_between(c, inside, space.centre(c)) >= 0) return std::nullopt;
+  return c;
+}
+
+template <int Dim>
 std::vector<typename CellSpace<Dim>::Cell> cells_of(const CellSpace<Dim>& space, const FluidParticles<Dim>& fluid) {
   std::vector<int> is_wet(space.count(), 0);
   for (const Vec<Dim>& x : fluid.position) {
@@ -224,6 +233,7 @@ template class CellSpace<2>;
 template class CellSpace<3>;
 TAILWATER_IN_2D_AND_3D(faces_with);
 TAILWATER_IN_2D_AND_3D(spread);
+TAILWATER_IN_2D_AND_3D(cell_inside);
 TAILWATER_IN_2D_AND_3D(cells_of);
 
 }  // namespace tailwater

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -31,7 +32,8 @@ class CellSpace {
             double most);
 
   std::size_t count() const { return near_faces_.size() - 1; }
-  double volume() const { return size_.prod(); }  ///< of a cell, m^Dim
+  double volume() const { return size_.prod(); }                 ///< of a cell, m^Dim
+  double edge() const { return std::pow(volume(), 1.0 / Dim); }  ///< of a cell, m
   std::size_t index(const Cell& c) const;
   Cell cell(std::size_t index) const;
   Vec<Dim> centre(const Cell& c) const;
@@ -109,6 +111,12 @@ enum class Edge { leads_out, holds };
 template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
                    const Vec<Dim>& down, Edge edge = Edge::leads_out);
+
+/// The cell beside a place on an open end, inside of the case; none where a wall stands between them, as cells that are
+/// too large may have it.
+template <int Dim>
+std::optional<typename CellSpace<Dim>::Cell> cell_inside(const CellSpace<Dim>& space, const Opening<Dim>& end,
+                                                         const Vec<Dim>& place_on_end);
 
 /// The cells of the water of all ranks, without places that a wall separates from the centre of their cell. Collective.
 template <int Dim>

@@ -74,8 +74,8 @@ Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Open ends count
-/// as closed.
+/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Counts the water
+/// at the start and what comes in through open ends, which count as closed.
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 

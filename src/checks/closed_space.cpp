@@ -1,6 +1,5 @@
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <set>
 
 #include "checks/cell_space.h"
@@ -27,12 +26,10 @@ double inflow_of(const ChannelEnd<Dim>& end, double last) {
 template <int Dim>
 void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, const Boundary<Dim>& boundary, double last,
                     Findings& findings) {
-  const double cell = std::pow(space.volume(), 1.0 / Dim);
   const Vec<Dim> middle = end.low + 0.5 * (end.height * end.rise + end.width * end.aside);
-  const Vec<Dim> inside = middle - cell * end.opening.normal;
-  const auto start = space.cell_of(inside);
-  if (space.face_between(start, inside, space.centre(start)) >= 0) return;  // cells too large to tell
-  const Spread<Dim> reached = spread(space, {start}, Vec<Dim>(Vec<Dim>::Zero()));
+  const auto start = cell_inside(space, end.opening, middle);
+  if (!start) return;
+  const Spread<Dim> reached = spread(space, {*start}, Vec<Dim>(Vec<Dim>::Zero()));
   // A cell at a wall counts whole or not at all, so up to half a cell may be missing per side.
   const double room =
       space.volume() * (static_cast<double>(reached.cells.size()) + 0.5 * static_cast<double>(reached.sides));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -6,6 +7,7 @@
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "motion/channel_end.h"
 
 namespace tailwater {
 namespace {
@@ -44,15 +46,32 @@ std::string nearest_label(const Boundary<Dim>& boundary, const std::vector<Openi
   return label;
 }
 
+/// Adds the lowest cells inside of the ends through which water comes in.
+template <int Dim>
+void add_cells_at_ends(const CaseSpec& spec, const CellSpace<Dim>& space,
+                       std::vector<typename CellSpace<Dim>::Cell>& cells) {
+  const double step = space.edge();
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+    if (end.largest_depth(spec.time.end) <= 0.0) continue;
+    const Vec<Dim> above_floor = end.low + 0.5 * std::min(step, end.height) * end.rise;
+    for (double aside = 0.5 * std::min(step, end.width); aside < end.width; aside += step) {
+      const auto inside = cell_inside(space, end.opening, Vec<Dim>(above_floor + aside * end.aside));
+      if (inside) cells.push_back(*inside);
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  if (gravity.isZero(0.0) || boundary.faces.empty() || fluid.all == 0) return {};
+  if (gravity.isZero(0.0) || boundary.faces.empty()) return {};
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
   const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), most_cells_of_case);
-  const Spread<Dim> reached = spread(space, cells_of<Dim>(space, fluid), Vec<Dim>(gravity.normalized()));
+  std::vector<typename CellSpace<Dim>::Cell> wet = cells_of<Dim>(space, fluid);
+  add_cells_at_ends(spec, space, wet);
+  const Spread<Dim> reached = spread(space, wet, Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return water_behind(boundary, reached);
   return {Finding::error("the water would pour out of the case at {}, near {}: close it there, or make it higher",
                          place(*reached.way_out), nearest_label(boundary, ends, *reached.way_out))};

@@ -1,5 +1,5 @@
-// What `check` says of holes in the floor, of profiles of inlets and the space they open into, and of the depth of wave
-// makers.
+// What `check` says of holes in the floor, of profiles of inlets and the space they open into, of water from them that
+// finds a way out, and of the depth of wave makers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -111,6 +111,28 @@ TEST(EndChecks, AnInletNeedsASpaceForItsWater) {
   spec.walls[0].points.back() = {0.5, 0.2};
   spec.walls.push_back(polyline({{0.3, 0.2}, {0.0, 0.2}}));
   EXPECT_EQ(errors_of(spec), "");
+}
+
+/// Two pieces of a channel's bed with a gap between them, dry at the start.
+TEST(EndChecks, WaterThatComesInMustNotPourOut) {
+  CaseSpec spec = empty_case(0.02);
+  spec.walls = {polyline({{0.0, 0.1}, {0.5, 0.0}}), polyline({{0.6, 0.0}, {1.0, 0.0}})};
+  spec.outlets = {outlet({1.0, 0.0}, {1.0, 0.5})};
+  spec.inlets = {inlet({0.0, 0.1}, {0.0, 0.6}, 0.1)};
+  EXPECT_NE(errors_of(spec).find("the water would pour out of the case at (0.51, 0.01)"), std::string::npos)
+      << errors_of(spec);
+  spec.walls[0].points.back() = {0.6, 0.0};
+  EXPECT_EQ(errors_of(spec), "");
+  CaseSpec from_beyond = spec;
+  from_beyond.inlets.clear();
+  from_beyond.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.4, 0.0}, {0.4, 0.6}}), polyline({{0.6, 0.0}, {1.0, 0.0}})};
+  from_beyond.walls[0].fluid_side = FluidSide::left;
+  from_beyond.fluid = {box_fluid({0.0, 0.0}, {0.4, 0.2})};
+  EXPECT_EQ(errors_of(from_beyond), "");
+  from_beyond.outlets[0].level = Varying{0.2};
+  EXPECT_NE(errors_of(from_beyond).find("the water would pour out of the case at (0.59, 0.01), near wall 'wall2'"),
+            std::string::npos)
+      << errors_of(from_beyond);
 }
 
 TEST(EndChecks, AWaveMakerWantsTheDepthOfItsWater) {
