@@ -100,7 +100,8 @@ def duration(seconds):
 
 def section(name, run):
     summary = run.summary
-    told = [f"- `{probe}`: {result['words']}" for probe, result in run.results.items()]
+    told = [textwrap.fill(f"- `{probe}`: {result['words']}", 120, subsequent_indent="  ", break_on_hyphens=False)
+            for probe, result in run.results.items()]
     particles = summary["particles"]
     coarse = " Shown is a run with twice the template's spacing." if run.path.name.endswith("-coarse") else ""
     return "\n".join([

@@ -27,21 +27,6 @@ std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec)
   return number;
 }
 
-/// s; without gravity a mean over all time since the start.
-template <int Dim>
-double smoothing_time(const Opening<Dim>& section, const CaseSpec& spec) {
-  const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  double upright = 0.0;  // m^2/s^2; gravity times the height
-  double widest = 0.0;
-  for (const Vec<Dim>& edge : section.edges) {
-    upright = std::max(upright, std::abs(edge.dot(gravity)));
-    widest = std::max(widest, edge.norm() * gravity.norm());
-  }
-  const bool lies_flat = upright < 1e-3 * widest;
-  const double celerity = std::sqrt(lies_flat ? widest : upright);
-  return celerity > 0.0 ? smoothing_over_spacing * spec.particles.spacing / celerity : spec.time.end;
-}
-
 /// The flux [m^Dim/s] of the water within two spacings of the section, at one moment.
 template <int Dim>
 double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
@@ -75,10 +60,25 @@ struct Memory {
 }  // namespace
 
 template <int Dim>
+double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec) {
+  const Opening<Dim> section = make_section<Dim>(probe, spec.particles.spacing);
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  double upright = 0.0;  // m^2/s^2; gravity times the height
+  double widest = 0.0;
+  for (const Vec<Dim>& edge : section.edges) {
+    upright = std::max(upright, std::abs(edge.dot(gravity)));
+    widest = std::max(widest, edge.norm() * gravity.norm());
+  }
+  const bool lies_flat = upright < 1e-3 * widest;
+  const double celerity = std::sqrt(lies_flat ? widest : upright);
+  return celerity > 0.0 ? smoothing_over_spacing * spec.particles.spacing / celerity : spec.time.end;
+}
+
+template <int Dim>
 Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
   const Opening<Dim> section = make_section<Dim>(probe, spec.particles.spacing);
   const std::size_t number = number_among_sections(probe, spec);
-  const double smoothing = smoothing_time(section, spec);
+  const double smoothing = discharge_smoothed_over<Dim>(probe, spec);
   Reading<Dim> reading;
   reading.columns = {"discharge_m3_per_s", "volume_m3"};
   reading.memory = std::make_shared<std::vector<double>>(Memory::at_start());
@@ -108,6 +108,7 @@ Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
   return reading;
 }
 
+TAILWATER_IN_2D_AND_3D(discharge_smoothed_over);
 TAILWATER_IN_2D_AND_3D(discharge_reading);
 
 }  // namespace tailwater

@@ -13,6 +13,11 @@
 
 namespace tailwater {
 
+/// The time T [s] over which the discharge of a probe is smoothed; without gravity the length of the run. Throws
+/// InputError as make_section does.
+template <int Dim>
+double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec);
+
 /// Columns discharge_m3_per_s and volume_m3; in 2D per metre of width. Throws InputError, which names the probe, for a
 /// section without extent, one that is not flat, or a direction that runs along it.
 template <int Dim>

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/probe_columns.h"
+#include "probes/discharge.h"
 #include "run/probe_table.h"
 
 namespace tailwater {
@@ -16,7 +17,18 @@ namespace {
 constexpr const char* second_half = "mean of the second half";
 
 /// What is told of a column.
-enum class Tell { mean, largest, last, range, rate, largest_rate, rise, least_of_last, largest_of_last };
+enum class Tell {
+  mean,
+  largest,
+  largest_discharge,
+  last,
+  range,
+  rate,
+  largest_rate,
+  rise,
+  least_of_last,
+  largest_of_last
+};
 
 struct Rule {
   const char* name;
@@ -55,7 +67,7 @@ std::vector<Rule> rules_of(ProbeType type) {
               {"volume out", "out", "volume_out_m3", Tell::last}};
     case ProbeType::discharge:
       return {{"discharge", "", "volume_m3", Tell::rate},
-              {"largest discharge", "largest", "discharge_m3_per_s", Tell::largest}};
+              {"largest discharge", "largest", "discharge_m3_per_s", Tell::largest_discharge}};
     case ProbeType::force:
       return {{"force x", "x", "force_x", Tell::mean},
               {"force y", "y", "force_y", Tell::mean},
@@ -95,8 +107,8 @@ std::string per_second(std::string unit) {
 }
 
 Quantity quantity_of(const Rule& rule, const std::string& name, const ColumnDigest& column, const TableDigest& table,
-                     int dimension) {
-  const std::string unit = unit_of_column(name, dimension);
+                     const ProbeTable& probe, const CaseSpec& spec) {
+  const std::string unit = unit_of_column(name, spec.general.dimension);
   const auto at = [](double time) { return fmt::format("at {:.4g} s", time); };
   const auto quantity = [&](double value, const std::string& in, const std::string& what) {
     return Quantity{.name = rule.name, .label = rule.label, .value = value, .unit = in, .what = what};
@@ -112,6 +124,12 @@ Quantity quantity_of(const Rule& rule, const std::string& name, const ColumnDige
       return quantity(column.rise, "s", "from a tenth of it");
     case Tell::largest:
       return quantity(column.largest, unit, at(column.time_of_largest));
+    case Tell::largest_discharge: {
+      const double over = spec.general.dimension == 2 ? discharge_smoothed_over<2>(probe, spec)
+                                                      : discharge_smoothed_over<3>(probe, spec);
+      return quantity(column.largest, unit,
+                      fmt::format("{}, smoothed over {:.2g} s", at(column.time_of_largest), over));
+    }
     case Tell::range: {
       Quantity range = quantity(column.least, unit, "least and largest");
       range.to = column.largest;
@@ -164,7 +182,7 @@ std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& fo
       if (column == table.names.end()) continue;
       const ColumnDigest& digest = table.columns[static_cast<std::size_t>(column - table.names.begin())];
       const bool is_told = digest.count > 0 && (rule.tell != Tell::rise || digest.rise > 0.0);
-      if (is_told) result.quantities.push_back(quantity_of(rule, *column, digest, table, spec.general.dimension));
+      if (is_told) result.quantities.push_back(quantity_of(rule, *column, digest, table, probe, spec));
     }
     if (!result.quantities.empty()) results.push_back(std::move(result));
   }
