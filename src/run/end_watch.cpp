@@ -1,5 +1,7 @@
 #include "run/end_watch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -32,8 +34,8 @@ void EndWatch::look(const Flow<Dim>& flow) {
     if (state.miss.since >= 0.0 && is_first(label + ": level")) {
       warn(
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
-          "spacing of {:.3g} m; water_balance in summary.json tells how long. Remedy: a wider or deeper opening, or "
-          "levels and discharges that change more slowly",
+          "spacing of {:.3g} m; the end of the run tells how long. Remedy: a wider or deeper opening, or levels and "
+          "discharges that change more slowly",
           label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing);
     }
     if (!end.flow.feeds() || end.circuit >= 0) continue;
@@ -48,11 +50,26 @@ void EndWatch::look(const Flow<Dim>& flow) {
   }
 }
 
+template <int Dim>
+void EndWatch::warn_of_end(const Flow<Dim>& flow) const {
+  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
+    const LevelMiss& miss = flow.state.open_ends[e].miss;
+    if (miss.since < 0.0) continue;
+    const std::string now =
+        miss.lasts > 0.0 ? fmt::format("still {:.3g} m too {}", std::abs(miss.mean), miss.mean < 0.0 ? "low" : "high")
+                         : "within a spacing again";
+    warn("at t = {:.4g} s the level at {}, not held for {:.3g} s and off by {:.3g} m at the most, is {}",
+         flow.state.time, flow.setup.open_ends[e].opening.label(), miss.total, std::abs(miss.most), now);
+  }
+}
+
 Json EndWatch::saved() const { return told_; }
 
 void EndWatch::restore(const Json& saved) { saved.get_to(told_); }
 
 template void EndWatch::look(const Flow<2>&);
 template void EndWatch::look(const Flow<3>&);
+template void EndWatch::warn_of_end(const Flow<2>&) const;
+template void EndWatch::warn_of_end(const Flow<3>&) const;
 
 }  // namespace tailwater

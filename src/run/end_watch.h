@@ -15,6 +15,9 @@ class EndWatch {
   /// step; only the root's warnings are seen.
   template <int Dim>
   void look(const Flow<Dim>& flow);
+  /// Warns again of levels that were not held: for how long, and whether they are now. Call at the end of the run.
+  template <int Dim>
+  void warn_of_end(const Flow<Dim>& flow) const;
 
   /// What has been warned of, for a checkpoint, and from one.
   Json saved() const;

@@ -282,6 +282,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   probes_.write_maps(folder_, flow.state.time, ranks_);
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   limits_.warn_of_largest();
+  end_watch_.warn_of_end(flow);
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
   tell_results();
@@ -290,6 +291,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
 template <int Dim>
 void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, ExitCode code, const std::string& message) {
   limits_.warn_of_largest();
+  end_watch_.warn_of_end(flow);
   try {
     write_summary(flow, "failed", code, message);
   } catch (const IoError&) {
