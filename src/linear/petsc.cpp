@@ -64,7 +64,7 @@ void end_petsc() {
 }
 
 std::string petsc_version() {
-  if (library == nullptr) return "PETSc not loaded";
+  if (library == nullptr) return "";
   std::array<PetscInt, 3> number{};
   check_petsc(PetscGetVersionNumber(&number[0], &number[1], &number[2], nullptr));
   return fmt::format("PETSc {}", fmt::join(number, "."));

@@ -16,7 +16,7 @@ void need_petsc();
 /// Ends it where it was started.
 void end_petsc();
 
-/// Of the library: "PETSc 3.18.5", or that none is loaded.
+/// Of the library: "PETSc 3.18.5"; empty if none is loaded.
 std::string petsc_version();
 
 /// The address of a function of PETSc's, which must be loaded.

@@ -82,8 +82,9 @@ std::string linear_library_version() {
   int length = 0;
   MPI_Get_library_version(mpi, &length);
   const std::string_view name(mpi, static_cast<std::size_t>(length));
+  const std::string petsc = petsc_version();
   // The rest tells how MPI was built.
-  return fmt::format("{}, {}", petsc_version(), name.substr(0, name.find_first_of(",\n")));
+  return fmt::format("{}{}{}", petsc, petsc.empty() ? "" : ", ", name.substr(0, name.find_first_of(",\n")));
 }
 
 }  // namespace tailwater

@@ -17,7 +17,7 @@ class LinearSession {
   bool has_started_mpi_ = false;
 };
 
-/// "PETSc 3.18.5, Open MPI v4.1.4", for the run's summary; "PETSc not loaded" if no system has needed it.
+/// "PETSc 3.18.5, Open MPI v4.1.4", for the run's summary; without PETSc if no system has needed it.
 std::string linear_library_version();
 
 }  // namespace tailwater
