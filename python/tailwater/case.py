@@ -81,15 +81,17 @@ class Case:
         case = Case.template("weir")
         case["parameters.q"] = 0.06
         case["parameters.q"]          # 0.06; of a key that the case does not give, the default, None if there is none
+        del case["probe.downstream"]  # a table that has a name or a number, or all of "probe"
         run = case.run("out")
 
-    Throws InputError for a key that no case has, and for a parameter that this one has not; whether values are good is for
-    `check` and `run` to say."""
+    Throws InputError for a key that no case has, for a parameter or a table that this one has not; whether values are good
+    is for `check` and `run` to say."""
 
     def __init__(self, file):
         """The case in a file. Throws IoError if it cannot be read, InputError if it is not TOML."""
         self.file = Path(file)
-        self.changes = {}
+        self.changes = {}  # what the command line is told
+        self._edits = []  # what the text of the case is told: (key, value), or (key, None) of a table that is deleted
         self._folder = None  # of a template; kept as long as a case refers to it
         try:
             self._text = self.file.read_text(encoding="utf-8")
@@ -123,7 +125,7 @@ class Case:
     def copy(self) -> "Case":
         """Another with the same values, whose changes are its own."""
         other = object.__new__(Case)
-        other.__dict__ = {**self.__dict__, "changes": dict(self.changes)}
+        other.__dict__ = {**self.__dict__, "changes": dict(self.changes), "_edits": [*self._edits]}
         return other
 
     def __getitem__(self, key: str):
@@ -150,7 +152,21 @@ class Case:
             self._data = case_text.put(self._data, steps, value)
         except (KeyError, IndexError, TypeError) as error:
             raise InputError(f"{key}: the case has no {error}") from error
+        self.changes.pop(key, None)  # the last change is told last
         self.changes[key] = value
+        self._edits.append((key, value))
+
+    def __delitem__(self, key: str):
+        steps = case_text.steps_of_table(key)
+        try:
+            self._data = case_text.without(self._data, steps)
+        except (KeyError, IndexError, TypeError) as error:
+            raise InputError(f"{key}: the case has no {error}") from error
+        # A command line can only give all tables of a name anew.
+        table = steps[0]
+        self.changes = {other: value for other, value in self.changes.items() if case_text.table_of(other) != table}
+        self.changes[table] = self._data[table]
+        self._edits.append((key, None))
 
     def update(self, values: dict) -> "Case":
         """Sets each of the keys; returns the case."""
@@ -174,15 +190,15 @@ class Case:
 
     def words(self, without=()) -> list:
         """The case as words of a command line: its file and its changes, but of keys `without` change."""
-        changes = [f"{key}={case_text.toml_value(value)}" for key, value in self.changes.items() if key not in without]
+        changes = [f"{key}={case_text.inline(value)}" for key, value in self.changes.items() if key not in without]
         return [str(self.file), *(word for change in changes for word in ("--set", change))]
 
     def save(self, file) -> "Case":
         """Writes the case with its changes, its comments kept, and beside it the files that it reads, if it goes to
         another folder. Returns the saved case. Throws InputError where a file would take the place of another."""
         file, text = Path(file), self._text
-        for key, value in self.changes.items():
-            text = case_text.changed_text(text, key, value)
+        for key, value in self._edits:
+            text = case_text.text_without(text, key) if value is None else case_text.changed_text(text, key, value)
         read = [] if file.parent.resolve() == self.file.parent.resolve() else self._files_read()
         for source in read:
             target = file.parent / source.relative_to(self.file.parent)

@@ -8,7 +8,8 @@ import tomllib
 
 from .errors import InputError
 
-__all__ = ["changed_text", "find", "put", "steps_of", "toml_value"]
+__all__ = ["changed_text", "find", "inline", "put", "steps_of", "steps_of_table", "table_of", "text_without", "toml_value",
+           "without"]
 
 STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
@@ -19,6 +20,19 @@ def steps_of(key: str) -> list:
         raise InputError(f'"{key}" is not a key of a case; write it as in "particles.spacing", "fluid[0].max" or '
                          '"probe.NAME.interval"')
     return [int(index) if index else name for name, index in STEP.findall(key)]
+
+
+def steps_of_table(key: str) -> list:
+    """"probe.upstream" as ["probe", "upstream"], "probe[0]" as ["probe", 0], "probe" as ["probe"]. Throws InputError for
+    what is no table."""
+    if not re.fullmatch(r"[^.\[\]]+(\[\d+\]|\.[^.\[\]]+)?", key):
+        raise InputError(f'"{key}" is no table that can be deleted; write it as in "probe.NAME", "probe[0]" or "probe"')
+    return [int(index) if index else name for name, index in STEP.findall(key)]
+
+
+def table_of(key: str) -> str:
+    """Of both kinds of keys, the name of the table."""
+    return STEP.match(key)[0]
 
 
 def plain(value):
@@ -40,6 +54,15 @@ def toml_value(value) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     raise InputError(f"{value!r}: a case has numbers, texts, true and false, and lists of them")
+
+
+def inline(value) -> str:
+    """The same, also of tables and lists of tables."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {inline(each)}" for key, each in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(inline, value)) + "]"
+    return toml_value(value)
 
 
 def child(node, step, above):
@@ -74,6 +97,48 @@ def put(data: dict, steps: list, value) -> dict:
     return changed
 
 
+def without(data: dict, steps: list) -> dict:
+    """The case without a table, or without all of a name. Throws KeyError or IndexError if there is none, TypeError where
+    tables have neither numbers nor names."""
+    tables = data[steps[0]]
+    if not isinstance(tables, list):
+        raise TypeError(f'list of tables "{steps[0]}"')
+    gone = tables if len(steps) == 1 else [find(data, steps)]
+    return {**data, steps[0]: [table for table in tables if not any(table is each for each in gone)]}
+
+
+def text_without(text: str, key: str) -> str:
+    """The text of a case file without a table, and the comment above it. Throws InputError as changed_text does."""
+    steps = steps_of_table(key)
+    data = tomllib.loads(text)
+    wanted = without(data, steps)
+    lines = text.splitlines(keepends=True)
+    for k in reversed(range(len(data[steps[0]]))):
+        if len(steps) == 2 and data[steps[0]][k] is not find(data, steps):
+            continue
+        first, last = lines_of_table(lines, data, [steps[0], k])
+        if first is not None:
+            lines[comments_begin(lines, first - 1):comments_begin(lines, last) if last < len(lines) else last] = []
+    return checked_text(key, "".join(lines), {name: tables for name, tables in wanted.items() if tables != []})
+
+
+def comments_begin(lines, k):
+    """The first of the lines of comments that end above line k; k if there is none."""
+    while k > 0 and lines[k - 1].lstrip().startswith("#"):
+        k -= 1
+    return k
+
+
+def checked_text(key, changed, wanted):
+    """The changed text, if it has what is wanted: it may not where a value or table does not stand in lines of its own."""
+    try:
+        if tomllib.loads(changed) == wanted:
+            return changed
+    except tomllib.TOMLDecodeError:
+        pass
+    raise InputError(f"{key}: cannot be changed in the text of the case; remedy: change the file by hand")
+
+
 def changed_text(text: str, key: str, value) -> str:
     """The text of a case file with a value put in the place of another, or in a line of its own. Throws InputError
     where the text is written so that this would change more."""
@@ -84,13 +149,7 @@ def changed_text(text: str, key: str, value) -> str:
     while isinstance(steps[-1], int):
         steps = steps[:-1]
     written = toml_value(find(wanted, steps))
-    changed = with_line(text, data, steps, written)
-    try:
-        if tomllib.loads(changed) == wanted:
-            return changed
-    except tomllib.TOMLDecodeError:
-        pass  # as for any text in which the value does not stand in a line of its own
-    raise InputError(f"{key}: cannot be changed in the text of the case; remedy: change the file by hand")
+    return checked_text(key, with_line(text, data, steps, written), wanted)
 
 
 def with_line(text, data, steps, written):

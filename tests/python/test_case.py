@@ -26,6 +26,33 @@ class Keys(PackageTest):
         self.assertEqual((other["parameters.H"], other["fluid[0].max"]), (0.6, [2, "H"]))
         self.assertEqual((self.case["parameters.H"], self.case["fluid[0].max"]), (0.5, [1, "H"]))
 
+    def test_a_table_is_deleted_by_name_and_by_number(self):
+        self.case["probe.depth.at"] = [0.5, 0]
+        other = self.case.copy()
+        del other["probe.depth"]
+        self.assertNotIn("probe.depth.at", other)
+        self.assertIn("there are no probes", other.explain())
+        self.assertEqual(self.case["probe.depth.at"], [0.5, 0])
+        other["fluid[0].max"] = [0.5, "H"]
+        del other["wall[0]"]
+        self.assertIn("25 particles", other.explain())
+        for key, hint in (("probe.depth", "the case has no"), ("probe[0]", "the case has no"), ("parameters.H", "the case has no"),
+                          ("tables", "the case has no"), ("fluid[0].max", "no table that can be deleted")):
+            with self.assertRaisesRegex(tw.InputError, hint, msg=key):
+                del other[key]
+
+    def test_changes_after_a_table_is_deleted_count(self):
+        text = DAM + '[[probe]]\nname = "second"\ntype = "depth"\nat = [0.1, 0]\n'
+        case = tw.Case(self.write("two.toml", text))
+        case["probe[0].at"] = [0.2, 0]
+        case["probe.second.at"] = [0.3, 0]
+        del case["probe.depth"]
+        case["probe[0].at"] = [0.4, 0]
+        (probe,) = case.run("out").case["probe"]
+        self.assertEqual((probe["name"], probe["at"]), ("second", [0.4, 0]))
+        saved = case.save("saved.toml")
+        self.assertEqual((saved["probe[0].name"], saved["probe[0].at"]), ("second", [0.4, 0]))
+
     def test_key_that_no_case_has_is_refused_at_once(self):
         for key, hint in (("particles.spacin", 'did you mean "spacing"?'),
                           ("particle.spacing", 'did you mean "particles"?'), ("fluid[7].max", "the case has no"),
@@ -68,6 +95,16 @@ class Text(PackageTest):
         for key, value in changes.items():
             expected = case_text.put(expected, case_text.steps_of(key), value)
         self.assertEqual(tomllib.loads(text), expected)
+
+    def test_a_saved_case_is_without_deleted_tables_and_their_comments(self):
+        begin, end = "[case]\ntitle = 'x'\n", "# The end\n[time]\nend = 1\n"
+        one, two = "# One\n# probe\n[[probe]]\nat = [0, 0]  # here\n", "# Two\n[[probe]]\nat = [1, 0]\n"
+        for key, left in (("probe[0]", two), ("probe[1]", one), ("probe.probe1", two), ("probe", "")):
+            self.assertEqual(case_text.text_without(begin + one + two + end, key), begin + left + end, key)
+            spaced = case_text.text_without("\n".join((begin, one, two, end)), key)
+            self.assertEqual([line for line in spaced.split("\n") if line], (begin + left + end).split("\n")[:-1], key)
+        with self.assertRaisesRegex(tw.InputError, "cannot be changed in the text"):
+            case_text.text_without("probe = [{at = [0, 0]}]\n", "probe[0]")
 
     def test_tells_what_the_case_says_itself(self):
         case = tw.Case(self.write("dam.toml", DAM))
