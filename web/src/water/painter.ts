@@ -67,13 +67,11 @@ export class Painter {
   }
 
   private measure(): void {
-    const { eye, cells } = this.view;
+    const { beside, eye, cells } = this.view;
     const cell = cells[0];
     this.scale.hidden = !eye || !cell;
     if (!eye || !cell) return;
-    const last = cells.at(-1)!;
-    const free = last.x + last.width; // where a row of pictures has room for the legend
-    const left = cells.length > 1 && free + 430 < Math.max(...cells.map((one) => one.x + one.width)) ? `${free + 14}px` : "";
+    const left = beside === null ? "" : `${beside + 14}px`;
     const holder = this.scale.parentElement!;
     if (holder.style.getPropertyValue("--free") !== left) holder.style.setProperty("--free", left);
     const metres = niceBelow((eye.span / cell.height) * Math.min(180, cell.width * 0.3));

@@ -5,6 +5,9 @@ import { Eye } from "./eye.ts";
 import type { Effort } from "./pace.ts";
 import type { Stage } from "./stage.ts";
 
+/** CSS pixels. */
+const legendAndScale = 430;
+
 export interface Cell {
   stages: Stage[];
   /** In the canvas, CSS pixels from its upper left corner. */
@@ -28,6 +31,8 @@ export class WaterView {
   readonly renderer: WebGLRenderer;
   eye: Eye | null = null;
   cells: Cell[] = [];
+  /** Where the last row of pictures ends and leaves room for legend and scale, CSS pixels; null: it leaves none. */
+  beside: number | null = null;
   /** The moment that is shown, s. */
   time = 0;
   /** The browser draws without a graphics card. */
@@ -104,7 +109,7 @@ export class WaterView {
     const boxes = this.stages.map((stage) => stage.bounds());
     const min = boxes[0]!.min.map((_, d) => Math.min(...boxes.map((b) => b.min[d]!)));
     const max = boxes[0]!.max.map((_, d) => Math.max(...boxes.map((b) => b.max[d]!)));
-    const below = this.cells.length === 1 ? Math.min(0.3, 86 / this.size.height) : 0; // pixels of the legend
+    const below = this.cells.length === 1 ? this.strip / this.size.height : 0;
     this.eye.fit(min, max, this.aspect, below);
     this.untouched = true;
   }
@@ -114,13 +119,22 @@ export class WaterView {
     const n = this.over ? 1 : Math.max(1, this.stages.length);
     const columns = bestColumns(n, width / height, this.shape());
     const rows = Math.ceil(n / columns);
+    const filled = ((n - 1) % columns) + 1; // of the last row
+    const room = width * (1 - filled / columns);
+    this.beside = room > legendAndScale ? width - room : null;
+    const high = n > 1 && this.beside === null ? height - this.strip : height;
     this.cells = Array.from({ length: n }, (_, i) => ({
       stages: this.over ? this.stages : this.stages.slice(i, i + 1),
       x: (i % columns) * (width / columns),
-      y: Math.floor(i / columns) * (height / rows),
+      y: Math.floor(i / columns) * (high / rows),
       width: width / columns,
-      height: height / rows,
+      height: high / rows,
     }));
+  }
+
+  /** What stays free for the legend below one picture, and below several where it has no room beside them, CSS pixels. */
+  private get strip(): number {
+    return Math.min(86, 0.3 * this.size.height);
   }
 
   /** Width over height of what there is to see. */

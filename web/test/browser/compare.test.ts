@@ -28,6 +28,7 @@ test("two runs side by side and one over the other: same time, same camera, thei
     await until(view, "app.player.time === 0 && app.limits?.[1] > 0.1");
     await view.evaluate("tailwater.player.seek(1)");
     assert.deepEqual(await view.$$eval(".run-name", (all) => all.map((e) => e.textContent)), ["coarse", "fine"]);
+    assert.ok(await view.evaluate("tailwater.view.cells.every((cell) => cell.y + cell.height <= document.querySelector('.legend').offsetTop)"), "the legend covers no picture");
     await view.keyboard.press("r");
     await view.waitForSelector(".segmented button");
     await (await view.$$(".segmented button"))[1]!.click();
