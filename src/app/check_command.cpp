@@ -68,8 +68,9 @@ std::string text_of_case(const std::filesystem::path& path) {
 
 void print_as_json(const CheckOptions& options) {
   const std::string origin = options.case_file == "-" ? "case" : options.case_file.string();
+  const std::filesystem::path folder = options.case_file.parent_path();  // of "-" none: the working folder
   const TrialSteps trial = options.takes_trial_steps ? TrialSteps::some : TrialSteps::none;
-  fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, options.overrides, trial)
+  fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, folder, options.overrides, trial)
                          .dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -191,12 +191,12 @@ void check_what_can_be(const CaseSpec& spec, const CaseText& of, TrialSteps tria
 
 }  // namespace
 
-Json check_as_json(const std::string& text, const std::string& origin, const std::vector<std::string>& overrides,
-                   TrialSteps trial) {
+Json check_as_json(const std::string& text, const std::string& origin, const std::filesystem::path& folder,
+                   const std::vector<std::string>& overrides, TrialSteps trial) {
   Json answer{{"findings", Json::array()}, {"drawing", nullptr}, {"summary", Json::array()}, {"cost", nullptr}};
   const CaseText of{text, origin};
   try {
-    const CaseSpec spec = read_case_text(text, origin, overrides);
+    const CaseSpec spec = read_case_text(text, origin, overrides, folder);
     if (spec.general.dimension == 2) {
       check_what_can_be<2>(spec, of, trial, answer);
     } else {

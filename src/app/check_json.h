@@ -1,6 +1,7 @@
 // What `tailwater check --json` tells: of a case while somebody writes it.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,9 @@ namespace tailwater {
 enum class TrialSteps { none, some };
 
 /// What is wrong with the text of a case, what it looks like, and how large it is: {findings, drawing, summary, cost}
-/// (docs/reference/view.md). `origin` is what messages call the text; files that it names are relative to the working
-/// folder. Throws only what is not the fault of the case.
-Json check_as_json(const std::string& text, const std::string& origin, const std::vector<std::string>& overrides = {},
-                   TrialSteps trial = TrialSteps::none);
+/// (docs/reference/view.md). `origin` is what messages call the text; files that it names are relative to `folder`.
+/// Throws only what is not the fault of the case.
+Json check_as_json(const std::string& text, const std::string& origin, const std::filesystem::path& folder,
+                   const std::vector<std::string>& overrides, TrialSteps trial);
 
 }  // namespace tailwater

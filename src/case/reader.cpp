@@ -280,8 +280,9 @@ CaseSpec read_effective_case(const std::filesystem::path& path, const std::vecto
   return read_case_in(path.parent_path(), read_case_file(path, largest_effective_case), path.string(), overrides);
 }
 
-CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides) {
-  return read_case_in({}, text, origin, overrides);
+CaseSpec read_case_text(std::string_view text, const std::string& origin, const std::vector<std::string>& overrides,
+                        const std::filesystem::path& folder) {
+  return read_case_in(folder, text, origin, overrides);
 }
 
 }  // namespace tailwater

@@ -23,9 +23,9 @@ CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::str
 /// The same for the case that a run has left in its folder, which may be longer than what its user wrote.
 CaseSpec read_effective_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
-/// The same for the text of a case file; `origin` is what messages call it. Files that it names are relative to the
-/// working folder.
+/// The same for the text of a case file; `origin` is what messages call it. Files that it names are relative to
+/// `folder`, by default the working folder.
 CaseSpec read_case_text(std::string_view text, const std::string& origin,
-                        const std::vector<std::string>& overrides = {});
+                        const std::vector<std::string>& overrides = {}, const std::filesystem::path& folder = {});
 
 }  // namespace tailwater

@@ -166,6 +166,10 @@ class Checks(PackageTest):
         self.assertFalse(case.check())
         self.assertIn("'depth'", case.check().findings[0]["message"])
 
+    def test_files_are_beside_the_case_wherever_it_is_checked(self):
+        check = tw.Case.template("river-reach").check()  # it reads its bed
+        self.assertTrue(check, check.findings)
+
     def test_explain_is_sentences(self):
         self.assertIn("50 particles", tw.Case(self.write("dam.toml", DAM)).explain())
 
