@@ -278,9 +278,11 @@ TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
 }
 
 // A box comes down on a film of two rows and dams the water that comes in, until it floats on what has run over it.
-// Until then it hovers where a row of particles has just no room. At 4.6 s its bottom is on the way to where the
-// draught of 0.1 m has it, (0.278 + 0.04)/1.2 - 0.1 = 0.165 m above the bed. Water that it squeezed would be too dense
-// by 10 % and more.
+// Until then it hovers where a row of particles has just no room. When it comes off is chance: at 3.5 to 4.6 s in nine
+// starts (on the lattice, and with jitter 0.001 and 0.1 dx). From then on it heaves with a period of 1 s about its
+// draught of 0.1 m. Its mean over the last such period is that of Archimedes but for a spacing: in those starts it was
+// 0.009 to 0.0125 m lower, ever less as the waves die out. A box that lies on its film would be 0.2 m lower, and water
+// that it squeezed too dense by 10 % and more.
 TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
   constexpr double dx = 0.02;
   CaseSpec spec = tank_case<2>(dx, 1.2, 0.3);
@@ -292,14 +294,21 @@ TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
   start(flow);
   const BodyState<2>& body = flow.state.motion.bodies.each[0];
   const auto bottom = [&] { return body.centre[1] - 0.1; };
+  const auto bottom_at_rest = [&] { return (1.2 * 2.0 * dx + 0.05 * flow.state.time + 0.4 * 0.1) / 1.2 - 0.1; };
   double lowest = dx;
-  while (flow.state.time < 4.6) {
+  double duration = 0.0;
+  double sum = 0.0;
+  while (flow.state.time < 6.4) {
+    const double before = flow.state.time;
     pass_and_step(flow);
     lowest = std::min(lowest, bottom());
     ASSERT_GT(bottom(), -1e-9) << "t = " << flow.state.time;
+    if (before < 5.4) continue;
+    duration += flow.state.time - before;
+    sum += (flow.state.time - before) * (bottom() - bottom_at_rest());
   }
   EXPECT_LT(lowest, 1e-9);
-  EXPECT_GT(bottom(), 2.5 * dx);
+  EXPECT_NEAR(sum / duration, 0.0, dx);
   EXPECT_NEAR(measure(flow).density_error_mean, 0.0, 0.02);
 }
 
