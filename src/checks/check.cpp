@@ -34,6 +34,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_moorings(spec, boundary));
   append(findings, check_air_places(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));
+  if (!has_error(findings)) append(findings, check_hanging_water(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));
   if (!has_error(findings)) append(findings, check_probes(spec, boundary, fluid));
   // Both faces of a plate, for one, say the same.

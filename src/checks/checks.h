@@ -79,6 +79,10 @@ Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary,
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
+/// Warning: water below a wall that stands higher than its own surface, as in a siphon, and no open end may press it up.
+template <int Dim>
+Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
 /// Error: water that enters, or a body, faster than water can be and count as incompressible.
 template <int Dim>
 Findings check_speeds(const CaseSpec& spec);

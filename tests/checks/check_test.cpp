@@ -208,6 +208,31 @@ TEST(Check, SlantedWallsAreTight) {
   }
 }
 
+/// Two basins beside a wall 0.6 m high, and over it a hood that reaches down into both, filled.
+TEST(Check, ASiphonThatWouldRunEmpty) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 1}, {0, 0}, {0.6, 0}, {0.6, 0.6}, {0.9, 0.6}, {0.9, 0}, {1.5, 0}, {1.5, 1}})};
+  WallTable hood;
+  hood.name = "hood";
+  hood.shape = WallShape::plate;
+  hood.points = {{0.3, 0.3}, {0.3, 0.9}, {1.2, 0.9}, {1.2, 0.3}};
+  spec.walls.push_back(hood);
+  const auto basins = {box_fluid({0, 0}, {0.3, 0.5}), box_fluid({1.2, 0}, {1.5, 0.4})};
+  spec.fluid = basins;
+  for (const auto& inside :
+       {box_fluid({0.3, 0}, {0.6, 0.9}), box_fluid({0.6, 0.6}, {0.9, 0.9}), box_fluid({0.9, 0}, {1.2, 0.9})}) {
+    spec.fluid.push_back(inside);
+  }
+  expect_only(check(spec), Severity::warning, {"below wall 'hood'", "0.4 m above its own surface", "siphon"});
+  spec.air.pockets = AirPockets::adiabatic;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.air.pockets = AirPockets::none;
+  spec.fluid = basins;
+  spec.fluid.push_back(box_fluid({0.3, 0}, {0.6, 0.5}));
+  spec.fluid.push_back(box_fluid({0.9, 0}, {1.2, 0.4}));
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, WaterThatPoursOutIn3D) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
