@@ -162,11 +162,16 @@ void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
 template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs) {
   RunEstimate estimate;
-  const std::size_t fluid =
-      count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
-  estimate.particles = {static_cast<double>(fluid), static_cast<double>(flow.walls.all)};
-  const double of_a_particle = power<Dim>(spec.particles.spacing);
-  const WaterEstimate water = estimate_water(spec, flow.walls.boundary, estimate.particles.fluid * of_a_particle);
+  estimate.particles.wall = static_cast<double>(flow.walls.all);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i)) continue;
+    estimate.particles.fluid += 1.0;
+    estimate.water += flow.state.particles.volume[i];
+  }
+  // Beside walls that no lattice fits, cells are smaller or larger than dx.
+  const double of_a_particle =
+      estimate.particles.fluid > 0.0 ? estimate.water / estimate.particles.fluid : power<Dim>(spec.particles.spacing);
+  const WaterEstimate water = estimate_water(spec, flow.walls.boundary, estimate.water);
   estimate.largest_fluid = water.largest / of_a_particle;
   const double neighbours = neighbours_in_support<Dim>(traits_of(spec).support);
   estimate.memory = memory_estimate<Dim>({estimate.largest_fluid, estimate.particles.wall}, neighbours);

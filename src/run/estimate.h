@@ -26,6 +26,7 @@ Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, doubl
 
 struct RunEstimate {
   ParticleCount particles;     ///< at the start
+  double water = 0.0;          ///< m^Dim; at the start
   double largest_fluid = 0.0;  ///< most fluid particles, with what comes in
   double memory = 0.0;         ///< bytes
   double steps = 0.0;          ///< to the end, if speeds stay near those of free fall through the fluid's height

@@ -44,9 +44,8 @@ std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
   for (const FluidTable& fluid : spec.fluid) ++shapes[name_of(fluid.shape)];
   std::vector<std::string> kinds;
   for (const auto& [shape, count] : shapes) kinds.push_back(plural(count, shape));
-  const double volume = estimate.particles.fluid * std::pow(dx, spec.general.dimension);
   return fmt::format("At the start there are {:.4g} m^3 of water{} ({:.4g} kg), in {}: {} particles, {:.4g} m apart.",
-                     volume, per_width(spec), volume * spec.physics.density, listed(kinds),
+                     estimate.water, per_width(spec), estimate.water * spec.physics.density, listed(kinds),
                      fmt::format("{:.0f}", estimate.particles.fluid), dx);
 }
 

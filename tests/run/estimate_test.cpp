@@ -87,6 +87,19 @@ TEST(EstimateRun, CountsWhatThereIs) {
   EXPECT_GT(estimate.seconds, 0.0);
 }
 
+TEST(EstimateRun, WaterIsThatOfTheCaseWhereNoLatticeFitsIt) {
+  // Three rows for a depth of 0.27 m, each 0.09 m high.
+  const CaseSpec spec = read_case_text(
+      "particles.spacing = 0.1\ntime.end = 1\n[[fluid]]\nmin = [0, 0]\nmax = [1, 0.27]\n[[wall]]\n"
+      "points = [[0, 1], [0, 0], [1, 0], [1, 1]]\n",
+      "case.toml");
+  Flow<2> flow = make_flow<2>(spec);
+  const RunEstimate estimate = estimate_run(spec, flow);
+  EXPECT_EQ(estimate.particles.fluid, 30.0);
+  EXPECT_NEAR(estimate.water, 0.27, 1e-12);
+  EXPECT_NEAR(estimate.largest_fluid, 30.0, 1e-9);
+}
+
 TEST(EstimateRun, TriesATankInPlaceOfALargeCase) {
   CaseSpec spec = pond_case<2>();
   Flow<2> tried = make_flow<2>(spec);

@@ -17,8 +17,12 @@ std::vector<std::string> sentences_of(const std::string& more, double fluid = 20
       "[[wall]]\nname = \"tank\"\npoints = [[0, 1], [0, 0], [1, 0], [1, 1]]\nslip = \"no-slip\"\nroughness = 0.001\n" +
           more,
       "case.toml");
-  return explain_case(
-      spec, {.particles = {fluid, 300.0}, .largest_fluid = fluid, .memory = 5e7, .steps = 640.0, .seconds = 3.0});
+  return explain_case(spec, {.particles = {fluid, 300.0},
+                             .water = 0.48,
+                             .largest_fluid = fluid,
+                             .memory = 5e7,
+                             .steps = 640.0,
+                             .seconds = 3.0});
 }
 
 bool tells(const std::vector<std::string>& sentences, const std::string& text) {
@@ -29,7 +33,7 @@ TEST(ExplainCase, TellsWaterWallsMeasurementsAndCost) {
   const std::vector<std::string> sentences = sentences_of("[[probe]]\nname = \"a\"\ntype = \"depth\"\nat = [0.5, 0]\n");
   EXPECT_EQ(sentences.front(), "\"A basin\" is a case in two dimensions.");
   for (const char* text :
-       {"there are 0.5 m^3 of water per metre of width (500 kg), in 1 box: 200 particles, 0.05 m apart",
+       {"there are 0.48 m^3 of water per metre of width (480 kg), in 1 box: 200 particles, 0.05 m apart",
         "Walls are 'tank' (polyline of 4 points, rough).", "Gravity is 9.81 m/s^2", "Measured are depth ('a').",
         "The scheme is farzin2014 (robust, explicit",
         "It ends at 10 s: about 640 steps, 3 s on one core of this machine and 50 MB"}) {
