@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "formulations/make_flow.h"
 #include "probes/discharge.h"
@@ -67,6 +68,36 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
   const double counted = (flow.state.section_volumes[0] - first_volume) / (flow.state.time - first_time);
   EXPECT_NEAR(counted, speed * depth, 0.02 * speed * depth);
   EXPECT_NEAR(mean, counted, 0.02 * counted);
+}
+
+/// Water that glides round and round in a period of 1 m; a section as high as the water at each end, and between them.
+TEST(Discharge, IsTheSameAtBothEndsOfAPeriodAndBetweenThem) {
+  CaseSpec spec = free_case(0.05);
+  spec.domain.periodic_x = {0.0, 1.0};
+  for (const double y : {0.0, 0.3}) {
+    WallTable plate;
+    plate.points = {{y == 0.0 ? 0.0 : 1.0, y}, {y == 0.0 ? 1.0 : 0.0, y}};
+    spec.walls.push_back(plate);
+  }
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {1.0, 0.3};
+  water.velocity = {1.0, 0.0};
+  spec.fluid = {water};
+  for (const double x : {0.0, 0.52, 1.0}) {
+    ProbeTable section;
+    section.name = "at " + std::to_string(x);
+    section.type = ProbeType::discharge;
+    section.from = {x, 0.0};
+    section.to = {x, 0.3};
+    section.direction = {1.0, 0.0};
+    spec.probes.push_back(section);
+  }
+  Flow<2> flow = make_flow<2>(spec);
+  while (flow.state.time < 2.5) step(flow);
+  for (const double volume : flow.state.section_volumes) {
+    EXPECT_NEAR(volume, 0.3 * flow.state.time, 0.3 * 0.05);  // a column of particles
+  }
 }
 
 }  // namespace
