@@ -115,7 +115,7 @@ WaterAmount water_outside(const Flow<Dim>& flow) {
   if (box.isEmpty()) return {};
   const Particles<Dim>& particles = flow.state.particles;
   WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) {
-    const Vec<Dim>& x = particles.position[i];
+    const Vec<Dim> x = flow.neighbourhood.wrapped(particles.position[i]);
     const bool is_outside =
         particles.is_fluid(i) && !box.contains(x) && !falls_back(flow, box, x) && !is_passing_end(flow, x);
     return is_outside ? WaterAmount{1, particles.volume[i]} : WaterAmount();

@@ -43,6 +43,18 @@ TEST(WaterOutside, WhatFallsThroughTheSeamOfAPeriodicDomainComesBack) {
   }
 }
 
+/// The column that has moved beyond the seam and is not yet in again at the other end.
+TEST(WaterOutside, WhatIsBeyondTheSeamWithNoWallBelowItIsInside) {
+  CaseSpec spec = periodic_channel<2>(1.0, 0.0);
+  spec.physics.gravity = {9.81, 0.0};
+  WallTable lid = spec.walls[0];
+  lid.points = {{1.0, 0.4}, {0.0, 0.4}};
+  spec.walls.push_back(lid);
+  Flow<2> flow = make_flow<2>(spec);
+  for (Vec<2>& x : flow.state.particles.position) x[0] += 0.03;
+  EXPECT_EQ(water_outside(flow).particles, 0);
+}
+
 // Of the 25 columns of 10 particles those beyond the end of the bed, or that gravity takes there, are lost.
 TEST(WaterOutside, WhatMissesABedThatEndsIsLost) {
   EXPECT_EQ(particles_outside<2>(0.6, 0.0), 10 * 10);
