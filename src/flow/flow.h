@@ -83,9 +83,9 @@ struct Flow {
   }
   /// The box around all walls, where they are now, and all open ends; empty if there are none.
   Eigen::AlignedBox<double, Dim> box() const;
-  /// Relative to the origin.
+  /// Relative to the origin; there is none along periodic directions.
   double potential_energy_of(std::size_t i) const {
-    return -setup.density * state.particles.volume[i] * setup.gravity.dot(state.particles.position[i]);
+    return -setup.density * state.particles.volume[i] * setup.gravity_across.dot(state.particles.position[i]);
   }
 };
 

@@ -66,6 +66,15 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   return walls;
 }
 
+/// What of `v` is across the directions that are periodic.
+template <int Dim>
+Vec<Dim> across(const PeriodicDomain<Dim>& domain, Vec<Dim> v) {
+  for (int d = 0; d < Dim; ++d) {
+    if (domain[d]) v[d] = 0.0;
+  }
+  return v;
+}
+
 /// Height of the fluid along gravity [m]; its largest extent where there is no gravity. Collective.
 template <int Dim>
 double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, double spacing) {
@@ -151,6 +160,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       length(formulation.length > 0.0 ? formulation.length : depth_scale(spec, drawing.fluid, gravity)),
       rows_deep(depth_scale(spec, drawing.fluid, gravity) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
+      gravity_across(across<Dim>(domain, gravity)),
       finds_wall_forces(!spec.bodies.empty() || has_force_probe(spec)),
       finds_wall_pressure(has_force_probe(spec)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),

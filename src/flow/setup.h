@@ -55,6 +55,7 @@ struct Setup {
   double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   double rows_deep;  ///< the fluid's height along gravity at the start, in particles
   PeriodicDomain<Dim> domain;
+  Vec<Dim> gravity_across;   ///< m/s^2; across the periodic directions: along them water falls without end
   bool finds_wall_forces;    ///< whether a probe or a floating body asks for friction and what the last guard does
   bool finds_wall_pressure;  ///< whether a probe asks for the forces of the pressure too
   bool is_closed;            ///< periodic in every direction: no surface anywhere, pressure known up to a constant

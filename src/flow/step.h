@@ -61,13 +61,15 @@ struct PressureReport {
 };
 
 /// Works [J] of one step on the water: of the pressure on what the density source expands, of the pressure of moving
-/// walls, of what is prescribed at open ends, of viscosity and friction, and of the gas in pockets of air.
+/// walls, of what is prescribed at open ends, of viscosity and friction, of the gas in pockets of air, and of gravity
+/// along periodic directions.
 struct Works {
   double density = 0.0;
   double walls = 0.0;
   double ends = 0.0;
   double viscous = 0.0;
   double air = 0.0;
+  double slope = 0.0;
 };
 
 /// What a step leaves of the divergence: the rms of div u in the bulk [1/s].
@@ -94,8 +96,8 @@ struct StepReport {
   double dragged() const { return std::max(0.0, work.viscous); }
   /// J; what moving walls gave the water.
   double brought_by_walls() const { return work.walls + dragged(); }
-  /// J; what moving walls, open ends and gas gave it.
-  double brought() const { return brought_by_walls() + work.ends + work.air; }
+  /// J; what moving walls, open ends, gas and a slope without end gave it.
+  double brought() const { return brought_by_walls() + work.ends + work.air + work.slope; }
 };
 
 }  // namespace tailwater

@@ -97,6 +97,22 @@ double end_work(const Flow<Dim>& flow, double dt) {
          });
 }
 
+namespace {
+
+/// Of gravity along periodic directions on what this rank's water has moved since `start`.
+template <int Dim>
+double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
+  const Vec<Dim> along = flow.setup.gravity - flow.setup.gravity_across;
+  if (along.isZero(0.0)) return 0.0;
+  const Particles<Dim>& particles = flow.state.particles;
+  return sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return 0.0;
+    return flow.setup.density * particles.volume[i] * along.dot(particles.position[i] - start.position[i]);
+  });
+}
+
+}  // namespace
+
 template <int Dim>
 Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
                  const PosedEquation& equation, double dt) {
@@ -111,7 +127,8 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   FluidSums sums = fluid_sums_of_rank(flow);
   double change = sums.energy - start.energy;
   Works& work = report.work;
-  setup.ranks.sum_each(work.density, work.walls, work.ends, work.viscous, work.air, change, sums.mass,
+  work.slope = slope_work(flow, start);
+  setup.ranks.sum_each(work.density, work.walls, work.ends, work.viscous, work.air, work.slope, change, sums.mass,
                        sums.kinetic_energy);
 
   const double doubt = in_doubt * (std::abs(work.walls) + std::abs(work.ends) + report.dragged());

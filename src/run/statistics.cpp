@@ -33,9 +33,10 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   brought_by_walls_ += report.brought_by_walls();
   brought_by_ends_ += report.work.ends;
   brought_by_air_ += report.work.air;
+  brought_by_slope_ += report.work.slope;
   viscous_work_ += report.work.viscous;
-  const double accounted =
-      energy_end_ + energy_out_ - energy_in_ - brought_by_walls_ - brought_by_ends_ - brought_by_air_;
+  const double accounted = energy_end_ + energy_out_ - energy_in_ - brought_by_walls_ - brought_by_ends_ -
+                           brought_by_air_ - brought_by_slope_;
   energy_least_ = std::min(energy_least_, accounted);
   energy_rise_ = std::max(energy_rise_, accounted - energy_least_);
   density_work_ += report.work.density;
@@ -73,6 +74,7 @@ Json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particle
         {"brought_by_walls_J", brought_by_walls_},
         {"brought_by_open_ends_J", brought_by_ends_},
         {"brought_by_air_J", brought_by_air_},
+        {"brought_by_slope_J", brought_by_slope_},
         {"viscous_work_J", viscous_work_},
         {"largest_rise_J", energy_rise_},
         {"largest_rise_over_start", over_start(energy_rise_)},

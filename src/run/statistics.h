@@ -28,9 +28,9 @@ class RunStatistics {
   TAILWATER_SAVED(friend, RunStatistics, steps_, passes_, iterations_, dt_sum_, dt_least_, dt_largest_,
                   divergence_reports_, divergence_old_squares_, divergence_new_squares_, divergence_moved_squares_,
                   density_error_sum_, density_error_squares_, energy_start_, energy_end_, energy_out_, energy_in_,
-                  brought_by_walls_, brought_by_ends_, brought_by_air_, viscous_work_, energy_least_, energy_rise_,
-                  density_work_, density_share_sum_, unexplained_least_, unexplained_rise_, most_escaped_, escaped_,
-                  interventions_)
+                  brought_by_walls_, brought_by_ends_, brought_by_air_, brought_by_slope_, viscous_work_, energy_least_,
+                  energy_rise_, density_work_, density_share_sum_, unexplained_least_, unexplained_rise_, most_escaped_,
+                  escaped_, interventions_)
 
  private:
   std::int64_t steps_ = 0;
@@ -52,6 +52,7 @@ class RunStatistics {
   double brought_by_walls_ = 0.0;
   double brought_by_ends_ = 0.0;
   double brought_by_air_ = 0.0;
+  double brought_by_slope_ = 0.0;  ///< J; by gravity along periodic directions
   double viscous_work_ = 0.0;
   double energy_least_;  ///< J; least energy so far, inside plus out minus in, without what walls and open ends brought
   double energy_rise_ = 0.0;

@@ -47,7 +47,8 @@ std::vector<Column> row_of(bool with_air, double time, std::int64_t step, const 
                           {"energy_out_J", measures.departed.energy},
                           {"volume_in_m3", measures.arrived.volume},
                           {"energy_in_J", measures.arrived.energy},
-                          {"end_work_J", report.work.ends}};
+                          {"end_work_J", report.work.ends},
+                          {"slope_work_J", report.work.slope}};
   if (with_air) {
     const AirMeasures& air = measures.air;
     row.insert(row.end(), {{"air_work_J", report.work.air},

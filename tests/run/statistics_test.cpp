@@ -76,6 +76,18 @@ TEST(RunStatistics, WhatMovingWallsBringIsNoRise) {
   EXPECT_DOUBLE_EQ(json["energy"]["density_share_mean"].get<double>(), 0.75);
 }
 
+TEST(RunStatistics, WhatASlopeWithoutEndBringsIsNoRise) {
+  RunStatistics statistics(with_energy(0.0, 10.0));
+  StepReport report = step_of(0.1, 1, 1);
+  report.work.slope = 3.0;
+  statistics.add(report, with_energy(2.5, 10.0), 0);  // friction took half a joule
+  report.work.slope = 0.0;
+  statistics.add(report, with_energy(2.75, 10.0), 0);
+  const auto json = statistics.json(1, 1);
+  EXPECT_DOUBLE_EQ(json["energy"]["brought_by_slope_J"].get<double>(), 3.0);
+  EXPECT_DOUBLE_EQ(json["energy"]["largest_rise_J"].get<double>(), 0.25);
+}
+
 TEST(RunStatistics, EnergyThatLeftIsNeitherLostNorGained) {
   FlowMeasures later = with_energy(1.0, 5.0);
   later.departed.energy = 4.0;

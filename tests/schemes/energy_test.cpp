@@ -15,6 +15,7 @@ double energy(const Flow<2>& flow) { return measure(flow).energy(); }
 struct Books {
   double wall_work = 0.0;
   double viscous_work = 0.0;
+  double slope_work = 0.0;
   double mean_share = 0.0;
 };
 
@@ -25,6 +26,7 @@ Books run_to(Flow<2>& flow, double end) {
     const StepReport report = step(flow);
     books.wall_work += report.work.walls;
     books.viscous_work += report.work.viscous;
+    books.slope_work += report.work.slope;
     books.mean_share += report.density_share;
   }
   books.mean_share /= steps;
@@ -185,6 +187,28 @@ TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
   // %).
   EXPECT_NEAR(books.viscous_work, energy(flow) - start, 0.01 * books.viscous_work);
   EXPECT_GT(books.mean_share, 0.95);
+}
+
+// At 2 m/s in the end the water has gone through the seam of the period of 0.6 m more than once.
+TEST_P(Energy, OfWaterThatFallsAlongAPeriodIsTheWorkOfTheSlope) {
+  CaseSpec spec = free_case(0.05);
+  spec.scheme.integrator = GetParam();
+  spec.physics.gravity = {2.0, -g};
+  spec.domain.periodic_x = {0.0, 0.6};
+  WallTable bed;
+  bed.points = {{0.0, 0.0}, {0.6, 0.0}};
+  spec.walls = {bed};
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {0.6, 0.3};
+  spec.fluid = {water};
+  Flow<2> flow = make_flow<2>(spec);
+  const double start = energy(flow);
+  const Books books = run_to(flow, 1.0);
+  const double speed = 2.0 * flow.state.time;
+  const double fallen = 0.5 * 0.6 * 0.3 * 1000.0 * speed * speed;  // J/m
+  EXPECT_NEAR(books.slope_work, fallen, 0.01 * fallen);
+  EXPECT_NEAR(energy(flow) - start, books.slope_work, 0.01 * fallen);
 }
 
 TEST_P(Energy, ARiseFadesAndHoldsTheDensitySourceMeanwhile) {
