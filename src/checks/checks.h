@@ -87,6 +87,10 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
 template <int Dim>
 Findings check_speeds(const CaseSpec& spec);
 
+/// Warning: a centre of mass outside of the body, or an inertia that no mass within it has.
+template <int Dim>
+Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
 /// Error: a mooring that is fastened far from its body.
 template <int Dim>
 Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);

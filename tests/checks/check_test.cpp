@@ -488,7 +488,8 @@ TEST(Check, WhatIsFasterThanWaterCanBeIsRefused) {
   expect_among(check(channel), Severity::error, {"inlet 'inlet1'", "1.25e+06 m/s", "150 m/s"});
 }
 
-TEST(Check, AMooringIsFastenedToItsBody) {
+/// A boat 0.4 m long and 0.2 m high in the tank.
+CaseSpec tank_with_boat() {
   CaseSpec spec = tank();
   WallTable box = box_wall({0.3, 0.3}, {0.7, 0.5}, {}, FluidSide::outside);
   box.name = "hull";
@@ -499,9 +500,32 @@ TEST(Check, AMooringIsFastenedToItsBody) {
   body.walls = {"hull"};
   body.mass = 100.0;
   body.centre = {0.5, 0.4};
-  body.inertia = {10.0};
+  body.inertia = {1.7};
+  body.free = {"x", "y", "rotation"};
   body.velocity = {0.0, 0.0};
   spec.bodies = {body};
+  return spec;
+}
+
+TEST(Check, ABodyHasItsMassWhereItsWallsAre) {
+  CaseSpec spec = tank_with_boat();
+  const auto told = [&] {
+    return std::ranges::any_of(check(spec), [](const Finding& f) { return f.message.starts_with("body 'boat'"); });
+  };
+  EXPECT_FALSE(told()) << listed(check(spec));
+  spec.bodies[0].inertia = {5.1};  // of the mass in its farthest corners 5
+  expect_among(check(spec), Severity::warning, {"body 'boat' has an inertia of 5.1 kg m^2", "0.2236 m away"});
+  spec.bodies[0].free = {"y"};
+  EXPECT_FALSE(told()) << "it does not turn";
+  spec.bodies[0].centre = {0.0, 0.1};  // as seen from its corner
+  expect_among(check(spec), Severity::warning,
+               {"body 'boat' has its centre of mass at (0, 0.1), outside of its walls"});
+}
+
+TEST(Check, AMooringIsFastenedToItsBody) {
+  CaseSpec spec = tank_with_boat();
+  WallTable box = spec.walls.back();
+  BodyTable body = spec.bodies[0];
   MooringTable line;
   line.name = "chain";
   line.bodies = {"boat"};
