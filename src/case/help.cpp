@@ -131,14 +131,14 @@ std::string case_reference_markdown() {
       "```toml\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
       "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4; `a < b ? c : d` is c "
       "or d\n"
-      "- names: the keys of `[parameters]` (letters, digits, `_`; they may use one another in any order), `pi`, `dx` = "
-      "`particles.spacing`, `g` = the magnitude of `physics.gravity`; in `fluid.velocity` also `x`, `y`, `z`, the "
+      "- names: the keys of `[parameters]` (letters, digits, `_`), `pi`, `dx` = `particles.spacing`, `g` = the "
+      "magnitude of `physics.gravity`, which may use one another in any order; in `fluid.velocity` also `x`, `y`, `z`, "
+      "the "
       "particle's position, and in what varies with time (such as `wall.displacement` and `inlet.discharge`) the time "
       "`t`; none of these can name a parameter\n"
       "- functions: " +
       functions_text() +
       "\n\n"
-      "`particles.spacing` may use parameters only; `physics.gravity` may use parameters and `dx`.\n\n"
       "## Changes from the command line\n\n"
       "`--set key=value` replaces or adds one value: `--set scheme.integrator=implicit`, `--set parameters.H=0.5`, "
       "`--set 'fluid[0].max=[1, 2]'` (tables count from 0), `--set probe.NAME.interval=0.01`. Words and expressions "

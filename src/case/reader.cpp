@@ -4,19 +4,14 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
-#include <set>
 
 #include "base/error.h"
 #include "case/across_tables.h"
 #include "case/case_toml.h"
 #include "case/driven_walls.h"
-#include "case/expression.h"
+#include "case/foundations.h"
 #include "case/measurements.h"
-#include "case/named_numbers.h"
 #include "case/nearest_name.h"
 #include "case/overrides.h"
 #include "case/problems.h"
@@ -93,9 +88,6 @@ class CaseReader {
     }
   }
 
-  /// [parameters]: each may use the others, in any order.
-  void parameters(std::vector<Parameter>& parameters);
-
  private:
   template <class Table>
   void read(std::string_view name, Table& table, TableReader& reader) {
@@ -112,107 +104,10 @@ class CaseReader {
     context_.problems.add(&node.source(), fmt::format("{} = {}: {}", key, value_text(node), message));
   }
 
-  /// Gives the parameter its value, or reports why it can never have one; returns the parameter in `open` that it waits
-  /// for, if it does.
-  std::optional<std::string> settle(const std::string& name, const toml::node& node, const std::set<std::string>& open);
-
   Context& context_;
   const toml::table& root_;
-  std::vector<std::string_view> names_;
+  std::vector<std::string_view> names_{"parameters"};
 };
-
-std::optional<std::string> CaseReader::settle(const std::string& name, const toml::node& node,
-                                              const std::set<std::string>& open) {
-  const std::string key = fmt::format("parameters.{}", name);
-  // Until it has a value, what uses this parameter is not a number and is not reported a second time.
-  double value = std::numeric_limits<double>::quiet_NaN();
-  const bool is_position = std::find(position_names.begin(), position_names.end(), name) != position_names.end();
-  if (!is_free_name(name) || is_position || name == time_name[0] || name == "dx" || name == "g") {
-    report(node, key,
-           "cannot be a parameter's name; use letters, digits and _, not x, y, z, t, dx, g, pi or a function's name");
-    return std::nullopt;
-  }
-  if (const auto* text = node.as_string()) {
-    try {
-      value = evaluate(text->get(), context_.numbers);
-    } catch (const ExpressionError& error) {
-      if (error.unknown_name() && open.contains(*error.unknown_name())) return error.unknown_name();
-      report(node, key, error.what());
-    }
-  } else if (const auto number = number_in(node); node.is_number() && std::isfinite(*number)) {
-    value = *number;
-  } else {
-    report(node, key, "not a finite number; give a number or an expression of other parameters");
-  }
-  context_.numbers[name] = value;
-  return std::nullopt;
-}
-
-void CaseReader::parameters(std::vector<Parameter>& parameters) {
-  names_.push_back("parameters");
-  const toml::node* node = root_.get("parameters");
-  if (node == nullptr) return;
-  const toml::table* table = node->as_table();
-  if (table == nullptr) {
-    report(*node, "parameters", "not a table; write the parameters below a line [parameters]");
-    return;
-  }
-  constexpr std::size_t most = 1000;  // their names are compared with each unknown one
-  if (table->size() > most) {
-    report(*node, "parameters", fmt::format("has {} parameters; a case has at most {}", table->size(), most));
-    return;
-  }
-  std::set<std::string> open;
-  for (const auto& [name, value] : *table) open.emplace(name.str());
-  std::vector<std::string> next(open.begin(), open.end());
-  std::map<std::string, std::vector<std::string>> waiting_for;
-  while (!next.empty()) {
-    const std::string name = next.back();
-    next.pop_back();
-    if (const auto other = settle(name, *table->get(name), open)) {
-      waiting_for[*other].push_back(name);
-      continue;
-    }
-    open.erase(name);
-    const std::vector<std::string>& waiting = waiting_for[name];
-    next.insert(next.end(), waiting.begin(), waiting.end());
-  }
-  for (const std::string& name : open) {
-    report(*table->get(name), fmt::format("parameters.{}", name),
-           "depends on itself through other parameters; give one of them a number");
-    context_.numbers[name] = std::numeric_limits<double>::quiet_NaN();
-  }
-  for (const auto& [name, value] : context_.numbers) {
-    parameters.push_back({name, value});
-  }
-}
-
-/// Reads the few keys that all others depend on: the dimension, the parameters, dx and g, in this order.
-void read_foundations(CaseSpec& spec, Context& context, CaseReader& reader, const toml::table& root) {
-  TableReader general(context, find_table(root, "case"), "case");
-  general.read_ahead(spec.general, {"format", "dimension"});
-  if (spec.general.format > case_format) {
-    // What else seems wrong may be right in that format.
-    general.wrong("format", *general.given("format"),
-                  fmt::format("this program reads case files up to format {}; use a newer version of it", case_format));
-    throw InputError(context.problems.text());
-  }
-  context.dimension = general.is_wrong("dimension") ? 0 : spec.general.dimension;
-
-  reader.parameters(spec.parameters);
-
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  TableReader particles(context, find_table(root, "particles"), "particles");
-  particles.read_ahead(spec.particles, {"spacing"});
-  context.numbers["dx"] = particles.is_wrong("spacing") ? unknown : spec.particles.spacing;
-
-  TableReader physics(context, find_table(root, "physics"), "physics");
-  if (context.dimension == 3) {
-    spec.physics.gravity = {0.0, 0.0, -9.81};
-  }
-  physics.read_ahead(spec.physics, {"gravity"});
-  context.numbers["g"] = physics.is_wrong("gravity") ? unknown : gravity_magnitude(spec.physics);
-}
 
 /// Where the tables and keys are that messages about shapes, probes and steps name.
 CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const std::string& file) {
@@ -254,8 +149,8 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   toml::table root = parse_case(text, origin);
   for (const std::string& problem : apply_overrides(root, overrides)) context.problems.add_override(problem);
   CaseSpec spec;
+  read_foundations(spec, context, root);
   CaseReader reader(context, root);
-  read_foundations(spec, context, reader, root);
   CaseSpec::describe(spec, reader);
   reader.report_unknown_tables();
   const bool has_no_fluid = root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty());

@@ -14,7 +14,7 @@ namespace tailwater {
 /// to the shape or type that was chosen, and points have `dimension` coordinates; names are given and unique.
 ///
 /// Numbers may be expressions (expression.h) of [parameters], of `dx` = particles.spacing and of `g` = |gravity|.
-/// Parameters may use one another in any order; `particles.spacing` may use parameters, `physics.gravity` also dx.
+/// Parameters, dx and g may use one another in any order.
 ///
 /// Throws IoError if the file cannot be read, else InputError with one line per problem: place, key, value, what is
 /// allowed and the remedy.

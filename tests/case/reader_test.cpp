@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "case/formulation.h"
 #include "case_file.h"
 
@@ -55,6 +57,17 @@ TEST(Reader, KeepsTheVelocityThatVariesAsItIsWritten) {
   const CaseSpec spec = read_text("parameters.U = 2\n" + required_keys +
                                   "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\nvelocity = [\"U*sin(pi*x)\", \"U/dx\"]\n");
   EXPECT_EQ(spec.fluid[0].velocity, (VectorField{"U*sin(pi*x)", 2.0 / spec.particles.spacing}));
+}
+
+TEST(Reader, ParametersSpacingAndGravityUseOneAnother) {
+  const CaseSpec spec = read_text(
+      "[parameters]\nc = \"sqrt(g*H)\"\nH = 0.4\nrows = \"H/dx\"\nS = 0.75\n"
+      "[particles]\nspacing = \"H/(g/0.5)\"\n"
+      "[physics]\ngravity = [\"S*10\", -10]\n"
+      "[time]\nend = \"c\"\n"
+      "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\n");
+  EXPECT_EQ(spec.particles.spacing, 0.4 / 25.0);
+  EXPECT_EQ(spec.parameters, (std::vector<Parameter>{{"H", 0.4}, {"S", 0.75}, {"c", std::sqrt(5.0)}, {"rows", 25.0}}));
 }
 
 TEST(Reader, EvaluatesExpressionsWhereverANumberMayStand) {

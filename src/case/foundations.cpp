@@ -1,0 +1,193 @@
+#include "case/foundations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "case/case_toml.h"
+#include "case/expression.h"
+#include "case/named_numbers.h"
+#include "case/problems.h"
+
+namespace tailwater {
+namespace {
+
+/// What uses it is not a number either, and is not reported a second time.
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Gives the parameters, dx and g their values, each after those that it uses.
+class NamedNumbersReader {
+ public:
+  NamedNumbersReader(CaseSpec& spec, Context& context, const toml::table& root)
+      : spec_(spec),
+        context_(context),
+        particles_(context, root["particles"].as_table(), "particles"),
+        physics_(context, root["physics"].as_table(), "physics") {
+    find_parameters(root.get("parameters"));
+    open_["dx"] = particles_.given("spacing");
+    open_["g"] = physics_.given("gravity");
+  }
+
+  void read() {
+    std::vector<std::string> names;
+    for (const auto& [name, node] : open_) names.push_back(name);
+    settle(names);
+    // Last, so that a message on an unknown name lists all that there are.
+    while (!of_unknown_.empty()) {
+      const std::string name = of_unknown_.back();
+      of_unknown_.pop_back();
+      give_value(name);
+    }
+    while (!open_.empty()) {
+      const std::string name = one_in_a_circle();
+      report(name, *open_.at(name), "depends on itself through other numbers; give one of them a number");
+      close(name, unknown);
+    }
+    for (const auto& [name, value] : context_.numbers) {
+      if (name != "dx" && name != "g") spec_.parameters.push_back({name, value});
+    }
+  }
+
+ private:
+  void find_parameters(const toml::node* node) {
+    if (node == nullptr) return;
+    const toml::table* table = node->as_table();
+    if (table == nullptr) {
+      report("", *node, "not a table; write the parameters below a line [parameters]");
+      return;
+    }
+    constexpr std::size_t most = 1000;  // their names are compared with each unknown one
+    if (table->size() > most) {
+      report("", *node, fmt::format("has {} parameters; a case has at most {}", table->size(), most));
+      return;
+    }
+    for (const auto& [key, value] : *table) {
+      const std::string name(key.str());
+      const bool is_position = std::find(position_names.begin(), position_names.end(), name) != position_names.end();
+      if (is_free_name(name) && !is_position && name != time_name[0] && name != "dx" && name != "g") {
+        open_[name] = &value;
+        continue;
+      }
+      report(name, value,
+             "cannot be a parameter's name; use letters, digits and _, not x, y, z, t, dx, g, pi or a function's name");
+    }
+  }
+
+  /// Gives these numbers and those that wait for them their values, as far as what they use has one.
+  void settle(std::vector<std::string> names) {
+    while (!names.empty()) {
+      const std::string name = names.back();
+      names.pop_back();
+      const auto open = open_.find(name);
+      if (open == open_.end()) continue;  // in a circle, it waited for itself
+      const std::optional<std::string> missing = missing_in(open->second);
+      if (!missing) {
+        give_value(name);
+      } else if (open_.contains(*missing)) {
+        waiting_for_[*missing].push_back(name);
+      } else {
+        of_unknown_.push_back(name);
+      }
+    }
+  }
+
+  /// A name without a value that the expressions of a key use.
+  std::optional<std::string> missing_in(const toml::node* node) const {
+    if (node == nullptr) return std::nullopt;
+    if (const toml::array* list = node->as_array()) {
+      for (const toml::node& element : *list) {
+        if (const auto missing = missing_in(&element)) return missing;
+      }
+    }
+    const auto* text = node->as_string();
+    if (text == nullptr) return std::nullopt;
+    try {
+      evaluate(text->get(), context_.numbers);
+    } catch (const ExpressionError& error) {
+      return error.unknown_name();
+    }
+    return std::nullopt;
+  }
+
+  /// Of those that wait for each other.
+  std::string one_in_a_circle() const {
+    std::string name = open_.begin()->first;
+    for (std::set<std::string> seen; seen.insert(name).second;) name = *missing_in(open_.at(name));
+    return name;
+  }
+
+  /// Reports why there is none, if there is none.
+  void give_value(const std::string& name) {
+    if (name == "dx") {
+      particles_.read_ahead(spec_.particles, {"spacing"});
+      close(name, particles_.is_wrong("spacing") ? unknown : spec_.particles.spacing);
+    } else if (name == "g") {
+      physics_.read_ahead(spec_.physics, {"gravity"});
+      close(name, physics_.is_wrong("gravity") ? unknown : gravity_magnitude(spec_.physics));
+    } else {
+      close(name, value_of_parameter(name, *open_.at(name)));
+    }
+  }
+
+  double value_of_parameter(const std::string& name, const toml::node& node) {
+    try {
+      if (const auto* text = node.as_string()) return evaluate(text->get(), context_.numbers);
+      if (const auto number = number_in(node); node.is_number() && std::isfinite(*number)) return *number;
+      report(name, node, "not a finite number; give a number or an expression of other parameters");
+    } catch (const ExpressionError& error) {
+      report(name, node, error.what());
+    }
+    return unknown;
+  }
+
+  /// Those that have waited for this number go on.
+  void close(const std::string& name, double value) {
+    context_.numbers[name] = value;
+    open_.erase(name);
+    settle(std::exchange(waiting_for_[name], {}));
+  }
+
+  void report(const std::string& name, const toml::node& node, const std::string& message) {
+    const std::string key = name.empty()   ? "parameters"
+                            : name == "dx" ? "particles.spacing"
+                            : name == "g"  ? "physics.gravity"
+                                           : "parameters." + name;
+    context_.problems.add(&node.source(), fmt::format("{} = {}: {}", key, value_text(node), message));
+    context_.keys_done.insert(key);
+  }
+
+  CaseSpec& spec_;
+  Context& context_;
+  TableReader particles_;
+  TableReader physics_;
+  std::map<std::string, const toml::node*> open_;  ///< without a value yet; null: the file does not give it
+  std::map<std::string, std::vector<std::string>> waiting_for_;
+  std::vector<std::string> of_unknown_;  ///< that use a name which there is not
+};
+
+}  // namespace
+
+void read_foundations(CaseSpec& spec, Context& context, const toml::table& root) {
+  TableReader general(context, root["case"].as_table(), "case");
+  general.read_ahead(spec.general, {"format", "dimension"});
+  if (spec.general.format > case_format) {
+    // What else seems wrong may be right in that format.
+    general.wrong("format", *general.given("format"),
+                  fmt::format("this program reads case files up to format {}; use a newer version of it", case_format));
+    throw InputError(context.problems.text());
+  }
+  context.dimension = general.is_wrong("dimension") ? 0 : spec.general.dimension;
+  if (context.dimension == 3) spec.physics.gravity = {0.0, 0.0, -9.81};
+  NamedNumbersReader(spec, context, root).read();
+}
+
+}  // namespace tailwater
