@@ -10,6 +10,8 @@ import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from .fields import list_frames
+from .vtp import read_points
 from .whole_file import write_whole
 
 BLUE, ORANGE, SKY, BLACK, GREY = "#0072B2", "#D55E00", "#56B4E9", "#000000", "#777777"
@@ -35,9 +37,10 @@ class View:
 
     def __init__(self, run, frames, crop=False, margin=0.02):
         water = np.concatenate([frame.position[:, :2] for frame in frames])
-        corners = np.array([point for chain in run.walls for point in chain] or water)
+        walls = [line for frame in frames for line in wall_lines(run, frame.time)]
+        corners = np.array([point for line in walls for point in line] or water)
         low, high = np.minimum(corners.min(0), water.min(0)), np.maximum(corners.max(0), water.max(0))
-        if run.walls:  # walls are higher than the water goes
+        if walls:  # they are higher than the water goes
             high[1] = min(high[1], low[1] + 1.12 * (np.percentile(water[:, 1], SHOWN_SHARE) - low[1]))
         if crop:
             high[0] = min(high[0], water[:, 0].max() + 0.1 * np.ptp(water[:, 0]))
@@ -77,8 +80,22 @@ def draw_particles(axes, position, spacing, exaggeration=1, **style):
     return dots
 
 
+def wall_lines(run, time):
+    """2D: of a run with walls that move, all walls where they are at a time (s), as it left them with its fields; else those
+    that stay where they are drawn."""
+    if not (run.path / "fields" / "walls.pvd").is_file():
+        return run.walls_at(time)
+    *_, (_, path) = (entry for entry in list_frames(run.path, "walls") if entry[0] <= time + 1e-9)
+    lines = read_points(path)[0][:, :2].reshape(-1, 2, 2)
+    for axis, name in enumerate(("periodic_x", "periodic_y")):
+        if period := run.case.get("domain", {}).get(name):  # what has gone round is in it again
+            low, high = period
+            lines[:, :, axis] -= ((high - low) * np.floor((lines[:, :, axis].mean(1) - low) / (high - low)))[:, None]
+    return lines
+
+
 def draw_walls(axes, run, time):
-    axes.add_collection(LineCollection(run.walls_at(time), colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
+    axes.add_collection(LineCollection(wall_lines(run, time), colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
 
 
 def highest_speed(frames):

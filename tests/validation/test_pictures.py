@@ -14,7 +14,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import synthetic_run
-from tailwater import pictures, pictures_3d, scene, start_picture, surface
+from tailwater import pictures, pictures_3d, plots, scene, start_picture, surface
 from tailwater.errors import DataError
 from tailwater.fields import Frame, list_frames, read_polydata
 from tailwater.run import Run
@@ -123,6 +123,20 @@ class Pictures(PicturesTest):
         self.assertEqual(self.command(folder, "--count", "1")[0], 0)
         self.assertEqual([path.name for path in (folder / "pictures").iterdir()], ["picture_00002.png"], "the last")
         self.assertFalse((folder / "fields/surface.pvd").exists())
+
+    def test_walls_in_2d_are_where_they_have_moved(self):
+        folder = self.run_of(2)
+        with (folder / "case.effective.toml").open("a") as case:
+            case.write("[domain]\nperiodic_x = [0.0, 2.0]\n")
+        bed, gate = [(0, 0), (2, 0)], [(1.5, 0), (1.5, 0.4)]
+        for k in range(3):
+            synthetic_run.write_frame(folder / f"fields/walls_{k:05}.vtp", np.array(bed + [(x + k, y) for x, y in gate]))
+        synthetic_run.write_series(folder, "walls", [0.0, 0.5, 1.0])
+        run = Run(folder)
+        for time, x in ((0.0, 1.5), (0.5, 0.5), (0.7, 0.5), (1.0, 1.5)):
+            np.testing.assert_allclose(plots.wall_lines(run, time), [bed, [(x, 0), (x, 0.4)]], atol=1e-6)
+        frames = [Frame(0.5 * k, np.array([[1.0, 0.3, 0.0]]), {}) for k in range(3)]
+        self.assertLess(plots.View(run, frames).x[0], 0.0, "what is shown has room for them")
 
     def test_only_pictures_in_3d_need_vtk(self):
         flat = shutil.move(self.run_of(2), Path(self.folder).parent / f"{Path(self.folder).name}-flat")

@@ -332,7 +332,7 @@ class Plots(unittest.TestCase):
 
     def test_flat_channels_are_exaggerated(self):
         def view(length):
-            run = unittest.mock.Mock(walls=[[(0, 1), (0, 0), (length, 0), (length, 1)]])
+            run = unittest.mock.Mock(path=Path("none"), walls_at=lambda _: [[(0, 1), (0, 0), (length, 0), (length, 1)]])
             frame = unittest.mock.Mock(position=np.array([[0.5, 0.5, 0], [length - 0.5, 0.99, 0]]))
             return plots.View(run, [frame])
         self.assertEqual(view(3).exaggeration, 1)
