@@ -1,11 +1,9 @@
 // Debian's Chromium, driven without a screen and without the net.
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, rmSync } from "node:fs";
 import { after, test as unlimited, type TestContext } from "node:test";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
-
-export const chromium = [process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => path && existsSync(path));
 
 /** The longest that a test waits for anything, ms: so long that no busy machine reaches it, and less than CTest waits. */
 const patience = 200_000;
@@ -33,7 +31,7 @@ after(async () => {
 /** The one browser of all tests of a process, which takes longer to start than many a test. */
 function theBrowser(): Promise<Browser> {
   return (started ??= puppeteer.launch({
-    executablePath: chromium!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 }, timeout: patience, protocolTimeout: patience,
+    executablePath: process.env["CHROMIUM"]!, headless: true, userDataDir: folder, defaultViewport: { width: 1280, height: 720 }, timeout: patience, protocolTimeout: patience,
     args: [
       "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
       "--disable-extensions", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
