@@ -90,6 +90,18 @@ struct BoxLattice {
     }
     return x;
   }
+
+  /// Of the space that a node stands for, over dx^3: steps within the box are not dx where its length is no whole
+  /// number of them.
+  double share(const Eigen::Vector3i& index) const {
+    double share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double steps = steps_from_low(index, axis);
+      const bool is_within = steps > 0.0 && steps < count[axis];
+      if (is_within) share *= share_of_step((box.high[axis] - box.low[axis]) / count[axis], spacing);
+    }
+    return share;
+  }
 };
 
 /// How many steps a node is behind the box's closed faces (0: on one), and the normals that act there. No normals if no
@@ -147,7 +159,11 @@ void add_nodes(const Boundary<3>& body, int wall, const WallLayers& layers, doub
     NodePlace node = place_of(lattice, index);
     if (node.depth < from || node.depth > to || node.normals.empty()) return;
     const Vec<3> x = lattice.position(index);
-    const WallPlace<3> place{x, foot_on(box, x, node.normals), std::move(node.normals), wall};
+    const WallPlace<3> place{.position = x,
+                             .foot = foot_on(box, x, node.normals),
+                             .normals = std::move(node.normals),
+                             .wall = wall,
+                             .share = lattice.share(index)};
     if (node.depth == 0.0) {
       collector.add(place);
     } else {

@@ -108,10 +108,15 @@ Vec<2> mitre(const WallFace<2>& from, const WallFace<2>& to, double depth) {
   return from.corners[1] - depth / (1.0 + from.normal.dot(to.normal)) * (from.normal + to.normal);
 }
 
-/// The places of one row along a run, `depth` behind it; the last is `free_end` steps from a free end. A sharp corner
-/// belongs to the run that starts there.
-std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, double depth, double spacing,
-                              double free_end) {
+/// One row of places along a run.
+struct RowOfPlaces {
+  std::vector<Vec<2>> places;
+  double share;  ///< of their particles' volumes, over dx^2
+};
+
+/// The row `depth` behind a run; its last place is `free_end` steps from a free end. A sharp corner belongs to the run
+/// that starts there.
+RowOfPlaces place_row(const Boundary<2>& boundary, const Run& run, double depth, double spacing, double free_end) {
   const auto face = [&](int f) -> const WallFace<2>& { return boundary.faces[f]; };
   const WallFace<2>& first = face(run.faces.front());
   const WallFace<2>& last = face(run.faces.back());
@@ -134,16 +139,18 @@ std::vector<Vec<2>> place_row(const Boundary<2>& boundary, const Run& run, doubl
   const double step = along.back() / (steps + head + tail);
   const bool leaves_out_last = run.after >= 0 && !run.is_closed;
 
-  std::vector<Vec<2>> places;
+  // Some places of shorter runs have no room, and others stand for them.
+  const bool is_regular = steps + head + tail >= 2.0;
+  RowOfPlaces row{.places = {}, .share = is_regular ? share_of_step(step, spacing) : 1.0};
   std::size_t piece = 1;
   for (int k = 0; k < steps + (leaves_out_last ? 0 : 1); ++k) {
     const double s = (head + k) * step;
     while (piece + 1 < along.size() && along[piece] < s) ++piece;
     const double length = along[piece] - along[piece - 1];
     const double share = length > 0.0 ? std::min((s - along[piece - 1]) / length, 1.0) : 0.0;
-    places.push_back(corners[piece - 1] + share * (corners[piece] - corners[piece - 1]));
+    row.places.push_back(corners[piece - 1] + share * (corners[piece] - corners[piece - 1]));
   }
-  return places;
+  return row;
 }
 
 /// The first row stops short of the tip of a crest sharper than a right angle. This adds particles every dx/2 from the
@@ -209,8 +216,10 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
     const double depth = layers.first_depth() + layer * layers.spacing;
     for (const Run& run : runs) {
       const int chain = joints.chain[run.faces.front()];
-      for (const Vec<2>& x : place_row(body, run, depth, layers.spacing, free_end)) {
-        const WallPlace<2> place = place_behind(body, chains[chain], x, tolerance);
+      const RowOfPlaces row = place_row(body, run, depth, layers.spacing, free_end);
+      for (const Vec<2>& x : row.places) {
+        WallPlace<2> place = place_behind(body, chains[chain], x, tolerance);
+        place.share = row.share;
         // A place nearer to the chain than its row: the row has folded over itself inside a convex corner.
         const double distance = (x - place.foot).norm();
         if (distance < depth - 2.0 * tolerance || distance > farthest) continue;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,6 +26,14 @@ struct WallLayers {
   WallLayers of_wall(bool moves) const { return {spacing, count, starts_on_wall, moves ? SpaceShare{} : share}; }
   double first_depth() const { return starts_on_wall ? 0.0 : 0.5 * spacing; }  ///< m behind the wall
 };
+
+/// What a step [m] from a wall particle to the next adds to the share of its volume; 1 to the last bit where it is the
+/// spacing.
+inline double share_of_step(double step, double spacing) {
+  constexpr double round_off = 1e-9;
+  const double share = step / spacing;
+  return std::abs(share - 1.0) < round_off ? 1.0 : share;
+}
 
 /// A place for a wall particle.
 template <int Dim>

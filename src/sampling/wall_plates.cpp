@@ -45,7 +45,12 @@ WallParticles<3> sample_side_of_sheet(const Boundary<3>& boundary, const WallPla
     if (place.is_on_rim || (place.signed_distance < 0.0) != is_front) return;
     std::vector<Vec<3>> normals = normals_at(surface.mesh(), place);
     for (Vec<3>& normal : normals) normal *= is_front ? 1.0 : -1.0;
-    collector.add({x, place.point, std::move(normals), plate.wall});
+    double share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      share *= share_of_step(lattice[axis].width(lattice[axis].cell_at(x[axis])), layers.spacing);
+    }
+    collector.add(
+        {.position = x, .foot = place.point, .normals = std::move(normals), .wall = plate.wall, .share = share});
   };
   NodesNear(surface, lattice, depth, propose).find();
   return std::move(collector).particles();
@@ -58,16 +63,24 @@ WallParticles<3> sample_side(const Boundary<3>& boundary, const WallPlate& plate
   const Vec<3> normal = is_front ? screen.normal : Vec<3>(-screen.normal);
   const std::array<double, 2> length{screen.range[0][1], screen.range[1][1]};
   std::array<int, 2> count{};
-  for (const int axis : {0, 1}) count[axis] = std::max(1, static_cast<int>(std::lround(length[axis] / layers.spacing)));
+  std::array<double, 2> step{};
+  for (const int axis : {0, 1}) {
+    count[axis] = std::max(1, static_cast<int>(std::lround(length[axis] / layers.spacing)));
+    step[axis] = length[axis] / count[axis];
+  }
   WallParticleCollector<3> collector(boundary, layers);
   const int more = layers.count;
   for (int layer = 0; layer < layers.count; ++layer) {
     const double depth = layers.first_depth() + layer * layers.spacing;
     for (int j = -more; j < count[1] + more; ++j) {
       for (int i = -more; i < count[0] + more; ++i) {
-        const Vec<3> foot = screen.corner + (i + 0.5) * length[0] / count[0] * screen.along[0] +
-                            (j + 0.5) * length[1] / count[1] * screen.along[1];
-        collector.add({foot - depth * normal, foot, {normal}, plate.wall});
+        const Vec<3> foot =
+            screen.corner + (i + 0.5) * step[0] * screen.along[0] + (j + 0.5) * step[1] * screen.along[1];
+        collector.add({.position = foot - depth * normal,
+                       .foot = foot,
+                       .normals = {normal},
+                       .wall = plate.wall,
+                       .share = share_of_step(step[0], layers.spacing) * share_of_step(step[1], layers.spacing)});
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "geometry/cases.h"
@@ -200,6 +201,44 @@ TEST(Dummies, FillTheShellOfABoxIn3D) {
     }
   }
   expect_behind_walls(dummies, boundary, dx);
+}
+
+/// m^Dim
+template <int Dim>
+double volume_of(const WallParticles<Dim>& particles, double spacing) {
+  return std::accumulate(particles.share.begin(), particles.share.end(), 0.0) * power<Dim>(spacing);
+}
+
+TEST(Dummies, HaveTheVolumeBehindABoxOfAnySize) {
+  const double dx = 0.1;
+  CaseSpec tank = empty_case(dx, 3);
+  tank.walls = {box_wall({0, 0, 0}, {0.75, 0.64, 0.57}, {"+z"})};
+  EXPECT_NEAR(volume_of(make_dummy_particles<3>(make_boundary<3>(tank), dx, 3), dx),
+              (0.75 + 0.6) * (0.64 + 0.6) * (0.57 + 0.3) - 0.75 * 0.64 * 0.57, round_off);
+  CaseSpec body = empty_case(dx, 3);
+  body.walls = {box_wall({0, 0, 0}, {0.45, 0.34, 0.57}, {}, FluidSide::outside)};
+  EXPECT_NEAR(volume_of(make_dummy_particles<3>(make_boundary<3>(body), dx, 3), dx), 0.45 * 0.34 * 0.57, round_off);
+}
+
+// Rows that end at the tank's rim.
+TEST(Dummies, HaveTheVolumeBehindATankOfAnySizeIn2D) {
+  const double dx = 0.1;
+  CaseSpec spec = empty_case(dx);
+  spec.walls = {polyline({{0, 0.57}, {0, 0}, {0.75, 0}, {0.75, 0.57}})};
+  EXPECT_NEAR(volume_of(make_dummy_particles<2>(make_boundary<2>(spec), dx, 3), dx),
+              (0.75 + 0.6) * (0.57 + 0.3) - 0.75 * 0.57, round_off);
+}
+
+TEST(Dummies, HaveTheVolumeOfTheirRowsBehindAPlateIn3D) {
+  const double dx = 0.1;
+  CaseSpec spec = empty_case(dx, 3);
+  WallTable plate = polyline({{0, 0, 0}, {0.75, 0, 0}, {0.75, 0, 0.66}, {0, 0, 0.66}});
+  plate.shape = WallShape::plate;
+  spec.walls = {plate};
+  const double steps_along = 8 + 2 * 3;
+  const double steps_up = 7 + 2 * 3;
+  EXPECT_NEAR(volume_of(make_dummy_particles<3>(make_boundary<3>(spec), dx, 3), dx),
+              2 * (3 * dx) * (steps_along * 0.75 / 8) * (steps_up * 0.66 / 7), round_off);
 }
 
 TEST(Dummies, FillAnObstacleIn3DFromItsClosedFaces) {
