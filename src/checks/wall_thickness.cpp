@@ -121,7 +121,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
       reported.insert(walls);
       findings.push_back(Finding::error(
           "{} is only {:.3g} m thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m; "
-          "make it thicker, or the spacing smaller",
+          "make it thicker, or the spacing smaller, or draw it without thickness, with shape = \"plate\"",
           wall_label(boundary, face.wall), thickness, place(*foot),
           face.wall == other.wall ? "the water" : wall_label(boundary, other.wall), dummy_layers(spec), needed));
     }
