@@ -99,7 +99,8 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Error: a probe where no water can come. Warning: times of a probe after the end of the run.
+/// Error: a probe where no water can come. Warning: times of a probe after the end of the run; a probe of the pressure
+/// on a wall that is not at one.
 template <int Dim>
 Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "checks/checks.h"
@@ -76,6 +77,20 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
                        probe.name, late, probe.times.size(), spec.time.end, *std::ranges::max_element(probe.times)));
 }
 
+/// Adds a warning of a probe that reads on a wall farther away than a spacing.
+template <int Dim>
+void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const ProbeTable& probe, Findings& findings) {
+  if (probe.type != ProbeType::wall_pressure) return;
+  const Vec<Dim> at = to_vec<Dim>(probe.at, "probe '" + probe.name + "'", "at");
+  const NearestWall<Dim> wall = drawn.nearest(at, std::numeric_limits<double>::infinity());
+  const double away = (at - wall.point).norm();
+  if (wall.face < 0 || away <= spec.particles.spacing) return;
+  findings.push_back(Finding::warning(
+      "probe '{}' at {} reads the pressure on the nearest wall, at {}, {:.4g} m away: move it onto the wall that is "
+      "meant, or take type = \"pressure\" for that in the water",
+      probe.name, place(at), place(wall.point), away));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -84,6 +99,7 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
   const Eigen::AlignedBox<double, Dim> box = box_of_case(spec, drawn, fluid);
   for (const ProbeTable& probe : spec.probes) {
     check_times(spec, probe, findings);
+    check_is_on_wall(spec, drawn, probe, findings);
     const Eigen::AlignedBox<double, Dim> where = box_of_probe<Dim>(probe);
     if (drawn.faces.empty() || where.isEmpty() || reach_of_water(spec, box).intersects(where)) continue;
     findings.push_back(

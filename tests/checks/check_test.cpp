@@ -581,6 +581,20 @@ TEST(Check, AProbeWhereNoWaterComesIsRefused) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+TEST(Check, AProbeOnAWallThatIsNotAtOneIsTold) {
+  CaseSpec spec = tank();  // dx = 0.1 m
+  ProbeTable probe;
+  probe.name = "p";
+  probe.type = ProbeType::wall_pressure;
+  probe.at = {0.5, 0.09};
+  spec.probes = {probe};
+  EXPECT_TRUE(check(spec).empty()) << "a wall is known no better than a spacing";
+  spec.probes[0].at = {0.5, 0.2};
+  expect_only(check(spec), Severity::warning,
+              {"probe 'p' at (0.5, 0.2) reads the pressure on the nearest wall, at (0.5, 0), 0.2 m away",
+               "type = \"pressure\""});
+}
+
 TEST(Check, TimesAfterTheEndAreTold) {
   CaseSpec spec = tank();
   spec.time.end = 1.0;
