@@ -31,13 +31,17 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   if (!has_error(findings)) append(findings, check_closed_space(spec, boundary, fluid));
   append(findings, check_wave_makers(spec, fluid));
   if (!has_error(flows)) append(findings, check_speeds<Dim>(spec));
+  append(findings, check_late_starts(spec));
   append(findings, check_bodies(spec, boundary));
   append(findings, check_moorings(spec, boundary));
   append(findings, check_air_places(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));
   if (!has_error(findings)) append(findings, check_hanging_water(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));
-  if (!has_error(findings)) append(findings, check_probes(spec, boundary, fluid));
+  if (!has_error(findings)) {
+    append(findings, check_damping(spec, boundary, fluid));
+    append(findings, check_probes(spec, boundary, fluid));
+  }
   // Both faces of a plate, for one, say the same.
   std::set<std::string> told;
   std::erase_if(findings, [&](const Finding& finding) { return !told.insert(finding.message).second; });

@@ -99,6 +99,13 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
+/// Warning: a gate or a wave maker that starts after the end of the run.
+Findings check_late_starts(const CaseSpec& spec);
+
+/// Error: a damping zone where no water can come.
+template <int Dim>
+Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
 /// Error: a probe where no water can come. Warning: times of a probe after the end of the run; a probe of the pressure
 /// on a wall that is not at one.
 template <int Dim>

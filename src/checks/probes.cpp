@@ -94,6 +94,23 @@ void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const Pr
 }  // namespace
 
 template <int Dim>
+Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
+  Findings findings;
+  if (spec.damping.empty() || drawn.faces.empty()) return findings;
+  const Eigen::AlignedBox<double, Dim> box = box_of_case(spec, drawn, fluid);
+  for (const DampingTable& zone : spec.damping) {
+    const Eigen::AlignedBox<double, Dim> where(to_vec<Dim>(zone.min, zone.name, "min"),
+                                               to_vec<Dim>(zone.max, zone.name, "max"));
+    if (box.intersects(where)) continue;
+    findings.push_back(Finding::error(
+        "damping from {} to {} is outside of the case, whose walls and water lie between {} and {}: it would damp "
+        "nothing; move it to where the waves shall die out",
+        place<Dim>(where.min()), place<Dim>(where.max()), place<Dim>(box.min()), place<Dim>(box.max())));
+  }
+  return findings;
+}
+
+template <int Dim>
 Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
   Findings findings;
   const Eigen::AlignedBox<double, Dim> box = box_of_case(spec, drawn, fluid);
@@ -110,6 +127,7 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
   return findings;
 }
 
+TAILWATER_IN_2D_AND_3D(check_damping);
 TAILWATER_IN_2D_AND_3D(check_probes);
 
 }  // namespace tailwater

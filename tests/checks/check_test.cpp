@@ -7,6 +7,7 @@
 #include <string>
 
 #include "checks/check.h"
+#include "checks/checks.h"
 #include "geometry/cases.h"
 
 namespace tailwater {
@@ -593,6 +594,35 @@ TEST(Check, AProbeOnAWallThatIsNotAtOneIsTold) {
   expect_only(check(spec), Severity::warning,
               {"probe 'p' at (0.5, 0.2) reads the pressure on the nearest wall, at (0.5, 0), 0.2 m away",
                "type = \"pressure\""});
+}
+
+TEST(Check, ADampingZoneWhereNoWaterComesIsRefused) {
+  CaseSpec spec = tank();  // 1 m x 0.6 m
+  DampingTable zone;
+  zone.min = {0.9, 0.0};
+  zone.max = {1.5, 1.0};
+  zone.strength = 1.0;
+  spec.damping = {zone};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.damping[0].min[0] = 1.1;
+  expect_only(check(spec), Severity::error, {"damping from (1.1, 0) to (1.5, 1) is outside of the case"});
+}
+
+TEST(Check, AStartAfterTheEndIsTold) {
+  CaseSpec spec = tank();
+  spec.time.end = 1.0;
+  GateTable gate;
+  gate.name = "weir";
+  gate.start = 0.9;
+  spec.gates = {gate};
+  EXPECT_TRUE(check_late_starts(spec).empty());
+  spec.gates[0].start = 2.0;
+  WaveMakerTable maker;
+  maker.name = "piston";
+  maker.start = 1.0;
+  spec.wave_makers = {maker};
+  expect_among(check_late_starts(spec), Severity::warning, {"gate 'weir' begins to move at 2 s", "ends at 1 s"});
+  expect_among(check_late_starts(spec), Severity::warning, {"wave_maker 'piston' begins to move at 1 s"});
 }
 
 TEST(Check, TimesAfterTheEndAreTold) {

@@ -1,0 +1,21 @@
+#include "checks/checks.h"
+
+namespace tailwater {
+
+Findings check_late_starts(const CaseSpec& spec) {
+  Findings findings;
+  const auto check = [&](const std::string& what, double start) {
+    if (start < spec.time.end) return;
+    findings.push_back(Finding::warning(
+        "{} begins to move at {:.6g} s, and the run ends at {:.6g} s: it rests; end the run later, or let it start "
+        "earlier",
+        what, start, spec.time.end));
+  };
+  for (const GateTable& gate : spec.gates) check("gate '" + gate.name + "'", gate.start);
+  for (const WaveMakerTable& maker : spec.wave_makers) {
+    if (maker.waves != WaveKind::none) check("wave_maker '" + maker.name + "'", maker.start);
+  }
+  return findings;
+}
+
+}  // namespace tailwater
