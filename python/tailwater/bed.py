@@ -94,8 +94,10 @@ def numbers_of(path):
             if not points:
                 continue  # names of the columns
             raise DataError(f"{path}:{line_number}: not numbers: {line[:60]}") from None
-        if len(point) != 3 or not np.isfinite(point).all():
+        if len(point) != 3:
             raise DataError(f"{path}:{line_number}: has {len(point)} numbers; a point is x, y and z in m")
+        if not np.isfinite(point).all():
+            raise DataError(f"{path}:{line_number}: is no point: {line[:60]}; leave out where the survey has no height")
         points.append(point)
     return np.array(points).reshape(-1, 3)
 

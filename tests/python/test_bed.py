@@ -112,6 +112,7 @@ class Bed(unittest.TestCase):
 
     def test_what_is_wrong_is_told(self):
         for text, part in (("1 2 3\n4 5\n", "wrong.xyz:2: has 2 numbers"), ("1 2 3\n4 5 x\n", "wrong.xyz:2: not numbers"),
+                           ("1 2 3\n4 5 nan\n", "wrong.xyz:2: is no point: 4 5 nan; leave out"),
                            ("1 2 3\n", "has 1 points"), ("0 0 1\n1 1 1\n2 2 1\n3 3 2\n", "no surface")):
             path = self.folder / "wrong.xyz"
             path.write_text(text, encoding="utf-8")
