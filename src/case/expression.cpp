@@ -58,9 +58,11 @@ ExpressionError unknown_name_error(const std::string& name, std::size_t position
     known.push_back("pi");
     for (const auto& [number, value] : numbers) known.push_back(number);
   }
-  return ExpressionError(fmt::format("unknown {} \"{}\" at position {}; {}", is_call ? "function" : "name", name,
-                                     position + 1, unknown_name_hint(name, known)),
-                         is_call ? std::nullopt : std::optional(name));
+  const std::string hint =
+      is_call && name == "if" ? "write a choice as \"a < b ? c : d\"" : unknown_name_hint(name, known);
+  return ExpressionError(
+      fmt::format("unknown {} \"{}\" at position {}; {}", is_call ? "function" : "name", name, position + 1, hint),
+      is_call ? std::nullopt : std::optional(name));
 }
 
 ExpressionError as_expression_error(const mu::Parser::exception_type& error, const std::string& text,
@@ -82,6 +84,9 @@ ExpressionError as_expression_error(const mu::Parser::exception_type& error, con
   }
   if (error.GetCode() == mu::ecEMPTY_EXPRESSION) {
     return ExpressionError("the text is empty; write a number or an expression such as \"2*H\"");
+  }
+  if (position > 0 && position < text.size() && text[position - 1] == '*' && text[position] == '*') {
+    return ExpressionError(fmt::format("\"**\" at position {}; write a power as \"a^b\"", position));
   }
   if (error.GetCode() == mu::ecMISSING_PARENS) return ExpressionError("a parenthesis is not closed; add \")\"");
   return ExpressionError(
