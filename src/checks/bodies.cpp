@@ -10,7 +10,7 @@ namespace {
 
 /// Around a body's walls as they are drawn.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_of(const FloatingBody<Dim>& body, const Boundary<Dim>& boundary) {
+Eigen::AlignedBox<double, Dim> box_of_body(const FloatingBody<Dim>& body, const Boundary<Dim>& boundary) {
   Eigen::AlignedBox<double, Dim> box;
   for (const WallFace<Dim>& face : boundary.faces) {
     if (std::ranges::find(body.walls, face.wall) != body.walls.end()) box.extend(face.box());
@@ -24,7 +24,7 @@ template <int Dim>
 Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
   for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) {
-    const Eigen::AlignedBox<double, Dim> box = box_of(body, boundary);
+    const Eigen::AlignedBox<double, Dim> box = box_of_body(body, boundary);
     if (box.isEmpty()) continue;
     const Vec<Dim>& centre = body.drawn.centre;
     if (box.exteriorDistance(centre) > corner_tolerance * spec.particles.spacing) {
@@ -53,7 +53,7 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const std::vector<FloatingBody<Dim>> bodies = make_bodies<Dim>(spec);
   const auto check_end = [&](const std::string& name, int of_body, const Vec<Dim>& x) {
     const FloatingBody<Dim>& body = bodies[of_body];
-    const Eigen::AlignedBox<double, Dim> box = box_of(body, boundary);
+    const Eigen::AlignedBox<double, Dim> box = box_of_body(body, boundary);
     const double away = box.isEmpty() ? 0.0 : box.exteriorDistance(x);
     if (away <= box.diagonal().norm()) return;
     findings.push_back(Finding::error(

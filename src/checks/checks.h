@@ -74,12 +74,12 @@ Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Counts the water
-/// at the start and what comes in through open ends, which count as closed.
+/// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Counts the
+/// water at the start and what comes in through open ends, which count as closed.
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Warning: water below a wall that stands higher than its own surface, as in a siphon, and no open end may press it up.
+/// Warning: water below a wall that stands higher than its own surface, as in a siphon, and is not at an open end.
 template <int Dim>
 Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 

@@ -163,11 +163,11 @@ template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs) {
   RunEstimate estimate;
   estimate.particles.wall = static_cast<double>(flow.walls.all);
-  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    if (!flow.state.particles.is_fluid(i)) continue;
-    estimate.particles.fluid += 1.0;
-    estimate.water += flow.state.particles.volume[i];
-  }
+  const Particles<Dim>& particles = flow.state.particles;
+  estimate.particles.fluid =
+      static_cast<double>(count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); }));
+  estimate.water =
+      sum_over(particles.owned, 0.0, [&](std::size_t i) { return particles.is_fluid(i) ? particles.volume[i] : 0.0; });
   // Beside walls that no lattice fits, cells are smaller or larger than dx.
   const double of_a_particle =
       estimate.particles.fluid > 0.0 ? estimate.water / estimate.particles.fluid : power<Dim>(spec.particles.spacing);

@@ -349,7 +349,7 @@ class Explain(ProgramTest):
 class Info(ProgramTest):
     def test_tells_about_the_program(self):
         text = self.call("info").stdout
-        for part in ("tailwater ", "commit", "PETSc", "cores"):
+        for part in ("tailwater ", "commit", "Open MPI", "cores"):
             self.assertIn(part, text)
 
     def test_shows_the_summary_of_a_run(self):

@@ -31,7 +31,8 @@ UNSEEN = {
         "wall without length"},
     "expressions": {
         "displacement_of_a_position", "gravity_of_itself", "infinite_expression", "inlet_discharge_of_position",
-        "parameter_is_reported_once", "parameter_of_itself", "parameter_of_unknown", "range_of_an_expression",
+        "parameter_is_reported_once", "parameter_of_itself", "parameter_of_unknown", "parameter_of_unknown_is_told_all_names",
+        "parameter_that_waits_for_a_circle", "spacing_and_parameter_of_each_other", "range_of_an_expression",
         "rotation_of_an_unknown_function", "spacing_of_itself", "unknown_name",
         "unknown_name_is_reported_once_if_dx_uses_it", "velocity_of_an_unknown_name", "velocity_of_z_in_a_plane",
         "unknown parameter", "discharge that jumps", "discharge without a value", "velocity that overflows"},
