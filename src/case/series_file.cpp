@@ -17,10 +17,16 @@ constexpr std::size_t most_samples = 1000000;
 constexpr std::array<Unit, 4> time_units{{{"s", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"h", 3600.0}}};
 constexpr std::array<Unit, 2> angle_units{{{"rad", 1.0}, {"deg", std::numbers::pi / 180.0}}};
 constexpr std::array<Unit, 3> speed_units{{{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}}};
-constexpr std::array<Unit, 6> discharge_units{
-    {{"m^3/s", 1.0}, {"m3/s", 1.0}, {"m^2/s", 1.0}, {"m2/s", 1.0}, {"l/s", 1e-3}, {"m^3/h", 1.0 / 3600.0}}};
-
 // What 2D gives per metre of width may be written so, or not.
+constexpr std::array<Unit, 9> discharge_units{{{"m^3/s", 1.0},
+                                               {"m3/s", 1.0},
+                                               {"m^3/s/m", 1.0},
+                                               {"m^2/s", 1.0},
+                                               {"m2/s", 1.0},
+                                               {"l/s", 1e-3},
+                                               {"l/s/m", 1e-3},
+                                               {"m^3/h", 1.0 / 3600.0},
+                                               {"m3/h", 1.0 / 3600.0}}};
 constexpr std::array<Unit, 5> volume_units{{{"m^3", 1.0}, {"m3", 1.0}, {"l", 1e-3}, {"m^3/m", 1.0}, {"l/m", 1e-3}}};
 constexpr std::array<Unit, 5> pressure_units{{{"pa", 1.0}, {"hpa", 1e2}, {"kpa", 1e3}, {"mbar", 1e2}, {"bar", 1e5}}};
 constexpr std::array<Unit, 4> force_units{{{"n", 1.0}, {"kn", 1e3}, {"n/m", 1.0}, {"kn/m", 1e3}}};

@@ -345,6 +345,17 @@ TEST_F(Hydrograph, IsReadWithUnits) {
   EXPECT_DOUBLE_EQ(series.columns[2].at(0), 0.5);
 }
 
+TEST_F(Hydrograph, UnitsMayBeWrittenAsTheyAreSpoken) {
+  for (const char* unit : {"m^3/h", "m3/h"}) {
+    write(std::string("t [s], discharge [") + unit + "]\n0, 36\n1, 36\n");
+    EXPECT_DOUBLE_EQ(read_case(file_.path()).inlets[0].series.columns[0].at(0), 0.01) << unit;
+  }
+  for (const char* unit : {"l/s", "l/s/m"}) {
+    write(std::string("t [s], discharge [") + unit + "]\n0, 10\n1, 10\n");
+    EXPECT_DOUBLE_EQ(read_case(file_.path()).inlets[0].series.columns[0].at(0), 0.01) << unit;
+  }
+}
+
 TEST_F(Hydrograph, IsRefusedWithPlaceAndRemedy) {
   struct Bad {
     std::string text, line;
