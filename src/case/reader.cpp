@@ -154,8 +154,10 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   CaseSpec::describe(spec, reader);
   reader.report_unknown_tables();
   const bool has_no_fluid = root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty());
-  if (has_no_fluid && root.get("inlet") == nullptr) {
-    context.problems.add(nullptr, "there is no fluid; add at least one table [[fluid]], or an [[inlet]]");
+  const bool comes_in = root.get("inlet") != nullptr || std::ranges::any_of(spec.outlets, may_bring_water);
+  if (has_no_fluid && !comes_in) {
+    context.problems.add(
+        nullptr, "there is no fluid; add at least one table [[fluid]], an [[inlet]], or the level of an [[outlet]]");
   }
   if (context.problems.none()) check_across_tables(spec, root, context.problems);
   if (context.problems.none()) read_measurements(spec, root, context.problems);

@@ -130,6 +130,8 @@ Json table_rules_of_schema(std::string_view table) {
 Json file_rules_of_schema() {
   Json has_fluid = needs("fluid");
   has_fluid["properties"]["fluid"] = at_least(1);
+  Json has_level_beyond = needs("outlet");
+  has_level_beyond["properties"]["outlet"] = {{"contains", {{"anyOf", Json::array({needs("level"), needs("file")})}}}};
   const Json has_bodies{{"required", Json::array({"body"})}, {"properties", {{"body", at_least(1)}}}};
   Json lets_bodies_float = rule_for("name", one_of({"farzin2014"}));
   lets_bodies_float["properties"]["formulation"] = one_of({"robust"});
@@ -139,7 +141,7 @@ Json file_rules_of_schema() {
   is_two_step["properties"]["scheme"] = is("name", {"farmani2020"});
   const Json has_studies{{"propertyNames", none_of({"divergence_free", "displacement"})}};
   return Json::array({
-      {{"anyOf", Json::array({std::move(has_fluid), needs("inlet")})}},
+      {{"anyOf", Json::array({std::move(has_fluid), needs("inlet"), std::move(has_level_beyond)})}},
       if_then(has_bodies, rule_for("scheme", std::move(lets_bodies_float))),
       if_then(std::move(is_published), rule_for("study", {{"maxProperties", 0}})),
       if_then(std::move(is_two_step), rule_for("study", has_studies)),

@@ -608,6 +608,9 @@ struct OutletTable {
   }
 };
 
+/// Whether water may come in through it, from beyond.
+inline bool may_bring_water(const OutletTable& outlet) { return outlet.level || !outlet.file.empty(); }
+
 struct TimeTable {
   double end = 0.0;
 

@@ -52,8 +52,8 @@ void check_fill(const FluidTable& block, const std::string& label, double partic
 
 template <int Dim>
 Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
-  if (spec.fluid.empty() && spec.inlets.empty()) {
-    return {Finding::error("there is no fluid: add a [[fluid]] or an [[inlet]] table")};
+  if (spec.fluid.empty() && spec.inlets.empty() && std::ranges::none_of(spec.outlets, may_bring_water)) {
+    return {Finding::error("there is no fluid: add a [[fluid]] or an [[inlet]] table, or the level of an [[outlet]]")};
   }
   std::vector<double> particles(spec.fluid.size(), 0.0);
   for (const int block : fluid.block) particles[block] += 1.0;

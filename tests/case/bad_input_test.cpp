@@ -38,6 +38,10 @@ const std::vector<BadInput> table{
     {"one_fluid_table", required_keys + "[fluid]\nmin = [0, 0]\nmax = [1, 1]\n", "3:1", {"fluid", "[[fluid]]"}},
     {"no_fluid", required_keys, "", {"there is no fluid", "[[fluid]]"}},
     {"empty_fluid", "fluid = []\n" + required_keys, "", {"there is no fluid"}},
+    {"no_fluid_and_nothing_beyond_the_outlet",
+     required_keys + "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\n",
+     "",
+     {"there is no fluid", "the level of an [[outlet]]"}},
     {"missing_table", "time.end = 1\n" + water, "", {"particles.spacing is missing", "above 0 in m"}},
     {"missing_key", "particles.jitter = 0\ntime.end = 1\n" + water, "1:1", {"particles.spacing is missing"}},
     // Keys

@@ -135,6 +135,15 @@ TEST(EndChecks, WaterThatComesInMustNotPourOut) {
       << errors_of(from_beyond);
 }
 
+TEST(EndChecks, ADryBasinMayFillFromALevelBeyond) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {1.0, 0.0}})};
+  spec.outlets = {outlet({1.0, 0.0}, {1.0, 0.5})};
+  EXPECT_NE(errors_of(spec).find("there is no fluid"), std::string::npos) << errors_of(spec);
+  spec.outlets[0].level = Varying{0.3};
+  EXPECT_EQ(errors_of(spec), "");
+}
+
 TEST(EndChecks, AWaveMakerWantsTheDepthOfItsWater) {
   CaseSpec spec = empty_case(0.05);
   spec.walls = {polyline({{-1.0, 1.0}, {-1.0, 0.0}, {8.0, 0.0}, {8.0, 1.0}})};

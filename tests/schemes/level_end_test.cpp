@@ -65,6 +65,20 @@ TEST(OpenEnd, ATankComesToTheLevelBeyond) {
   }
 }
 
+/// A tank that has no water of its own fills to the level beyond, too.
+TEST(OpenEnd, ADryTankFillsToTheLevelBeyond) {
+  CaseSpec spec = tank_with_level(0.5, 0.4);
+  spec.fluid.clear();
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  while (flow.state.time < 7.0) {
+    pass_and_step(flow);
+    if (flow.state.time > 5.0) {
+      ASSERT_NEAR(mean_depth(flow, tank_width), 0.4, dx) << "t = " << flow.state.time;
+    }
+  }
+}
+
 /// Runs a tank beside an end whose level changes by at most `rate` [m/s] for `duration`, and then rests.
 /// Its depth lags by what lets the flow u = r L/h in, u c/g = r L/c, by what the level rises while the tank
 /// answers, in L/c, and while the end takes its mean over the time L/c, as much again each; and it is there when the
