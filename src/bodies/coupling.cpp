@@ -129,10 +129,14 @@ void BodyCoupling<Dim>::meet_air() {
   }
   const bool is_known = !flow_.state.motion.bodies.inertia.empty();
   const Eigen::MatrixXd resisting = is_known ? Eigen::MatrixXd(inertia()) : Eigen::MatrixXd(scale_.asDiagonal());
-  const Eigen::MatrixXd answer = dt_ * G.transpose() * resisting.fullPivLu().solve(G);
-  std::vector<double>& mobility = flow_.sides.mobility;
-  for (Eigen::Index k = 0; k < pockets; ++k) mobility.push_back(std::max(0.0, answer(k, k)));
-  air_ = 0.5 * dt_ * dt_ * G * stiffness_of_air(flow_, dt_) * G.transpose();
+  const auto factors = resisting.fullPivLu();
+  for (Eigen::Index k = 0; k < pockets; ++k) {
+    const Eigen::VectorXd force = G.col(k);
+    const Eigen::VectorXd answer = factors.solve(force);
+    flow_.sides.mobility.push_back(std::max(0.0, dt_ * force.dot(answer)));
+  }
+  const Eigen::MatrixXd of_pockets = G.lazyProduct(stiffness_of_air(flow_, dt_));
+  air_ = 0.5 * dt_ * dt_ * of_pockets.lazyProduct(G.transpose());
 }
 
 template <int Dim>
@@ -250,7 +254,7 @@ void BodyCoupling<Dim>::correct(Eigen::VectorXd& g, double tolerance, SolveRepor
   const Eigen::VectorXd before = acceleration();
   const Eigen::VectorXd pushed = push_;
   accelerate(find_one_sided(one_sided_, inertia() + air_, dt_, flow_.setup.spacing,
-                            before - (inertia() + air_).fullPivLu().solve(g + pushed), push_));
+                            before - (inertia() + air_).fullPivLu().solve(Eigen::VectorXd(g + pushed)), push_));
   const Eigen::VectorXd change = acceleration() - before;
   const SolveReport solved = solve_once(tolerance);
   report.iterations += solved.iterations;
