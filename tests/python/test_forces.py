@@ -138,9 +138,12 @@ class OnBodies(PackageTest):
                     path.append([step.time, *box.centre, np.arctan2(box.rotation[1, 0], box.rotation[0, 0])])
             return np.array(path)
 
+        # Round-off may cost a solve an iteration, so solves end only where that is seen no more. What is left, here
+        # 2e-9 to 8e-9 with spacings of 0.035 to 0.045 m, comes from pairs, which are in single precision.
+        self.case["pressure_solver.tolerance"] = 1e-8
         moored, pushed = motion(self.case), motion(self.without_lines(), moor)
         self.assertGreater(abs(moored[:, 2] - moored[0, 2]).max(), 1e-4)
-        self.assertLess(abs(moored - pushed).max(), 1e-10)
+        self.assertLess(abs(moored - pushed).max(), np.finfo(np.float32).eps)
         free = motion(self.without_lines())
         self.assertGreater(abs(moored[:len(free)] - free[:len(moored)]).max(), 1e-6)
 
