@@ -133,9 +133,8 @@ std::string case_reference_markdown() {
       "or d\n"
       "- names: the keys of `[parameters]` (letters, digits, `_`), `pi`, `dx` = `particles.spacing`, `g` = the "
       "magnitude of `physics.gravity`, which may use one another in any order; in `fluid.velocity` also `x`, `y`, `z`, "
-      "the "
-      "particle's position, and in what varies with time (such as `wall.displacement` and `inlet.discharge`) the time "
-      "`t`; none of these can name a parameter\n"
+      "the particle's position, and in what varies with time (such as `wall.displacement` and `inlet.discharge`) the "
+      "time `t`; none of these can name a parameter\n"
       "- functions: " +
       functions_text() +
       "\n\n"

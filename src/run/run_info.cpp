@@ -221,8 +221,9 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
   lines.push_back({"particles", fmt::format("{:.0f} fluid, {:.0f} wall, spacing {:g} m", number_of(particles, "fluid"),
                                             number_of(particles, "wall"), number_of(summary, "spacing_m"))});
   lines.push_back({"water", water_line(summary)});
-  if (const auto air = summary.find("pockets"); air != summary.end())
+  if (const auto air = summary.find("pockets"); air != summary.end()) {
     lines.push_back({"air", air_line(*air, per_metre(summary))});
+  }
   const Json& energy = summary.at("energy");
   lines.push_back({"energy", fmt::format("{:.6g} J{} at the start, {:.6g} at the end, largest rise {:.2g}",
                                          number_of(energy, "start_J"), per_metre(summary), number_of(energy, "end_J"),

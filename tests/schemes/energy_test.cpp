@@ -164,21 +164,27 @@ TEST_P(Energy, OfAPistonIsItsWork) {
   EXPECT_GT(books.mean_share, 0.95);  // and the density source does not take it for a fault
 }
 
-TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
+/// Water over a bed that has a period of 0.6 m.
+CaseSpec water_over_a_period(double depth) {
   CaseSpec spec = free_case(0.05);
-  spec.scheme.integrator = GetParam();
-  spec.physics.viscosity = 0.25;
-  spec.physics.gravity = {0.0, -g};
   spec.domain.periodic_x = {0.0, 0.6};
   WallTable bed;
   bed.points = {{0.0, 0.0}, {0.6, 0.0}};
-  bed.slip = Slip::no_slip;
-  bed.displacement = {"t", 0.0};
   spec.walls = {bed};
   FluidTable water;
   water.min = {0.0, 0.0};
-  water.max = {0.6, 0.5};
+  water.max = {0.6, depth};
   spec.fluid = {water};
+  return spec;
+}
+
+TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
+  CaseSpec spec = water_over_a_period(0.5);
+  spec.scheme.integrator = GetParam();
+  spec.physics.viscosity = 0.25;
+  spec.physics.gravity = {0.0, -g};
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].displacement = {"t", 0.0};
   Flow<2> flow = make_flow<2>(spec);
   const double start = energy(flow);
   const Books books = run_to(flow, 0.1);
@@ -191,17 +197,9 @@ TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
 
 // At 2 m/s in the end the water has gone through the seam of the period of 0.6 m more than once.
 TEST_P(Energy, OfWaterThatFallsAlongAPeriodIsTheWorkOfTheSlope) {
-  CaseSpec spec = free_case(0.05);
+  CaseSpec spec = water_over_a_period(0.3);
   spec.scheme.integrator = GetParam();
   spec.physics.gravity = {2.0, -g};
-  spec.domain.periodic_x = {0.0, 0.6};
-  WallTable bed;
-  bed.points = {{0.0, 0.0}, {0.6, 0.0}};
-  spec.walls = {bed};
-  FluidTable water;
-  water.min = {0.0, 0.0};
-  water.max = {0.6, 0.3};
-  spec.fluid = {water};
   Flow<2> flow = make_flow<2>(spec);
   const double start = energy(flow);
   const Books books = run_to(flow, 1.0);
