@@ -27,14 +27,17 @@
 namespace tailwater {
 namespace {
 
-/// What is wrong with the command line, in the words of this program.
+/// The error message for a command line that cannot be parsed.
 std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> command = app.get_subcommands();
   const std::vector<std::string> rest = app.remaining();
+  if (!rest.empty() && rest.front().starts_with('-')) {
+    return fmt::format("unknown option \"{}\"; see: tailwater --help", rest.front());
+  }
   if (!command.empty()) {
     return fmt::format("{}; see: tailwater {} --help", error.what(), command.front()->get_name());
   }
-  if (rest.empty() || rest.front().starts_with('-')) {
+  if (rest.empty()) {
     return fmt::format("{}; see: tailwater --help", error.what());
   }
   std::vector<std::string_view> names;
@@ -104,6 +107,10 @@ void add_commands(CLI::App& app, int argc, char** argv, ExitCode& code, const Co
   add_help_commands(app);
 }
 
+void show_lines(const std::string& text) {
+  for (const std::string_view line : lines_of(text)) tell(line);
+}
+
 /// Does what the command line asks for.
 Outcome execute(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(
@@ -124,7 +131,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
   try {
     require_printable(argc, argv);
     if (argc == 1) {
-      if (ranks.is_root()) tell(app.help());
+      if (ranks.is_root()) show_lines(app.help());
       return {ExitCode::bad_input, ""};
     }
     const std::string_view command = argv[1];

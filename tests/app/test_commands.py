@@ -32,10 +32,10 @@ end = 20
 
 
 class CommandLine(ProgramTest):
-    def test_without_arguments_shows_the_help_as_a_complaint(self):
+    def test_without_arguments_the_help_goes_to_standard_error(self):
         result = self.call(expect=2, errors_only=False)
         self.assertEqual(result.stdout, "")
-        self.assertIn("tailwater new dam-break my.toml", result.stderr)
+        self.assertEqual(result.stderr, self.call("--help").stdout)
 
     def test_help_names_every_command_and_exit_code(self):
         help_text = self.call("--help").stdout
@@ -80,7 +80,8 @@ class CommandLine(ProgramTest):
     def test_mistakes_are_answered_with_the_way_out(self):
         for arguments, parts in (
             (("chekc", "small.toml"), ('unknown command "chekc"', 'did you mean "check"?')),
-            (("--bogus",), ("tailwater --help",)),
+            (("--bogus",), ('unknown option "--bogus"', "tailwater --help")),
+            (("--bogus", "check", "small.toml"), ('unknown option "--bogus"', "tailwater --help")),
             (("check",), ("case is required", "tailwater check --help")),
             (("check", "small.toml", "--bogus"), ("--bogus", "tailwater check --help")),
             (("check", "small.toml", "--set"), ("--set", "tailwater check --help")),
