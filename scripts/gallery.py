@@ -40,11 +40,8 @@ Made by `scripts/gallery.py`. Water is coloured by its speed. CPU time is that o
 
 
 def templates():
-    """All names, in the order in which the help tells them."""
-    told = " ".join(call("new", "--help").split())
-    names = re.search(r"NAME:\{(.*?)\}", told)[1].split(",")
-    words = told.partition("REQUIRED ")[2]
-    return sorted(names, key=lambda name: re.search(rf"\b(?<!-){name}\b(?!-)", words).start())
+    """All names, in the order of the help."""
+    return re.findall(r"^  ([\w-]+)  ", call("new", "--help").partition("\nTemplates:\n")[2], re.MULTILINE)
 
 
 def what_it_shows(name):

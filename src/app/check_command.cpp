@@ -170,25 +170,27 @@ void check_case(const CheckOptions& options) {
 
 void add_check_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      app.add_subcommand("check", "Validate a case, count its particles, estimate memory and time, draw a preview");
-  command->add_option("case", options->case_file, "The case file")->required()->type_name("");
-  command->add_option("--set", options->overrides, "Override a key, as in --set particles.spacing=0.01")
+  CLI::App* command = app.add_subcommand("check", "Find errors, estimate size and run time, draw a preview");
+  command->add_option("case", options->case_file, "Case file")->required()->type_name("");
+  command->add_option("--set", options->overrides, "Override a key, for example particles.spacing=0.01")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command
       ->add_option("--preview", options->preview,
-                   "Picture to write (default: CASE.preview.svg in this folder); in 3D also one in perspective beside "
-                   "it, with the ending .png; of a wrong geometry both mark the places")
+                   "SVG file for the preview (default: CASE.preview.svg in the current folder). In 3D a perspective "
+                   "view is written beside it as PNG. Geometry errors are marked.")
       ->type_name("FILE");
-  command->add_flag("--no-preview", options->draws_nothing, "Draw nothing");
-  command->footer("Examples: tailwater check my.toml\n          tailwater check my.toml --set particles.spacing=0.01");
+  command->add_flag("--no-preview", options->draws_nothing, "Draw no preview");
+  command->footer(
+      "Examples: tailwater check my.toml\n"
+      "          tailwater check my.toml --set particles.spacing=0.01\n"
+      "Each error is reported with file, line and remedy. The run time is estimated\n"
+      "from a few trial steps on this machine.");
   CLI::Option* json = command->add_flag("--json", options->as_json,
-                                        "Print findings, drawing and size as JSON, for programs, without trial steps; "
-                                        "the case \"-\" is read from standard input");
+                                        "Print findings, geometry and size as JSON, without trial steps. The case "
+                                        "\"-\" is read from standard input.");
   command
-      ->add_flag("--trial-steps", options->takes_trial_steps,
-                 "With --json: take trial steps, and tell the time it takes")
+      ->add_flag("--trial-steps", options->takes_trial_steps, "With --json: take trial steps and estimate the run time")
       ->needs(json);
   command->callback([options] {
     if (options->as_json) {

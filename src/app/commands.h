@@ -23,7 +23,7 @@ void add_info_command(CLI::App& app, ExitCode& code);
 /// `bench`, `validate`, `study`, `waves`, `bed` and `pictures`.
 void add_python_commands(CLI::App& app);
 void add_view_command(CLI::App& app, ExitCode& code);
-/// `man` and `completion`, which tell of all commands of `app`.
+/// `man` and `completion`, generated from all commands of `app`.
 void add_help_commands(CLI::App& app);
 
 }  // namespace tailwater

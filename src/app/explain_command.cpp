@@ -30,12 +30,15 @@ void explain_in(const CaseSpec& spec) {
 void add_explain_command(CLI::App& app, ExitCode&) {
   auto case_file = std::make_shared<std::filesystem::path>();
   auto overrides = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = app.add_subcommand("explain", "Say in a few sentences what a case is and what it takes");
-  command->add_option("case", *case_file, "The case file")->required()->type_name("");
-  command->add_option("--set", *overrides, "Override a key, as in --set particles.spacing=0.01")
+  CLI::App* command = app.add_subcommand("explain", "Print a summary of a case");
+  command->add_option("case", *case_file, "Case file")->required()->type_name("");
+  command->add_option("--set", *overrides, "Override a key, for example particles.spacing=0.01")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->footer("Example: tailwater explain my.toml");
+  command->footer(
+      "Example: tailwater explain my.toml\n"
+      "The summary lists water, walls, probes and scheme, with estimates of run time\n"
+      "and memory.");
   command->callback([case_file, overrides] {
     const CaseSpec spec = read_case(*case_file, *overrides);
     with_places(spec, [&] { spec.general.dimension == 2 ? explain_in<2>(spec) : explain_in<3>(spec); });

@@ -1,5 +1,5 @@
-// What shells and man ask of the program, made from the commands and options that it has: `tailwater man`, which prints
-// its manual page, and `tailwater completion SHELL`.
+// `tailwater man` and `tailwater completion SHELL`: the manual page and the completion scripts, generated from the
+// commands and options of the program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,7 +80,7 @@ std::string roff_options(const std::vector<OptionText>& options) {
 
 std::string man_page(const CommandText& program) {
   std::string page = fmt::format(
-      ".TH TAILWATER 1 \"\" \"{}\" \"User commands\"\n.SH NAME\ntailwater \\- free\\-surface water flow by "
+      ".TH TAILWATER 1 \"\" \"{}\" \"User commands\"\n.SH NAME\ntailwater \\- simulate free\\-surface water flow with "
       "incompressible smoothed particle hydrodynamics\n.SH SYNOPSIS\n.B tailwater\nCOMMAND [OPTIONS]\n.SH "
       "DESCRIPTION\n{}",
       version_line(), roff_lines(program.description));
@@ -188,18 +188,21 @@ std::string fish_completion(const CommandText& program) {
 }  // namespace
 
 void add_help_commands(CLI::App& app) {
-  CLI::App* man = app.add_subcommand("man", "Print the manual page, as in: tailwater man | man -l -");
+  CLI::App* man = app.add_subcommand("man", "Print the manual page");
+  man->footer("Example: tailwater man | man -l -");
   man->callback([&app] { fmt::print("{}", man_page(command_text(app))); });
 
-  CLI::App* completion = app.add_subcommand("completion", "Print what makes a shell complete commands and options");
+  CLI::App* completion = app.add_subcommand("completion", "Print a completion script for a shell");
   completion->footer(
-      "bash: tailwater completion bash > ~/.local/share/bash-completion/completions/tailwater\n"
-      "zsh:  tailwater completion zsh > a folder of $fpath, as _tailwater\n"
-      "fish: tailwater completion fish > ~/.config/fish/completions/tailwater.fish");
+      "To install it:\n"
+      "  bash: tailwater completion bash > ~/.local/share/bash-completion/completions/tailwater\n"
+      "  zsh:  tailwater completion zsh > _tailwater, in a folder of $fpath\n"
+      "  fish: tailwater completion fish > ~/.config/fish/completions/tailwater.fish");
   auto shell = std::make_shared<std::string>();
-  completion->add_option("shell", *shell, "bash, zsh or fish")
+  completion->add_option("shell", *shell, "Shell: bash, zsh or fish")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}).description(""))
+      ->type_name("");
   completion->callback([&app, shell] {
     const CommandText program = command_text(app);
     fmt::print("{}", *shell == "bash"  ? bash_completion(program)

@@ -57,10 +57,12 @@ void show_run(const std::filesystem::path& run, bool as_json) {
 void add_info_command(CLI::App& app, ExitCode&) {
   auto run = std::make_shared<std::filesystem::path>();
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("info", "Tell about this program, or about a finished run");
-  command->add_option("run", *run, "Folder of a run or of a sweep; without it: version, libraries, machine")
+  CLI::App* command = app.add_subcommand("info", "Print the results of a run, or the version of this program");
+  command
+      ->add_option("run", *run,
+                   "Folder of a run or a sweep. Without it, version, build, libraries and machine are printed.")
       ->type_name("");
-  command->add_flag("--json", *as_json, "The whole summary, for programs");
+  command->add_flag("--json", *as_json, "Print the complete summary of the run as JSON");
   command->footer("Examples: tailwater info\n          tailwater info my_run\n          tailwater info my_run --json");
   command->callback([run, as_json] {
     if (run->empty()) {

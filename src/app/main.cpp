@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -26,6 +27,34 @@
 
 namespace tailwater {
 namespace {
+
+/// `text` with line breaks between its words, so that a line has at most `width` characters.
+std::string broken_into_lines(std::string_view text, std::size_t width) {
+  std::string lines;
+  std::size_t length = 0;  // of the last line
+  for (const std::string_view word : split(text, ' ')) {
+    const bool fits = length + 1 + word.size() <= width;
+    if (length > 0) lines += fits ? ' ' : '\n';
+    lines += word;
+    length = length > 0 && fits ? length + 1 + word.size() : word.size();
+  }
+  return lines;
+}
+
+/// Help for terminals of 80 columns.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    column_width(26);
+    label("SUBCOMMAND", "COMMAND");
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return broken_into_lines(option->get_description(), 80 - get_column_width());
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return fmt::format("  {:<12}{}\n", command->get_name(), command->get_description());
+  }
+};
 
 /// The error message for a command line that cannot be parsed.
 std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
@@ -105,6 +134,10 @@ void add_commands(CLI::App& app, int argc, char** argv, ExitCode& code, const Co
   add_python_commands(app);
   add_view_command(app, code);
   add_help_commands(app);
+  for (CLI::App* command : app.get_subcommands(nullptr)) {
+    command->group("Commands");
+    for (CLI::App* nested : command->get_subcommands(nullptr)) nested->group("Commands");
+  }
 }
 
 void show_lines(const std::string& text) {
@@ -114,17 +147,21 @@ void show_lines(const std::string& text) {
 /// Does what the command line asks for.
 Outcome execute(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(
-      "Tailwater: free-surface water flow by incompressible smoothed particle hydrodynamics.\n\n"
-      "Start with:\n"
+      "Tailwater simulates free-surface water flow with incompressible smoothed\n"
+      "particle hydrodynamics (ISPH).\n\n"
+      "First steps:\n"
       "  tailwater new dam-break my.toml\n"
       "  tailwater check my.toml\n"
       "  tailwater run my.toml --out my_run\n",
       "tailwater");
   app.set_version_flag("--version", version_line());
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(
-      "`tailwater COMMAND --help` tells more. All keys of a case file: tailwater run --help-case\n"
-      "Exit codes: 0 done, 2 bad input, 3 the solver failed, 4 a file cannot be read or written, 130 interrupted.");
+      "Options of a command:  tailwater COMMAND --help\n"
+      "Keys of a case file:   tailwater run --help-case\n"
+      "Exit codes: 0 done, 2 bad input, 3 the solver failed, 4 a file cannot be read or\n"
+      "written, 130 interrupted.");
   ExitCode code = ExitCode::done;
   add_commands(app, argc, argv, code, ranks);
 

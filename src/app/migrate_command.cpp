@@ -33,14 +33,13 @@ void migrate(const std::filesystem::path& old_file, const std::filesystem::path&
 void add_migrate_command(CLI::App& app, ExitCode&) {
   auto old_file = std::make_shared<std::filesystem::path>();
   auto new_file = std::make_shared<std::filesystem::path>();
-  CLI::App* command = app.add_subcommand("migrate", "Bring a case file of an earlier version up to date");
-  command->add_option("old", *old_file, "The case file")->required()->type_name("");
-  command->add_option("new", *new_file, "The file to write; without it: to standard output")->type_name("");
+  CLI::App* command = app.add_subcommand("migrate", "Convert a case file from an earlier version");
+  command->add_option("old", *old_file, "Case file to convert")->required()->type_name("");
+  command->add_option("new", *new_file, "Case file to write (default: standard output)")->type_name("");
   command->footer(
       "Example: tailwater migrate old.toml new.toml\n"
-      "Keys that have another place today are moved; those that are no more become comments. Each change is told, "
-      "with\n"
-      "its line. All else stays as it is.");
+      "Renamed keys are moved to their present place; removed keys become comments.\n"
+      "Each change is reported with its line. The rest of the file does not change.");
   command->callback([old_file, new_file] { migrate(*old_file, *new_file); });
 }
 

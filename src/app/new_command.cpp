@@ -88,20 +88,33 @@ const std::map<std::string, const char*>& case_templates() { return templates_by
 
 void add_new_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<NewOptions>();
-  CLI::App* command = app.add_subcommand("new", "Start a case file from a template");
-  command
-      ->add_option("template", options->kind,
-                   "dam-break (a column collapses in a tank), tank (water at rest), channel (an inlet, a tailwater and "
-                   "a discharge probe), river-reach (the same over a surveyed bed from a CSV file), weir, broad-weir, "
-                   "ogee, sluice-gate, hydraulic-jump and backwater (steady flow in a flume), circulation, run-up, "
-                   "pier (3D, a dam breaks against a pier from a mesh file), wave-flume (regular waves, gauges and a "
-                   "damping zone), solitary-wave, sloshing (a tank that rolls) or floating-box (a body on two lines)")
+  CLI::App* command = app.add_subcommand("new", "Write a case file from a template");
+  command->add_option("template", options->kind, "Name of the template")
       ->required()
-      ->check(CLI::IsMember(templates_by_name))
+      ->check(CLI::IsMember(templates_by_name).description(""))
       ->type_name("NAME");
-  command->add_option("file", options->file, "The case file to write")->required()->type_name("");
-  command->add_flag("--force", options->force, "Overwrite the file if it exists");
-  command->footer("Example: tailwater new dam-break my.toml");
+  command->add_option("file", options->file, "Case file to write")->required()->type_name("");
+  command->add_flag("--force", options->force, "Overwrite an existing file");
+  command->footer(
+      "Example: tailwater new dam-break my.toml\n\n"
+      "Templates:\n"
+      "  dam-break       a water column collapses onto a dry bed\n"
+      "  tank            water at rest\n"
+      "  channel         uniform flow with inlet, tailwater and a discharge probe\n"
+      "  river-reach     flow over a surveyed bed from a CSV file\n"
+      "  weir            sharp-crested weir\n"
+      "  broad-weir      broad-crested weir\n"
+      "  ogee            ogee crest at its design head\n"
+      "  sluice-gate     flow under a sluice gate\n"
+      "  hydraulic-jump  hydraulic jump against a tailwater\n"
+      "  backwater       backwater in a sloping channel with rough side walls\n"
+      "  circulation     long channel; outflow re-enters at the inlet\n"
+      "  run-up          solitary wave on a plane beach\n"
+      "  pier            3D dam break against a pier from a mesh file\n"
+      "  wave-flume      regular waves, wave gauges and a damping zone\n"
+      "  solitary-wave   solitary wave from a piston\n"
+      "  sloshing        water in a rolling tank\n"
+      "  floating-box    floating body on two mooring lines");
   command->callback([options] { write_new_case(*options); });
 }
 

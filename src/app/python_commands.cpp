@@ -16,23 +16,22 @@ struct PythonCommand {
 };
 
 constexpr std::array<PythonCommand, 2> benches{{
-    {"robustness", "The gates of the robust core", "tailwater_validation.robustness", ""},
-    {"speed", "CPU time and memory of cases, steps and rooms, and how they grow", "tailwater_validation.speed", ""},
+    {"robustness", "Run the robustness suite", "tailwater_validation.robustness", ""},
+    {"speed", "Measure CPU time and memory, and their growth", "tailwater_validation.speed", ""},
 }};
 
 constexpr std::array<PythonCommand, 7> python_commands{{
-    {"validate", "Run the papers' cases and the exact solutions, and write a report of the scores",
-     "tailwater_validation.validate", ""},
-    {"study", "Run a case at several spacings, and say how well its numbers are known", "tailwater.study_command", ""},
-    {"waves", "Wave heights, periods, spectra and reflection from a run's gauges", "tailwater.waves",
+    {"validate", "Compare with laboratory data and theory; write a report", "tailwater_validation.validate", ""},
+    {"study", "Estimate the uncertainty of results from several spacings", "tailwater.study_command", ""},
+    {"waves", "Print wave heights, periods and reflection; write spectra", "tailwater.waves",
      "Example: tailwater waves my_run g1 g2 g3 --from 20"},
-    {"bed", "Make the mesh of a wall from a surveyed terrain, GeoTIFF or XYZ", "tailwater.bed",
+    {"bed", "Make a wall mesh from surveyed terrain (GeoTIFF, XYZ)", "tailwater.bed",
      "Example: tailwater bed terrain.tif --to bed.stl --box 512000 5401000 512400 5401200 --step 0.5"},
-    {"paddle", "Make the motion of a wave maker's plate from a recorded surface or a spectrum", "tailwater.paddle",
+    {"paddle", "Compute wave maker motion from a wave record or a spectrum", "tailwater.paddle",
      "Example: tailwater paddle gauge.csv --to paddle.csv --depth 0.4 --distance 5"},
-    {"pictures", "Draw pictures of a run, and in 3D the water's surface as meshes", "tailwater.pictures",
+    {"pictures", "Draw images of a run; in 3D also mesh the water surface", "tailwater.pictures",
      "Example: tailwater pictures my_run --count 12 --from 1 -1 0.5"},
-    {"export", "Write a run as VTKHDF and NetCDF, and a state that shows it in ParaView", "tailwater.export_command",
+    {"export", "Export a run to VTKHDF, NetCDF and a ParaView state", "tailwater.export_command",
      "Example: tailwater export my_run --vtkhdf water.vtkhdf --netcdf gauges.nc --paraview state.py"},
 }};
 
@@ -47,7 +46,7 @@ void add(CLI::App& app, const PythonCommand& python) {
 }  // namespace
 
 void add_python_commands(CLI::App& app) {
-  CLI::App* bench = app.add_subcommand("bench", "Measure robustness or speed with a set of cases");
+  CLI::App* bench = app.add_subcommand("bench", "Measure robustness or speed");
   bench->require_subcommand(1);
   bench->footer(
       "Examples: tailwater bench robustness --list\n"

@@ -46,24 +46,28 @@ ExitCode execute_resume(RunArguments arguments, const Communicator& ranks, const
 void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
                         const std::vector<std::string>& words) {
   auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command =
-      app.add_subcommand("resume", "Go on with a run, or a sweep, that was stopped, was killed or is done");
-  command->add_option("run", arguments->run.out, "Folder of the run or of the sweep")->required()->type_name("");
-  command->add_option("--set", arguments->overrides, "Override a key that changes no result, as in --set time.end=20")
+  CLI::App* command = app.add_subcommand("resume", "Continue a run or a sweep that was stopped, killed or finished");
+  command->add_option("run", arguments->run.out, "Folder of the run or the sweep")->required()->type_name("");
+  command
+      ->add_option("--set", arguments->overrides,
+                   "Override a key that does not affect earlier results, for example time.end=20")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  add_rank_and_time_options(*command, *arguments, "Number of ranks; default: as many as the run had");
+  add_rank_and_time_options(*command, *arguments, "Number of ranks (default: the number that the run had)");
   add_jobs_option(*command, *arguments);
   add_picture_and_voice_options(*command, *arguments);
   command->footer(
       "Examples: tailwater resume my_run\n"
       "          tailwater resume my_sweep --jobs 2\n"
       "          tailwater resume my_run --set time.end=20\n"
-      "Goes on from the newest checkpoint in DIR/checkpoints, or from the start if there is none yet. Tables and "
-      "field\n"
-      "files are cut back to it, so that the run leaves what it would have left without a break: bit for bit on the\n"
-      "number of ranks that wrote the checkpoint. --set may change time.end, output.fields_interval,\n"
-      "output.view_interval and output.checkpoint_interval.");
+      "\n"
+      "The run continues from the newest checkpoint in DIR/checkpoints, or from the\n"
+      "start if there is none. Tables and field files are truncated to the checkpoint.\n"
+      "On the number of ranks that wrote the checkpoint, results are bit-identical to\n"
+      "those of a run without interruption.\n"
+      "\n"
+      "--set may change time.end, output.fields_interval, output.view_interval and\n"
+      "output.checkpoint_interval.");
   command->callback([arguments, &code, ranks, words] { code = execute_resume(*arguments, ranks, words); });
 }
 

@@ -63,23 +63,24 @@ void add_rank_and_time_options(CLI::App& command, RunArguments& arguments, const
   command.add_option("-n", arguments.ranks, about_ranks)->type_name("COUNT");
   command
       .add_option("--wall-time", arguments.wall_time,
-                  "Time that the program has, as in 3h, 1h30min or 12:00:00: it writes a checkpoint and stops before")
+                  "Time available, for example 3h, 1h30min or 12:00:00. The run writes a checkpoint and stops in "
+                  "time.")
       ->type_name("TIME");
 }
 
 void add_jobs_option(CLI::App& command, RunArguments& arguments) {
-  command.add_option("--jobs", arguments.jobs, "Members of a sweep that run at the same time; default 1")
+  command.add_option("--jobs", arguments.jobs, "Number of sweep members that run at the same time (default: 1)")
       ->type_name("COUNT");
 }
 
 void add_picture_and_voice_options(CLI::App& command, RunArguments& arguments) {
   command
       .add_option("--pictures", arguments.pictures,
-                  "Draw so many pictures of the run when it ends, and in 3D the water's surface as a mesh from every "
-                  "field file, as `tailwater pictures DIR` does")
-      ->check(CLI::Range(1, 100000))
+                  "Draw N images when the run ends; in 3D also write the water surface as a mesh for each field file "
+                  "(see: tailwater pictures)")
+      ->check(CLI::Range(1, 100000).description(""))
       ->type_name("N");
-  command.add_flag("--quiet", arguments.quiet, "No progress and no warnings");
+  command.add_flag("--quiet", arguments.quiet, "Print neither progress nor warnings");
 }
 
 void survive_hang_up_and_speak(const Communicator& ranks, bool quiet) {

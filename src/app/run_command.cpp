@@ -67,44 +67,51 @@ ExitCode execute_run(NewRunArguments arguments, const Communicator& ranks, const
 
 void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, const std::vector<std::string>& words) {
   auto arguments = std::make_shared<NewRunArguments>();
-  CLI::App* command = app.add_subcommand("run", "Run a case");
-  command->add_option("case", arguments->run.case_file, "The case file")->type_name("");
-  command->add_option("--out", arguments->run.out, "Folder for the results; made by the run")->type_name("DIR");
-  command->add_option("--set", arguments->overrides, "Override a key, as in --set scheme.integrator=implicit")
+  CLI::App* command = app.add_subcommand("run", "Run a case or a sweep");
+  command->add_option("case", arguments->run.case_file, "Case file")->type_name("");
+  command->add_option("--out", arguments->run.out, "Folder for the results; created by the run")->type_name("DIR");
+  command->add_option("--set", arguments->overrides, "Override a key, for example scheme.integrator=implicit")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command
       ->add_option("--sweep", arguments->sweep,
-                   "Run the case once for each value of a key, as in --sweep particles.spacing=0.02,0.01; several "
-                   "--sweep make the product")
+                   "Run the case for each value of a key, for example particles.spacing=0.02,0.01. Several --sweep "
+                   "options run all combinations.")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE,...");
   add_jobs_option(*command, *arguments);
-  add_rank_and_time_options(
-      *command, *arguments,
-      "Number of ranks, which this program starts by mpirun; default: 1, in large cases one for each core");
+  add_rank_and_time_options(*command, *arguments,
+                            "Number of ranks, started with mpirun (default: 1; for large cases up to one per core)");
   command->add_flag("--force", arguments->run.force, "Replace the results of an earlier run in the same folder");
   add_picture_and_voice_options(*command, *arguments);
   command
       ->add_option(
           "--help-case", arguments->help_case,
-          "Explain every key of a case file (text, markdown, json, or schema for editors), or those of studies (study)")
+          "Print the reference of all case keys as text, markdown, json or schema (for editors); study: print the keys "
+          "for numerical studies")
       ->expected(0, 1)
       ->default_str("text")
-      ->check(CLI::IsMember({"text", "markdown", "json", "schema", "study"}))
+      ->check(CLI::IsMember({"text", "markdown", "json", "schema", "study"}).description(""))
       ->type_name("FORMAT");
   command->footer(
       "Examples: tailwater run my.toml --out my_run\n"
       "          tailwater run my.toml --out my_run -n 8 --pictures 12\n"
       "          tailwater run my.toml --out fine --set particles.spacing=0.01 --set scheme.integrator=implicit\n"
       "          tailwater run my.toml --out sweep --sweep particles.spacing=0.02,0.015,0.01 --jobs 2\n"
-      "Writes DIR/case.effective.toml (the case with all its values), DIR/steps.csv, DIR/probes/NAME.csv,\n"
-      "DIR/fields/fields.pvd (open it in ParaView) and DIR/summary.json; if the run fails, also DIR/failure/.\n"
-      "Ctrl-C, or the file DIR/STOP (touch DIR/STOP), ends a run in order after the present step: what it has written\n"
-      "can be used, and `tailwater resume DIR` goes on. Checkpoints are also written every output.checkpoint_interval\n"
-      "seconds, at the end, and when there is a file DIR/CHECKPOINT, which is removed when that is done.\n"
-      "A sweep has a folder for each member in DIR, and a table of all, DIR/sweep.csv. The same command again, or\n"
-      "`tailwater resume DIR`, goes on with what is not done. A member that fails does not end the others.");
+      "\n"
+      "Output: DIR/case.effective.toml (the case with the values of all keys),\n"
+      "DIR/steps.csv, DIR/probes/NAME.csv, DIR/fields/fields.pvd (for ParaView) and\n"
+      "DIR/summary.json. A run that fails also writes DIR/failure/.\n"
+      "\n"
+      "To stop a run: Ctrl-C, or touch DIR/STOP. The run stops after the current time\n"
+      "step, its output is complete, and `tailwater resume DIR` continues it.\n"
+      "\n"
+      "Checkpoints are written every output.checkpoint_interval seconds of elapsed\n"
+      "time, at the end of the run, and on request: touch DIR/CHECKPOINT.\n"
+      "\n"
+      "A sweep writes one folder per member and a table of all members, DIR/sweep.csv.\n"
+      "To continue a sweep, repeat the command or use `tailwater resume DIR`. If a\n"
+      "member fails, the other members still run.");
   command->callback([arguments, &code, ranks, words] { code = execute_run(*arguments, ranks, words); });
 }
 

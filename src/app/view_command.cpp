@@ -199,29 +199,30 @@ void view(const ViewOptions& options) {
 
 void add_view_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<ViewOptions>();
-  CLI::App* command = app.add_subcommand("view", "Look at runs, or edit and run a case, in a browser");
+  CLI::App* command = app.add_subcommand("view", "Show runs, or edit and run a case, in a browser");
   command
       ->add_option("path", options->paths,
-                   "Folders of runs, going or done; the folder of a sweep, a study or a validation; or a case file")
+                   "Folders of runs, running or finished; the folder of a sweep, a study or a validation; or a case "
+                   "file")
       ->required()
       ->type_name("");
-  command->add_option("--port", options->port, "Port of 127.0.0.1 to listen to; default: one that is free")
-      ->check(CLI::Range(1, 65535))
+  command->add_option("--port", options->port, "Port on 127.0.0.1 (default: a free port)")
+      ->check(CLI::Range(1, 65535).description(""))
       ->type_name("PORT");
-  command->add_flag("--no-browser", options->opens_no_browser, "Print the address only");
+  command->add_flag("--no-browser", options->opens_no_browser, "Print the address; open no browser");
   command
       ->add_option("--export", options->export_file,
-                   "Write one HTML file with what the page shows, which any browser opens without this program: some "
-                   "200 frames, places to a 32nd of dx, colours in 128 steps, 7 digits")
+                   "Write the viewer with its data as one HTML file, which opens in any browser without this program. "
+                   "It holds about 200 frames, positions rounded to dx/32, 128 colour steps and numbers of 7 digits.")
       ->type_name("FILE");
   command->footer(
       "Examples: tailwater view my_run\n"
       "          tailwater view my_run other_run\n"
       "          tailwater view my.toml\n"
       "          tailwater view my_run --export my_run.html\n"
-      "The address that is printed has a secret in it: whoever knows it can look at these runs, and stop them, on "
-      "this\n"
-      "machine. Nobody else is answered, and no other machine. Runs do not end with this program.");
+      "The printed address contains a secret token. Anyone on this machine who has the\n"
+      "address can view these runs and stop them. Requests without the token are\n"
+      "refused, as are other machines. Runs continue when the viewer ends.");
   command->callback([options] { view(*options); });
 }
 

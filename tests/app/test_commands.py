@@ -37,6 +37,12 @@ class CommandLine(ProgramTest):
         self.assertEqual(result.stdout, "")
         self.assertEqual(result.stderr, self.call("--help").stdout)
 
+    def test_help_fits_a_terminal_of_80_columns(self):
+        """Apart from examples, which must be copied as they are."""
+        for command in ((), *((command,) for command in (*COMMANDS, "view", "migrate", "completion"))):
+            text = self.call(*command, "--help").stdout
+            self.assertEqual([line for line in text.splitlines() if len(line) > 80 and "tailwater " not in line], [])
+
     def test_help_names_every_command_and_exit_code(self):
         help_text = self.call("--help").stdout
         for word in (*COMMANDS, "0 done", "2 bad input", "3 the solver failed", "4 a file", "130 interrupted"):
@@ -155,7 +161,7 @@ class CommandLine(ProgramTest):
 
 class New(ProgramTest):
     def names(self):
-        return re.search(r"NAME:\{(.*?)\}", self.call("new", "--help").stdout)[1].split(",")
+        return re.search(r"not in \{(.*?)\}", self.call("new", "?", "my.toml", expect=2).stderr)[1].split(",")
 
     def pictures(self, run):
         return [path.name for path in (self.folder / run / "pictures").iterdir()]
@@ -164,6 +170,10 @@ class New(ProgramTest):
         """Of the last field file, as the only one."""
         number = len(list((self.folder / run / "fields").glob("fields_*.vtp"))) - 1
         return [f"picture_{number:05}.png"]
+
+    def test_help_describes_every_template(self):
+        described = self.call("new", "--help").stdout.partition("\nTemplates:\n")[2]
+        self.assertEqual(sorted(re.findall(r"^  ([\w-]+)  +\w", described, re.MULTILINE)), sorted(self.names()))
 
     def test_every_template_is_in_the_gallery(self):
         names = self.names()
