@@ -1,4 +1,4 @@
-"""`tailwater bed`: a surveyed terrain as the mesh of a wall.
+"""Convert surveyed terrain to a wall mesh.
 
 Reads a GeoTIFF or any other raster that rasterio knows, or a text file of x, y and z, and writes an STL mesh whose front
 is its upper side. Coordinates become those of the case: the origin is the lower left corner, or that of --origin.
@@ -184,13 +184,13 @@ def write_bed(options):
 
 def main(arguments):
     parser = Parser("tailwater bed", description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("terrain", type=Path, metavar="TERRAIN", help="GeoTIFF or another raster; .xyz, .txt, .csv: x y z")
-    parser.add_argument("--to", type=Path, required=True, metavar="BED.stl", help="the mesh to write")
-    parser.add_argument("--box", type=number, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="only this part, survey's m")
+    parser.add_argument("terrain", type=Path, metavar="TERRAIN", help="GeoTIFF or other raster, or x y z as .xyz, .txt or .csv")
+    parser.add_argument("--to", type=Path, required=True, metavar="BED.stl", help="mesh to write")
+    parser.add_argument("--box", type=number, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="part to use, survey coordinates, m")
     parser.add_argument("--origin", type=number, nargs=2, metavar=("X", "Y"),
-                        help="what becomes 0, 0 in the case, survey's m (the lower left corner)")
-    parser.add_argument("--datum", type=number, default=0.0, metavar="Z", help="what becomes z = 0, m (0)")
-    parser.add_argument("--step", type=number, metavar="M", help="a square grid of this step, m (the survey's points)")
+                        help="origin of the case, survey coordinates, m (lower left corner)")
+    parser.add_argument("--datum", type=number, default=0.0, metavar="Z", help="survey elevation of z = 0 in the case, m (0)")
+    parser.add_argument("--step", type=number, metavar="M", help="resample to a square grid, m (survey points)")
     options = parser.parse_args(arguments)
     return exit_code_of(lambda: write_bed(options))
 

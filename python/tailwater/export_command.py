@@ -1,4 +1,4 @@
-"""`tailwater export`: a run in the formats of others.
+"""Export a run to VTKHDF, NetCDF and a ParaView state: `tailwater export`.
 
 Exit codes: 0 done, 2 bad input, 4 a file cannot be written."""
 
@@ -22,16 +22,16 @@ def moment(text):
 
 def parser():
     command = Parser("tailwater export")
-    command.description = "Write a run in the formats of others. What is there already is replaced."
+    command.description = "Export a run to VTKHDF, NetCDF and a ParaView state. Existing files are replaced."
     command.epilog = "Example: tailwater export my_run --vtkhdf water.vtkhdf --netcdf gauges.nc --paraview state.py"
-    command.add_argument("run", metavar="DIR", help="folder of a run, which may go on")
-    command.add_argument("--vtkhdf", type=Path, metavar="FILE", help="the water with all its fields and times as one VTKHDF "
+    command.add_argument("run", metavar="DIR", help="folder of a run, which may still be running")
+    command.add_argument("--vtkhdf", type=Path, metavar="FILE", help="write all particle fields and output times to one VTKHDF "
                          "file, for ParaView 5.12 or newer (needs python3-h5py)")
-    command.add_argument("--netcdf", type=Path, metavar="FILE", help="the probes over time as NetCDF (CF-1.8)")
-    command.add_argument("--paraview", type=Path, metavar="FILE", help="a Python state that shows the run in ParaView, "
-                         "water coloured by pressure; it reads the field files")
-    command.add_argument("--start", type=moment, default=EPOCH, metavar="TIME", help="date and time of the run's time 0 in "
-                         f"the NetCDF file, as in 2026-03-01T12:00 ({EPOCH:%Y-%m-%d})")
+    command.add_argument("--netcdf", type=Path, metavar="FILE", help="write the time series of the probes as NetCDF (CF-1.8)")
+    command.add_argument("--paraview", type=Path, metavar="FILE", help="write a Python state that opens the field files in "
+                         "ParaView, coloured by pressure")
+    command.add_argument("--start", type=moment, default=EPOCH, metavar="TIME", help="date and time of t = 0 in the NetCDF "
+                         f"file, for example 2026-03-01T12:00 ({EPOCH:%Y-%m-%d})")
     return command
 
 

@@ -1,4 +1,4 @@
-"""`tailwater paddle`: how a wave maker's plate must move for waves that were recorded, or that a spectrum has.
+"""Compute wave maker motion from a recorded surface elevation or from a wave spectrum.
 
 Writes the motion of a wall (`[[wall]] motion`, docs/theory/moving_walls.md), by linear theory (docs/theory/waves.md). A
 motion of a plate that was itself recorded needs none of this: it is such a file already.
@@ -176,15 +176,15 @@ def write_motion(path, time, stroke, depth, is_flap):
 def options_of(arguments):
     parser = Parser("tailwater paddle", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.epilog = "Example: tailwater paddle gauge.csv --to paddle.csv --depth 0.4 --distance 5"
-    parser.add_argument("file", type=Path, help='CSV: a surface ("t [s], eta [mm]") or a spectrum ("f [Hz], S [m^2/Hz]")')
-    parser.add_argument("--to", type=Path, required=True, metavar="FILE", help="the motion, for a wall")
-    parser.add_argument("--depth", type=number, required=True, metavar="M", help="of the still water at the plate")
-    parser.add_argument("--distance", type=number, default=0.0, metavar="M", help="of the gauge from the plate (0)")
-    parser.add_argument("--flap", action="store_true", help="a plate that turns about its foot on the bed, not a piston")
-    parser.add_argument("--band", type=number, nargs=2, metavar=("HZ", "HZ"), help="frequencies that are made (0.3 to 3 times "
-                        "the peak's)")
-    parser.add_argument("--duration", type=number, metavar="S", help="of the waves of a spectrum")
-    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of their phases (1)")
+    parser.add_argument("file", type=Path, help='CSV: surface elevation ("t [s], eta [mm]") or spectrum ("f [Hz], S [m^2/Hz]")')
+    parser.add_argument("--to", type=Path, required=True, metavar="FILE", help="motion file to write, for a wall")
+    parser.add_argument("--depth", type=number, required=True, metavar="M", help="still-water depth at the plate, m")
+    parser.add_argument("--distance", type=number, default=0.0, metavar="M", help="distance of the gauge from the plate, m (0)")
+    parser.add_argument("--flap", action="store_true", help="flap hinged at the bed instead of a piston")
+    parser.add_argument("--band", type=number, nargs=2, metavar=("HZ", "HZ"), help="frequency range to generate, Hz (0.3 to 3 "
+                        "times the peak frequency)")
+    parser.add_argument("--duration", type=number, metavar="S", help="duration of waves from a spectrum, s")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="seed of the random phases (1)")
     options = parser.parse_args(arguments)
     for name in ("depth", "duration"):
         if getattr(options, name) is not None and getattr(options, name) <= 0:

@@ -1,4 +1,4 @@
-"""Pictures of a run, and in 3D the surface of its water as meshes for ParaView.
+"""Draw images of a run; in 3D also write the water surface as meshes for ParaView.
 
 Leaves DIR/pictures/picture_00000.png, ... and, in 3D, DIR/fields/surface_00000.vtp, ... with DIR/fields/surface.pvd, a mesh
 for each field file; those that are there already are not made again. Needs only the field files of the run, which may
@@ -80,10 +80,10 @@ def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM):
 def main(arguments):
     parser = Parser("tailwater pictures", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("run", type=Path, metavar="DIR", help="folder of a run")
-    parser.add_argument("--count", type=int, default=COUNT, metavar="N", help=f"pictures, at equal times ({COUNT})")
-    parser.add_argument("--times", type=number, nargs="+", metavar="S", help="or of the field files nearest to these times, s")
+    parser.add_argument("--count", type=int, default=COUNT, metavar="N", help=f"images, evenly spaced in time ({COUNT})")
+    parser.add_argument("--times", type=number, nargs="+", metavar="S", help="draw the output nearest to these times instead, s")
     parser.add_argument("--from", type=number, nargs=3, dest="look_from", default=plots.LOOK_FROM, metavar=("X", "Y", "Z"),
-                        help="3D: direction, from the middle of the walls, that the pictures look from "
+                        help="3D: view direction, from the centre of the walls to the camera "
                              f"({' '.join(f'{value:g}' for value in plots.LOOK_FROM)})")
     options = parser.parse_args(arguments)
     if options.count < 1:

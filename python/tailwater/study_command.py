@@ -55,23 +55,23 @@ def change(text):
 
 def parser():
     command = Parser("tailwater study")
-    command.description = ("Run a case at several spacings, from other starts and with half of the time step, and say "
-                           "for each number of its probes how well it is known: value, limit with its interval, order "
-                           "(docs/theory/uncertainty.md).")
-    command.epilog = ("Called again it goes on with what is not done. DIR/study.csv, study.json and study.txt have the "
-                      "table. Example: tailwater study my.toml --out my_study --budget 20min --jobs 2")
+    command.description = ("Estimate the numerical uncertainty of each probe result: value, extrapolated limit with its "
+                           "interval, and observed order (docs/theory/uncertainty.md). The case is run at several "
+                           "spacings, from perturbed initial conditions, and with half the time step.")
+    command.epilog = ("Repeat the command to continue a study. The table is written to DIR/study.csv, study.json and "
+                      "study.txt. Example: tailwater study my.toml --out my_study --budget 20min --jobs 2")
     command.add_argument("case", help="case file")
     command.add_argument("--out", required=True, metavar="DIR", help="folder of the study")
     command.add_argument("--set", action="append", type=change, default=[], metavar="KEY=VALUE",
-                         help="change a value of the case")
-    command.add_argument("--spacings", type=numbers, metavar="M,M,M", help="three spacings or more, in m (default: "
-                         "seven, from twice that of the case down to it)")
-    command.add_argument("--budget", type=seconds, metavar="TIME", help="computing time, as in 90, 20min or 1.5h, that "
-                         "chooses the finest spacing")
-    command.add_argument("--starts", type=count, default=3, metavar="N", help="runs from other starts (3)")
-    command.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at a time (1)")
-    command.add_argument("-n", dest="ranks", type=count, default=1, metavar="N", help="ranks of each run (1)")
-    command.add_argument("--quiet", action="store_true", help="no progress")
+                         help="override a key; may be repeated")
+    command.add_argument("--spacings", type=numbers, metavar="M,M,M", help="three or more spacings, m (default: seven, "
+                         "from twice the spacing of the case down to that spacing)")
+    command.add_argument("--budget", type=seconds, metavar="TIME", help="computing time, for example 90, 20min or "
+                         "1.5h; the finest spacing is chosen to fit")
+    command.add_argument("--starts", type=count, default=3, metavar="N", help="runs from perturbed initial conditions (3)")
+    command.add_argument("--jobs", type=count, default=1, metavar="N", help="runs at the same time (1)")
+    command.add_argument("-n", dest="ranks", type=count, default=1, metavar="N", help="ranks per run (1)")
+    command.add_argument("--quiet", action="store_true", help="print no progress")
     return command
 
 

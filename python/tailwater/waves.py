@@ -1,4 +1,4 @@
-"""`tailwater waves`: what wave gauges say, from the depth probes of a run.
+"""Print wave heights, periods and reflection from the depth probes of a run.
 
 Prints, for each gauge, the mean depth, heights and periods, and with three or more gauges along one line the waves that
 run along it and back. RUN/waves.json holds the same numbers, RUN/waves_spectrum.csv the spectra.
@@ -238,11 +238,11 @@ def write_spectra(path, spectra):
 def main(arguments):
     parser = Parser("tailwater waves", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
-    parser.add_argument("gauges", nargs="*", metavar="GAUGE", help="depth probes, in order along the waves (all)")
-    parser.add_argument("--from", type=number, dest="start", metavar="S", help="begin of the window, s (the run's)")
-    parser.add_argument("--to", type=number, dest="end", metavar="S", help="end of the window, s (the run's)")
-    parser.add_argument("--depth", type=number, metavar="M", help="still depth, m (the gauges' mean)")
-    parser.add_argument("--solitary", action="store_true", help="one wave: its height and speed")
+    parser.add_argument("gauges", nargs="*", metavar="GAUGE", help="depth probes, in the direction of wave travel (all)")
+    parser.add_argument("--from", type=number, dest="start", metavar="S", help="start of the window, s (start of the run)")
+    parser.add_argument("--to", type=number, dest="end", metavar="S", help="end of the window, s (end of the run)")
+    parser.add_argument("--depth", type=number, metavar="M", help="still-water depth, m (mean of the gauges)")
+    parser.add_argument("--solitary", action="store_true", help="evaluate a solitary wave: height and speed")
     options = parser.parse_args(arguments)
     if options.depth is not None and options.depth <= 0:
         parser.error(f"--depth {options.depth:g}: a depth is above 0 m")

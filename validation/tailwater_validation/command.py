@@ -26,10 +26,10 @@ class RunsParser(OutParser):
 
     def __init__(self, prog, what, out, jobs):
         super().__init__(prog, what, out)
-        self.epilog = "Finished runs are not repeated. Verdicts do not change the exit code."
+        self.epilog = "Finished runs are not repeated. Missed targets do not change the exit code."
         self.set_defaults(ranks=1, settings=[])
-        self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at a time ({jobs})")
-        self.add_argument("--list", action="store_true", help="list what would be run, with estimated times, and exit")
+        self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at the same time ({jobs})")
+        self.add_argument("--list", action="store_true", help="list the runs with estimated times, and exit")
 
 
 def choose(every, names, kind, option=""):

@@ -370,12 +370,12 @@ def gates(bench):
 
 
 def main(arguments=None):
-    parser = command.RunsParser("tailwater bench robustness", "Runs and scores every gate of the robust core.", "bench", 1)
+    parser = command.RunsParser("tailwater bench robustness", "Run the robustness suite and its acceptance tests.", "bench", 1)
     parser.add_argument("--level", choices=("quick", "full"), default="quick",
-                        help="quick: a part of the gates' runs, about ten minutes; full: all of them, many hours")
-    parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="only this gate; may be repeated")
+                        help="quick: part of the runs, about ten minutes; full: all runs, many hours")
+    parser.add_argument("--gate", action="append", default=[], metavar="NAME", help="test to run; may be repeated (default: all)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                        help="change the default under test, as in --set scheme.courant=0.2; may be repeated")
+                        help="override a key in all runs, for example scheme.courant=0.2; may be repeated")
     parser.set_defaults(scheme="")
     options = parser.parse_args(arguments)
 

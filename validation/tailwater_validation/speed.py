@@ -222,20 +222,20 @@ def say(text):
 
 
 def make_parser():
-    parser = command.OutParser("tailwater bench speed", "Measures what cases, steps and rooms cost in CPU time and "
-                                 "memory.", "speed")
-    parser.epilog = ("Times are CPU times, which a busy machine still disturbs: measure both sides of a comparison in "
-                     "the same minutes. Verdicts do not change the exit code.")
+    parser = command.OutParser("tailwater bench speed", "Measure the CPU time and memory of cases, time steps "
+                               "and modules.", "speed")
+    parser.epilog = ("Other programs on the machine affect CPU times: measure both sides of a comparison within the "
+                     "same minutes. Missed targets do not change the exit code.")
     parser.add_argument("--level", choices=LEVELS, default="quick",
-                        help="tiny: seconds, to try the bench; quick: three minutes; full: some hours, quiet machine")
+                        help="tiny: seconds, to test the benchmark; quick: three minutes; full: hours, on an idle machine")
     parser.add_argument("--part", action="append", default=[], metavar="NAME", dest="parts",
-                        help="only rooms, cases, growth, deep, ranks or profile; may be repeated (default: all but "
-                        "profile, which needs perf)")
+                        help="part to measure: rooms (modules), cases, growth, deep, ranks or profile; may be repeated "
+                        "(default: all except profile, which needs perf)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                        help="change the default under test; may be repeated")
+                        help="override a key in all runs; may be repeated")
     parser.add_argument("--compare", type=Path, nargs="+", default=[], metavar="JSON",
-                        help="print the ratios to an earlier speed.json; of two files, those of the second to the "
-                        "first, and measure nothing")
+                        help="print ratios to an earlier speed.json. With two files, print the ratios of the second to "
+                        "the first and measure nothing")
     return parser
 
 

@@ -165,14 +165,14 @@ def score(chosen, program, options):
 
 
 def main(arguments=None):
-    parser = command.RunsParser("tailwater validate", "Runs the papers' cases and the exact solutions, scores them against "
-                            "measurements and theory, and writes a report.", "validation", max(1, os.cpu_count() or 1))
+    parser = command.RunsParser("tailwater validate", "Run the validation cases, compare them with measurements and theory, and "
+                                "write a report.", "validation", max(1, os.cpu_count() or 1))
     parser.epilog += " Examples: tailwater validate --list; tailwater validate zhou1999 drop --level paper --out my_validation"
-    parser.add_argument("cases", nargs="*", metavar="CASE", help="only these (default: all; --list names them)")
+    parser.add_argument("cases", nargs="*", metavar="CASE", help="cases to run (default: all; see --list)")
     parser.add_argument("--level", choices=LEVELS, default="quick",
-                        help="quick: under ten minutes on two cores; paper: the papers' particle counts; fine: beyond")
-    parser.add_argument("--scheme", default="", metavar="NAME", help="scheme.name of all runs but the comparisons'")
-    parser.add_argument("-n", type=int, default=1, dest="ranks", metavar="RANKS", help="ranks of each run (1)")
+                        help="quick: under ten minutes on two cores; paper: particle counts of the papers; fine: finer")
+    parser.add_argument("--scheme", default="", metavar="NAME", help="scheme.name of all runs except comparisons of schemes")
+    parser.add_argument("-n", type=int, default=1, dest="ranks", metavar="RANKS", help="ranks per run (1)")
     options = parser.parse_intermixed_args(arguments)
     plan = Plan(options.level, options.scheme)
     options.settings = plan.settings
