@@ -5,7 +5,8 @@ Usage: scripts/validation_tables.py DIR/validation.json   keeps the file as docs
        scripts/validation_tables.py --check               exit code 1 if a table does not agree with docs/validation.json
 
 A table stands between `<!-- validation: WHAT -->` and `<!-- validation: end -->`. WHAT is `all`, names of studies, or names
-of metrics in quotes after `metrics`, as in `metrics "zhou1999.noise" "jet.pressure_error"`.
+of metrics in quotes after `metrics`, as in `metrics "zhou1999.noise" "jet.pressure_error"`. `counts` makes a sentence with
+the numbers of targets that are met and missed.
 """
 import json
 import pathlib
@@ -75,8 +76,11 @@ def chosen(result, what):
 def table(result, what):
     """A mark with its table, as Markdown. Throws ValueError as `chosen` does."""
     lines = [f"<!-- validation: {what} -->"]
+    counts = result["verdicts"]
+    if what == "counts":
+        targets = counts["met"] + counts["missed"]
+        return "\n".join([*lines, f"{counts['met']} of {targets} targets are met, {counts['missed']} are missed.", END])
     if what == "all":
-        counts = result["verdicts"]
         lines += [f"{origin(result)}, commit {result['commit']}:", f"{counts['met']} targets met, {counts['missed']} missed.", ""]
     else:
         lines += [f"{origin(result)}:", ""]

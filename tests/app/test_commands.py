@@ -391,5 +391,21 @@ class Info(ProgramTest):
             self.assertIn("the folder of a run", message)
 
 
+class Readme(ProgramTest):
+    def test_the_small_case_gives_the_results_shown(self):
+        text = (Path(__file__).resolve().parents[2] / "README.md").read_text(encoding="utf-8")
+        (self.folder / "my.toml").write_text(re.search(r"```toml\n(.*?)```", text, re.DOTALL)[1])
+        self.call("run", "my.toml", "--out", "my_run", "--quiet")
+        digest = self.call("info", "my_run").stdout
+        shown = re.findall(r"^    (\w+): +(\S.*)$", text, re.MULTILINE)
+        self.assertEqual([name for name, _ in shown], ["status", "impact", "particles", "water"])
+        for name, value in shown:
+            result = re.search(rf"^{name}: +(\S.*)$", digest, re.MULTILINE)[1]
+            if name == "impact":  # its digits depend on the processor
+                self.assertAlmostEqual(float(result.split()[0]) / float(value.split()[0]), 1, delta=0.05)
+            else:
+                self.assertEqual(result, value)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,8 @@
 """The tables of results in the documents: their form, and that they are those of the file they were made from."""
 
 import importlib.util
+import json
+import re
 import subprocess
 import sys
 import unittest
@@ -37,6 +39,9 @@ class Table(unittest.TestCase):
         for word in ("other |", "Two"):
             self.assertNotIn(word, text)
 
+    def test_of_counts_is_a_sentence(self):
+        self.assertIn("-->\n1 of 3 targets are met, 2 are missed.\n<!--", validation_tables.table(RESULT, "counts"))
+
     def test_of_a_study_without_targets_has_what_it_shows(self):
         text = validation_tables.table(RESULT, "two")
         self.assertIn("| **Two** | | | | | |\n| error, coarse | 0.123 H |  |  |  |  |\n", text)
@@ -66,6 +71,14 @@ class Documents(unittest.TestCase):
     def test_agree_with_the_file(self):
         check = subprocess.run([sys.executable, SCRIPT, "--check"], capture_output=True, text=True, check=False)
         self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
+
+    def test_readme_lists_every_missed_target(self):
+        """Its list is written by hand: kinds of targets, each with the number of those missed."""
+        readme = (SCRIPT.parents[1] / "README.md").read_text(encoding="utf-8")
+        listed = [line for line in readme.partition("The misses:")[2].partition("<!--")[0].splitlines() if line.startswith("- ")]
+        counts = [int(count) for line in listed for count in re.findall(r": (\d+)\b", line)]
+        result = json.loads(validation_tables.KEPT.read_text(encoding="utf-8"))
+        self.assertEqual(sum(counts), result["verdicts"]["missed"])
 
 
 if __name__ == "__main__":
