@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "formulations/make_flow.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 #include "schemes/advance.h"
 
 namespace tailwater {
@@ -60,12 +60,12 @@ struct Stage {
     dt = next_time_step(flow);
     gather_walls(flow);
     assign_roles(flow);
-    hold_open_ends(flow, dt);
-    begin = remember(flow);
+    update_open_ends(flow, dt);
+    begin = save_step_start(flow);
     drive = drive_walls(flow, begin, dt);
     locate(flow);
     predicted = predict(flow, begin, drive, dt);
-    target = aim(flow, std::move(predicted.velocity_gradient), dt);
+    target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
     pose();
   }
 

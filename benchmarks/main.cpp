@@ -33,7 +33,7 @@ void add_memory(const Stage<Dim>& stage, double bytes_before) {
   const Pairs<Dim>& pairs = stage.flow.pairs();
   add_context("bytes.all", bytes_on_heap() - bytes_before);
   add_context("bytes.pairs", bytes_of(pairs.j));
-  add_context("bytes.pair_vectors", bytes_of(stage.flow.here.pair_vectors.ends));
+  add_context("bytes.pair_vectors", bytes_of(stage.flow.surroundings.pair_vectors.ends));
   const auto entries = static_cast<double>(stage.flow.pressure_rows.entries());
   add_context("bytes.matrix", entries * sizeof(float));  // its columns are those of the pairs
 }

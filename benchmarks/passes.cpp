@@ -28,7 +28,7 @@ void add_operators(Stage<Dim>& stage) {
     });
   });
   const auto vectors = std::make_shared<PairVectorField<Dim>>();
-  const auto faces = std::make_shared<std::vector<Vec<Dim>>>(flow.here.open_faces);
+  const auto faces = std::make_shared<std::vector<Vec<Dim>>>(flow.surroundings.open_faces);
   const auto mean_interior = std::make_shared<std::vector<double>>(owned);
   const auto room = std::make_shared<std::vector<float>>(flow.pairs().j.size());
   add_benchmark("operators/pair_vectors", [&flow, vectors, faces, mean_interior, room] {
@@ -36,7 +36,7 @@ void add_operators(Stage<Dim>& stage) {
     constexpr CorrectionReach reach = CorrectionReach::inside;
     find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
                                      {kernel_radius(flow.setup.kernel), particles.volume, particles.kind,
-                                      flow.here.interior, flow.here.first_moment},
+                                      flow.surroundings.interior, flow.surroundings.first_moment},
                                      reach, closing_sweeps(reach), *room, *vectors, *faces, *mean_interior);
   });
   add_benchmark("operators/divergence", [&flow] { benchmark::DoNotOptimize(find_divergence(flow)); });

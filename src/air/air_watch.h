@@ -58,18 +58,19 @@ struct AirResponse {
 template <int Dim>
 struct PocketSides {
   std::vector<PocketSide<Dim>> water;
-  std::vector<PocketWall<Dim>> walls;                     ///< the same on all ranks
-  std::vector<PocketPairs<Dim>> pairs;                    ///< the same on all ranks
-  std::vector<std::pair<std::size_t, PocketShare>> seen;  ///< by owned particles, walls too; where walls move
+  std::vector<PocketWall<Dim>> walls;                              ///< the same on all ranks
+  std::vector<PocketPairs<Dim>> wall_pair_forces;                  ///< the same on all ranks
+  std::vector<std::pair<std::size_t, PocketShare>> air_fractions;  ///< by owned particles, walls too; where walls move
   Eigen::MatrixXd answers;          ///< m^Dim/s per Pa; by which water makes each (row) grow with the pressure of each
   std::vector<double> mobility;     ///< the same of floating bodies, each with its own pressure; empty without bodies
   std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
   std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
   std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
-  std::vector<double> own_drop;     ///< Pa; of all particles: by how much the pressure that the air alone makes there
-                                    ///< is off that of the air beside them, either way; at the start of the step
-  int iterations = 0;               ///< of the solves for the responses
-  double work = 0.0;                ///< J; that the gas has done
+  std::vector<double>
+      response_deficit;  ///< Pa; of all particles: by how much the pressure that the air alone makes there
+                         ///< is off that of the air beside them, either way; at the start of the step
+  int iterations = 0;    ///< of the solves for the responses
+  double work = 0.0;     ///< J; that the gas has done
 
   /// Pa; of the air beside water.
   double pressure_at(const PocketSide<Dim>& side) const {

@@ -80,13 +80,13 @@ PocketSpace<Dim>::PocketSpace(std::shared_ptr<const VoidGrid<Dim>> grid, double 
                               const CellMarks& walls, std::span<const FoundPocket> pockets)
     : grid_(std::move(grid)), spacing_(spacing), pockets_(static_cast<int>(pockets.size())) {
   if (pockets.empty()) return;
-  frame(pockets);
+  find_bounds(pockets);
   fill(voids, walls, pockets);
   grow();
 }
 
 template <int Dim>
-void PocketSpace<Dim>::frame(std::span<const FoundPocket> pockets) {
+void PocketSpace<Dim>::find_bounds(std::span<const FoundPocket> pockets) {
   Cell high{};
   for (int d = 0; d < Dim; ++d) {
     low_[d] = std::numeric_limits<int>::max();

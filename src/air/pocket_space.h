@@ -53,7 +53,7 @@ class PocketSpace {
   /// What a cell is of.
   enum : std::int16_t { behind_wall = -2, in_water = -1, open_air = 0 };  // else 1 + index of the pocket
 
-  void frame(std::span<const FoundPocket> pockets);
+  void find_bounds(std::span<const FoundPocket> pockets);
   void fill(const Voids<Dim>& voids, const CellMarks& walls, std::span<const FoundPocket> pockets);
   void grow();
   bool is_inside(const Vec<Dim>& at) const;

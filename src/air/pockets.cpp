@@ -76,7 +76,7 @@ void bring(const AirPocket& old, double share, std::int64_t cells, Gathered& to)
 }
 
 /// Of two that have the number of one pocket, which has parted, the later gets a new one.
-void tell_apart(std::vector<FoundPocket>& found, AirState& state) {
+void renumber_split_pockets(std::vector<FoundPocket>& found, AirState& state) {
   for (std::size_t a = 0; a < found.size(); ++a) {
     const auto has_same = [&](const FoundPocket& other) { return other.pocket.number == found[a].pocket.number; };
     const bool is_taken = std::any_of(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(a), has_same);
@@ -132,7 +132,7 @@ std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacin
     found.push_back(std::move(gathered.found));
   }
   std::ranges::move(torn, std::back_inserter(found));
-  tell_apart(found, state);
+  renumber_split_pockets(found, state);
   return found;
 }
 

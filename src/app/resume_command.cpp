@@ -16,7 +16,7 @@ namespace tailwater {
 namespace {
 
 ExitCode execute_resume(RunArguments arguments, const Communicator& ranks, const std::vector<std::string>& words) {
-  survive_hang_up_and_speak(ranks, arguments.quiet);
+  ignore_hangup_and_open_messages(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   if (is_sweep(arguments.run.out)) {
     if (arguments.pictures > 0) {

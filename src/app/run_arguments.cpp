@@ -83,7 +83,7 @@ void add_picture_and_voice_options(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--quiet", arguments.quiet, "Print neither progress nor warnings");
 }
 
-void survive_hang_up_and_speak(const Communicator& ranks, bool quiet) {
+void ignore_hangup_and_open_messages(const Communicator& ranks, bool quiet) {
   std::signal(SIGHUP, SIG_IGN);
   if (ranks.is_root()) {
     set_voice(quiet ? Voice::quiet : Voice::aloud);

@@ -36,7 +36,7 @@ void add_picture_and_voice_options(CLI::App& command, RunArguments& arguments);
 
 /// First of all in a command that runs: what is told goes to the user, on the root alone and unless `quiet`, and the
 /// end of the terminal is no reason to die. (Once a run goes, it writes a checkpoint then: run/requests.h.)
-void survive_hang_up_and_speak(const Communicator& ranks, bool quiet);
+void ignore_hangup_and_open_messages(const Communicator& ranks, bool quiet);
 
 /// Throws InputError for a number of ranks with which this program cannot run.
 void require_possible(int ranks);

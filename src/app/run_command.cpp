@@ -37,7 +37,7 @@ ExitCode execute_run(NewRunArguments arguments, const Communicator& ranks, const
   if (arguments.run.case_file.empty() || arguments.run.out.empty()) {
     throw InputError("tailwater run needs a case file and --out DIR, as in: tailwater run my.toml --out my_run");
   }
-  survive_hang_up_and_speak(ranks, arguments.quiet);
+  ignore_hangup_and_open_messages(ranks, arguments.quiet);
   arguments.run.wall_time.limit = wall_time_of(arguments.wall_time);
   if (arguments.ranks) require_possible(*arguments.ranks);
   if (!arguments.sweep.empty()) {

@@ -19,21 +19,21 @@
 namespace tailwater {
 
 /// Up to four numbers of a particle, which are loaded together.
-struct alignas(16) Four {
+struct alignas(16) Float4 {
   std::array<float, 4> at{};
 };
 
 /// Vectors less that of one particle.
 template <int Dim>
-VecLanes<Dim> operator-(VecLanes<Dim> vectors, const Four& own) {
+VecLanes<Dim> operator-(VecLanes<Dim> vectors, const Float4& own) {
   for (int d = 0; d < Dim; ++d) vectors.at[d] -= own.at[d];
   return vectors;
 }
 
 /// A vector field in single precision.
 template <int Dim>
-std::vector<Four> in_fours(std::span<const Vec<Dim>> field) {
-  std::vector<Four> fours(field.size());
+std::vector<Float4> as_float4(std::span<const Vec<Dim>> field) {
+  std::vector<Float4> fours(field.size());
   for_each(field.size(), [&](std::size_t i) {
     for (int d = 0; d < Dim; ++d) fours[i].at[d] = static_cast<float>(field[i][d]);
   });
@@ -61,7 +61,7 @@ class LaneIndices {
   }
 
   template <int Dim>
-  [[gnu::always_inline]] VecLanes<Dim> vectors(const Four* field) const {
+  [[gnu::always_inline]] VecLanes<Dim> vectors(const Float4* field) const {
     const std::array<Lanes, 4> lanes = numbers(field);
     VecLanes<Dim> vectors;
     for (int d = 0; d < Dim; ++d) vectors.at[d] = lanes[d];

@@ -9,11 +9,11 @@
 #include "base/error.h"
 #include "bodies/contacts.h"
 #include "bodies/moorings.h"
-#include "bodies/verbs.h"
+#include "bodies/stages.h"
 #include "pressure/full_water.h"
 #include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 namespace {
@@ -73,14 +73,14 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
   one_sided_ = find_contacts<Dim>(flow, before, dt, freedoms_);
   std::ranges::move(find_moorings<Dim>(flow.setup, before, freedoms_), std::back_inserter(one_sided_));
   gaps_.hold_water(flow);
-  meet_air();
+  add_air_stiffness();
 }
 
 /// Where all air around a body is in pockets, one pressure of all of it may not push it. What pairs and pieces of its
 /// surface make of that, which is not quite nothing at edges and corners, is taken out of the pockets' forces as more
 /// pieces, in the shares in which the body looks into each.
 template <int Dim>
-void BodyCoupling<Dim>::balance_air() {
+void BodyCoupling<Dim>::remove_net_air_force() {
   const std::vector<double> all_air(flow_.state.air.pockets.size(), 1.0);
   const std::vector<double> everywhere(flow_.state.particles.size(), 1.0);
   const std::vector<Twist<Dim>> wrong = forces_of(everywhere, all_air);
@@ -115,11 +115,11 @@ void BodyCoupling<Dim>::balance_air() {
 /// G, the force of 1 Pa in each pocket on each degree of freedom, times dt^2/2 is by how much an acceleration makes the
 /// pocket grow: the gas adds dt^2/2 G S G^T to the inertia, with its stiffness S.
 template <int Dim>
-void BodyCoupling<Dim>::meet_air() {
+void BodyCoupling<Dim>::add_air_stiffness() {
   air_ = Eigen::MatrixXd::Zero(scale_.size(), scale_.size());
   const auto pockets = static_cast<Eigen::Index>(flow_.state.air.pockets.size());
   if (pockets == 0) return;
-  balance_air();
+  remove_net_air_force();
   Eigen::MatrixXd G(scale_.size(), pockets);
   for (Eigen::Index k = 0; k < pockets; ++k) {
     std::vector<double> unit(static_cast<std::size_t>(pockets), 0.0);
@@ -192,7 +192,7 @@ template <int Dim>
 Eigen::VectorXd BodyCoupling<Dim>::residual() {
   // The water feels the pressure that walls have in the end, and later solves begin with the one they had.
   const std::vector<double> solved = flow_.state.particles.pressure;
-  lift_to_zero<Dim>(flow_, fullness_, {}, flow_.state.particles.pressure);
+  shift_minimum_to_zero<Dim>(flow_, fullness_, {}, flow_.state.particles.pressure);
   finish_pressure(flow_, drive_);
   std::vector<double> air;
   if (!flow_.state.air.pockets.empty()) {

@@ -61,8 +61,8 @@ class BodyCoupling {
   Eigen::Map<Eigen::MatrixXd> inertia();
   Eigen::VectorXd on_freedoms(const std::vector<Twist<Dim>>& forces) const;
   std::vector<Twist<Dim>> forces_of(std::vector<double> pressure, const std::vector<double>& air) const;
-  void meet_air();
-  void balance_air();
+  void add_air_stiffness();
+  void remove_net_air_force();
 
   Flow<Dim>& flow_;
   const StepStart<Dim>& start_;

@@ -39,7 +39,7 @@ std::vector<CoveredParticle<Dim>> find_covered(const Flow<Dim>& flow, double tim
   for (const BodyState<Dim>& body : flow.state.motion.bodies.each) placement.push_back(body.at(time));
   const std::vector<Eigen::AlignedBox<double, Dim>> boxes = boxes_around(flow, placement);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are covered
-    if (particles.is_fluid(i) || !flow.here.is_wet[i]) continue;
+    if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) continue;
     const auto row = particles.wall_row[i];
     const Vec<Dim>& x = flow.walls.particles.position[row];
     if (std::ranges::none_of(boxes, [&](const auto& box) { return box.contains(x); })) continue;

@@ -69,7 +69,7 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<doubl
   const std::vector<std::size_t> of_bodies = walls_of_bodies(flow_);
   std::vector<std::size_t> walls = of_bodies;
   for (const CoveredParticle<Dim>& one : covered) walls.push_back(one.i);
-  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow_, walls, pressure);
+  const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow_, walls, pressure);
   const auto force = [&](std::size_t n) { return Vec<Dim>(-particles.volume[walls[n]] * pushes[n]); };
   ForceSums<Dim> sums(flow_, time_);
   add_on_bodies(flow_, of_bodies, sums, force);

@@ -182,7 +182,7 @@ void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
     if (flow.role[i] != Role::water) return;
     const std::int32_t n = piece_at(flow.state.particles.position[i]);
     if (n < 0 || !holds_water(pieces_[n])) return;
-    flow.role[i] = Role::held;
+    flow.role[i] = Role::stagnant;
     flow.state.particles.velocity[i].setZero();
     rows.divide_diagonal(i, 0.0);
     rows.rhs()[i] = p[n];

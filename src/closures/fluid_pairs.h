@@ -25,9 +25,9 @@ template <int Dim>
 double mean_over_fluid(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> field, double own_weight) {
   Lanes sums{};
   Lanes weights{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const Lanes weight = several.kernel_of_fluid();
-    sums += weight * several.of(field);
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const Lanes weight = batch.kernel_of_fluid();
+    sums += weight * batch.of(field);
     weights += weight;
   });
   const double weight = own_weight + sum_of(weights);

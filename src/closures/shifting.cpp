@@ -18,12 +18,13 @@ double kept_share(double interior, double mean_interior) {
 
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                          const Particles<Dim>& particles, const Surroundings<Dim>& here, std::span<Vec<Dim>> shift) {
+                          const Particles<Dim>& particles, const Surroundings<Dim>& surroundings,
+                          std::span<Vec<Dim>> shift) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
-    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || here.interior[i] == 0.0) return false;
-    shift[i] = -std::min(law.strength * largest_speed * dt, law.spacing) * law.spacing * here.crowding[i];
-    return bound_shift<Dim>(shift[i], kept_share(here.interior[i], here.mean_interior[i]), law.cap);
+    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || surroundings.interior[i] == 0.0) return false;
+    shift[i] = -std::min(law.strength * largest_speed * dt, law.spacing) * law.spacing * surroundings.crowding[i];
+    return bound_shift<Dim>(shift[i], kept_share(surroundings.interior[i], surroundings.mean_interior[i]), law.cap);
   });
 }
 

@@ -43,6 +43,7 @@ bool bound_shift(Vec<Dim>& shift, double kept, double cap) {
 /// would have been longer than the bound.
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
-                          const Particles<Dim>& particles, const Surroundings<Dim>& here, std::span<Vec<Dim>> shift);
+                          const Particles<Dim>& particles, const Surroundings<Dim>& surroundings,
+                          std::span<Vec<Dim>> shift);
 
 }  // namespace tailwater

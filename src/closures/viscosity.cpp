@@ -63,13 +63,13 @@ struct ViscousPairs {
   Lanes shear;               ///< of j
 
   template <class Several>
-  ViscousPairs(const Several& several, const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs,
+  ViscousPairs(const Several& batch, const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs,
                const Particles<Dim>& particles, std::span<const ViscousEnd<Dim>> ends, double spacing)
       : place(place_of_pairs), F(F_of_pairs) {
     using End = ViscousEnd<Dim>;
     const auto number = [](std::size_t offset) { return offset / sizeof(float); };
-    const auto other = several.j.numbers(ends.data());
-    const End& own = ends[several.i];
+    const auto other = batch.j.numbers(ends.data());
+    const End& own = ends[batch.i];
     for (int a = 0; a < Dim; ++a) difference.at[a] = other[number(offsetof(End, velocity)) + a] - own.velocity[a];
     viscosity = 0.5F * (own.viscosity + other[number(offsetof(End, viscosity))]);
     own_shear = own.shear;
@@ -80,7 +80,7 @@ struct ViscousPairs {
       change.column[n / Dim].at[n % Dim] = of_other - own.gradient[n];
     }
     squared = place.d.dot(place.d);
-    volumes = in_all_lanes(particles.volume[several.i]) * place.volume_of_fluid();
+    volumes = in_all_lanes(particles.volume[batch.i]) * place.volume_of_fluid();
     share_of_volumes = volumes * share_of_morris_weight(squared, spacing);
   }
 
@@ -148,9 +148,9 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     VecSum<Dim> sum;
-    for_each_pair(pairs, i, [&](const auto& several) {
-      const PairVectorLanes<Dim> vectors = pair_vectors(several);
-      const ViscousPairs<Dim> pair(several, vectors.place, vectors.F, particles, ends, spacing);
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const PairVectorLanes<Dim> vectors = pair_vectors(batch);
+      const ViscousPairs<Dim> pair(batch, vectors.place, vectors.F, particles, ends, spacing);
       // Only of pairs that nearly coincide may the corrections turn the sign.
       const Lanes F = max_of(Lanes{}, -vectors.a.dot(pair.place.d)) / pair.squared;
       const Lanes laplacian = 2.0F * pair.share_of_volumes * F;

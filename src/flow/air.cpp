@@ -2,7 +2,7 @@
 
 #include "base/for_each.h"
 #include "flow/measure.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 namespace {

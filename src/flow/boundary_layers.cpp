@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "flow/wall_particle.h"
 
 namespace tailwater {
@@ -122,7 +122,7 @@ template <int Dim>
 void Flow<Dim>::restore(State<Dim> saved) {
   state = std::move(saved);
   neighbourhood.forget(state.particles);
-  here = {};
+  surroundings = {};
   [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
   TAILWATER_ASSERT(are_found, "the state is of this case");
   // As after a repartition, so that a run that goes on asks for the same rows as one that never stopped.

@@ -1,6 +1,6 @@
 // A flow by lifetime: the setup, which does not change; the state, which a checkpoint saves; tools, which keep memory
 // between steps and can be rebuilt; and what is known about the present positions. Work fields of one step are values
-// that its verbs pass to each other (verbs.h).
+// that its stages pass to each other (stages.h).
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct Flow {
   Walls<Dim> walls;                  ///< at their present positions
   SharedRows<Dim> shared_rows;       ///< where other rows are, if there are other ranks
   NearWalls<Dim> near_walls;         ///< which rows are among the particles
-  Surroundings<Dim> here;            ///< as `locate` found them
+  Surroundings<Dim> surroundings;    ///< as `locate` found them
   PocketSides<Dim> sides;            ///< where the rows of the pressure look into pockets of air
   bool is_located = false;           ///< whether no particle has moved since
   bool has_matrix = false;           ///< whether a second projection has left the matrix of these positions
@@ -50,8 +50,9 @@ struct Flow {
   std::vector<Role> role;            ///< of owned particles in this step
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
   Loads<Dim> loads;                  ///< of a program, in the next step
-  std::vector<Vec<Dim>> turning;     ///< m/s^2; of water along walls that turn, for owned particles; or empty
-  double driven_change = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
+  std::vector<Vec<Dim>>
+      wall_turn_acceleration;  ///< m/s^2; of water along walls that turn, for owned particles; or empty
+  double driven_change = 0.0;  ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
   /// Builds a case that is already drawn.
   Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks, Drawing<Dim> drawing);
@@ -70,14 +71,14 @@ struct Flow {
   const Halo<Dim>& halo() const { return neighbourhood.halo(); }
   Discretisation<Dim>& discretisation() const { return *setup.formulation.discretisation; }
   const WallModel<Dim>& wall_model() const { return *setup.formulation.walls; }
-  WallScene<Dim> wall_scene() const { return {pairs(), state.particles, walls, here}; }
+  WallScene<Dim> wall_scene() const { return {pairs(), state.particles, walls, surroundings}; }
 
   WallForce<Dim> wall_force(std::span<const Vec<Dim>> acceleration) const {
-    return {setup.density, setup.gravity, acceleration, turning};
+    return {setup.density, setup.gravity, acceleration, wall_turn_acceleration};
   }
 
   /// Whether statistics of the bulk count particle i.
-  bool is_inside(std::size_t i) const { return role[i] == Role::water && here.interior[i] > 0.5; }
+  bool is_inside(std::size_t i) const { return role[i] == Role::water && surroundings.interior[i] > 0.5; }
   double kinetic_energy_of(std::size_t i) const {
     return 0.5 * setup.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
   }

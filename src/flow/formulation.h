@@ -77,14 +77,14 @@ class Discretisation {
 
   /// What each of these owned wall particles pushes the fluid with by a pressure field, over its volume [the field's
   /// unit * m^(Dim - 1)]: the reactions of its shares in the gradients at its fluid neighbours.
-  virtual void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
-                           const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const = 0;
+  virtual void wall_reactions(const Flow<Dim>& flow, std::span<const std::size_t> walls,
+                              const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const = 0;
 
   /// The same pairs, seen from the water: what each of these owned fluid particles pushes the walls with, over its
   /// volume. Each neighbour counts with its `share`, which is 0 for fluid and up to date on ghosts.
-  virtual void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water,
-                                    std::span<const double> share, const std::vector<double>& pressure,
-                                    std::span<Vec<Dim>> pushes) const = 0;
+  virtual void reactions_seen_by_water(const Flow<Dim>& flow, std::span<const std::size_t> water,
+                                       std::span<const double> share, const std::vector<double>& pressure,
+                                       std::span<Vec<Dim>> pushes) const = 0;
 
   /// Finds the shifts [m] of owned particles and takes along the fields that change with them. Returns how many would
   /// have been longer than their bound. Collective.

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 namespace {

@@ -1,5 +1,5 @@
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "operators/concentration.h"
 #include "walls/hidden_pairs.h"
 #include "walls/wet_walls.h"
@@ -10,21 +10,21 @@ namespace {
 /// C/C_0 of owned particles, and for fluid the first moment, the crowding and, where it is asked for, the gradient of
 /// C.
 template <int Dim>
-void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& here) {
+void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
   const Particles<Dim>& particles = flow.state.particles;
   const bool with_gradient = flow.setup.formulation.needs_concentration_gradient;
-  here.crowding.resize(particles.owned);
+  surroundings.crowding.resize(particles.owned);
   for_each(particles.owned, [&](std::size_t i) {
-    here.concentration[i] = 1.0;
-    if (with_gradient) here.concentration_gradient[i].setZero();
-    here.first_moment[i] = packed_identity<Dim>();
+    surroundings.concentration[i] = 1.0;
+    if (with_gradient) surroundings.concentration_gradient[i].setZero();
+    surroundings.first_moment[i] = packed_identity<Dim>();
     if (!has_equation(flow.role[i])) return;
     const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.kernel_values);
-    here.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
+    surroundings.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
     if (!particles.is_fluid(i)) return;
-    if (with_gradient) here.concentration_gradient[i] = sums.gradient;
-    here.first_moment[i] = packed<Dim>(sums.first_moment);
-    here.crowding[i] = sums.crowding;
+    if (with_gradient) surroundings.concentration_gradient[i] = sums.gradient;
+    surroundings.first_moment[i] = packed<Dim>(sums.first_moment);
+    surroundings.crowding[i] = sums.crowding;
   });
 }
 
@@ -42,15 +42,17 @@ void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   hide_pairs_behind_plates(flow.walls, flow.state.particles, flow.neighbourhood);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
-  Surroundings<Dim>& here = flow.here;
-  here.resize(particles.size(), setup.formulation.needs_concentration_gradient);
+  Surroundings<Dim>& surroundings = flow.surroundings;
+  surroundings.resize(particles.size(), setup.formulation.needs_concentration_gradient);
 
-  find_wet_walls<Dim>(pairs, particles, setup.kernel_values.W_0, here.wall_fluid_weight, here.is_wet);
-  for_each(particles.owned, [&](std::size_t i) { here.takes_part[i] = particles.is_fluid(i) || here.is_wet[i]; });
-  sum_kernel(flow, here);
-  flow.halo().exchange(here.is_wet, here.takes_part, here.concentration, here.first_moment);
+  find_wet_walls<Dim>(pairs, particles, setup.kernel_values.W_0, surroundings.wall_fluid_weight, surroundings.is_wet);
+  for_each(particles.owned,
+           [&](std::size_t i) { surroundings.takes_part[i] = particles.is_fluid(i) || surroundings.is_wet[i]; });
+  sum_kernel(flow, surroundings);
+  flow.halo().exchange(surroundings.is_wet, surroundings.takes_part, surroundings.concentration,
+                       surroundings.first_moment);
   flow.discretisation().find_surface(flow, marks);
-  here.mean_interior.assign(particles.owned, 0.0);
+  surroundings.mean_interior.assign(particles.owned, 0.0);
   flow.discretisation().find_pair_vectors(flow);
   flow.is_located = true;
 }

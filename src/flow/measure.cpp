@@ -28,7 +28,7 @@ struct EnergyAndDensity {
 /// Whether particle i is in the bulk. Before `locate` none is.
 template <int Dim>
 bool is_bulk(const Flow<Dim>& flow, std::size_t i) {
-  return i < flow.here.interior.size() && flow.is_inside(i);
+  return i < flow.surroundings.interior.size() && flow.is_inside(i);
 }
 
 template <int Dim>
@@ -86,7 +86,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     if (!particles.is_fluid(i)) return {};
     EnergyAndDensity own{flow.kinetic_energy_of(i), flow.potential_energy_of(i)};
     if (!is_bulk(flow, i)) return own;
-    own.density_error = flow.here.concentration[i] - 1.0;
+    own.density_error = flow.surroundings.concentration[i] - 1.0;
     own.density_error_squared = own.density_error * own.density_error;
     own.bulk_particles = 1;
     return own;
@@ -94,7 +94,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
   FlowMeasures measures;
   measures.largest_speed = largest_speed_of_rank(flow);
   measures.density_error_largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
-    return is_bulk(flow, i) ? std::abs(flow.here.concentration[i] - 1.0) : 0.0;
+    return is_bulk(flow, i) ? std::abs(flow.surroundings.concentration[i] - 1.0) : 0.0;
   });
   const Communicator& ranks = flow.setup.ranks;
   ranks.sum_each(sums.kinetic_energy, sums.potential_energy, sums.density_error, sums.density_error_squared,

@@ -1,10 +1,10 @@
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 
 template <int Dim>
-StepStart<Dim> remember(Flow<Dim>& flow) {
+StepStart<Dim> save_step_start(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
   flow.neighbourhood.wrap(particles);
   const auto owned = static_cast<std::ptrdiff_t>(particles.owned);
@@ -51,7 +51,7 @@ std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   return stopped_at_walls;
 }
 
-TAILWATER_IN_2D_AND_3D(remember);
+TAILWATER_IN_2D_AND_3D(save_step_start);
 TAILWATER_IN_2D_AND_3D(drift);
 TAILWATER_IN_2D_AND_3D(move);
 

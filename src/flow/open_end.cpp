@@ -5,7 +5,7 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 namespace {
@@ -147,7 +147,7 @@ struct LevelBeyond {
 
 /// Remembers that the water before an end is off the level beyond by an `error` [m].
 template <int Dim>
-void watch_level(double error, const LevelBeyond& beyond, const Flow<Dim>& flow, double dt, LevelMiss& miss) {
+void watch_level(double error, const LevelBeyond& beyond, const Flow<Dim>& flow, double dt, LevelError& miss) {
   const double depth = std::max(beyond.head, flow.setup.spacing);
   const double window = depths_of_watch * std::sqrt(depth / beyond.gravity);
   miss.mean += (1.0 - std::exp(-dt / window)) * (error - miss.mean);
@@ -326,7 +326,7 @@ Vec<Dim> OpenEnd<Dim>::inflow_at(const OpenEndState& state, const Vec<Dim>& x) c
 }
 
 template <int Dim>
-void hold_open_ends(Flow<Dim>& flow, double dt) {
+void update_open_ends(Flow<Dim>& flow, double dt) {
   Particles<Dim>& particles = flow.state.particles;
   flow.driven_change = -kinetic_energy_in_driven_ends(flow);
   const double time = flow.state.time + 0.5 * dt;
@@ -372,6 +372,6 @@ std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec) {
 template struct OpenEnd<2>;
 template struct OpenEnd<3>;
 TAILWATER_IN_2D_AND_3D(make_ends);
-TAILWATER_IN_2D_AND_3D(hold_open_ends);
+TAILWATER_IN_2D_AND_3D(update_open_ends);
 
 }  // namespace tailwater

@@ -27,7 +27,7 @@ struct WaterAmount {
 };
 
 /// How well a prescribed level is held.
-struct LevelMiss {
+struct LevelError {
   double mean = 0.0;    ///< m; of the water before the end stretch, above what the level asks for
   double lasts = 0.0;   ///< s; for which that has been more than a spacing
   double since = -1.0;  ///< s; when it began, the first time that it lasted long; below 0: it never did
@@ -52,7 +52,7 @@ struct OpenEndState {
   double depth_in_middle = 0.0;  ///< m; the same in the middle of the end stretch
   double border_speed = 0.0;     ///< m/s; out, where the end stretch begins
   double gain = 0.0;             ///< m/s; from the gauge to there, of the water's speed
-  LevelMiss miss;
+  LevelError miss;
   double asked = 0.0;     ///< m^Dim; what should have come in less what should have left; where that is prescribed
   std::int64_t rows = 0;  ///< of the lattice on which particles enter
   WaterAmount departed;

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "operators/gradient_corrected.h"
 
 namespace tailwater {
@@ -65,13 +65,14 @@ void add_loads(const Loads<Dim>& loads, std::vector<Vec<Dim>>& acceleration) {
 template <int Dim>
 std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  const std::vector<Four> velocity = in_fours<Dim>(particles.velocity);
+  const std::vector<Float4> velocity = as_float4<Dim>(particles.velocity);
   std::vector<Mat<Dim>> gradient(particles.size(), Mat<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    gradient[i] = particles.wall_distance[i] < kernel_radius(flow.setup.kernel)
-                      ? gradient_in_water<Dim>(flow.pairs(), i, velocity)
-                      : corrected_gradient<Dim>(flow.pairs(), i, unpacked<Dim>(flow.here.first_moment[i]), velocity);
+    gradient[i] =
+        particles.wall_distance[i] < kernel_radius(flow.setup.kernel)
+            ? gradient_in_water<Dim>(flow.pairs(), i, velocity)
+            : corrected_gradient<Dim>(flow.pairs(), i, unpacked<Dim>(flow.surroundings.first_moment[i]), velocity);
   });
   flow.halo().exchange(gradient);
   return gradient;
@@ -83,7 +84,7 @@ template <int Dim>
 Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive, double dt) {
   const Setup<Dim>& setup = flow.setup;
   Particles<Dim>& particles = flow.state.particles;
-  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   if (setup.finds_wall_forces) flow.wall_forces.reset(particles.owned);
 
   Prediction<Dim> predicted;
@@ -105,7 +106,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
       acceleration[i].setZero();  // only gravity acts, and the end's pressure balances it
     predicted.velocity[i] = start.velocity[i] + dt * (acceleration[i] + gravity);
   });
-  show_walls<Dim>(flow, with_gravity ? drive.velocity : start.wall_velocity, predicted.velocity);
+  set_wall_velocities<Dim>(flow, with_gravity ? drive.velocity : start.wall_velocity, predicted.velocity);
   return predicted;
 }
 

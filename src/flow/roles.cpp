@@ -1,12 +1,12 @@
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 namespace {
 
 template <int Dim>
 Role role_at(const OpenEnd<Dim>& end) {
-  if (end.flow.feeds()) return Role::fed_end;
+  if (end.flow.feeds()) return Role::inflow_end;
   return end.is_driven() ? Role::level_end : Role::open_end;
 }
 

@@ -1,7 +1,7 @@
 #include <vector>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "neighbours/halo.h"
 
 namespace tailwater {

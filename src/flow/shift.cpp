@@ -1,5 +1,5 @@
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 

@@ -1,4 +1,4 @@
-// What the verbs of one step hand to each other, and what a step reports.
+// What the stages of one step hand to each other, and what a step reports.
 #pragma once
 
 #include <algorithm>

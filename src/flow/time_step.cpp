@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "neighbours/pair_lanes.h"
 
 namespace tailwater {
@@ -73,13 +73,13 @@ double largest_approach(Flow<Dim>& flow) {
   if (speed < least_speed) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
-  const std::vector<Four> velocity = in_fours<Dim>(particles.velocity);
+  const std::vector<Float4> velocity = as_float4<Dim>(particles.velocity);
   const double largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i) || particles.velocity[i].norm() < least_speed) return 0.0;
     Lanes approach{};
-    for_each_pair(pairs, i, [&](const auto& several) {
-      const PlaceLanes<Dim> place = several.place();
-      const Lanes rate = (several.of(velocity) - velocity[i]).dot(place.d) / sqrt_of(place.d.dot(place.d));
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const PlaceLanes<Dim> place = batch.place();
+      const Lanes rate = (batch.of(velocity) - velocity[i]).dot(place.d) / sqrt_of(place.d.dot(place.d));
       approach = max_of(approach, place.of_fluid(rate));
     });
     return largest_of(approach);

@@ -1,5 +1,5 @@
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "walls/turning_walls.h"
 
 namespace tailwater {
@@ -63,14 +63,15 @@ WallDisplacements<Dim> displacements_of_walls(const Flow<Dim>& flow, double dt) 
 }
 
 template <int Dim>
-void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity) {
+void set_wall_velocities(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity) {
   flow.halo().exchange(velocity);
   flow.wall_model().show_velocity(flow.wall_scene(), V, velocity);
   flow.halo().exchange(velocity);
 }
 
 template <int Dim>
-void show_walls_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity) {
+void set_wall_velocities_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
+                                     std::vector<Vec<Dim>>& velocity) {
   const WallMotion<Dim>& motion = flow.setup.wall_motion;
   const bool may_turn = flow.walls.is_curved || !motion.moving().empty();
   if (!flow.setup.formulation.is_divergence_free_midway || !may_turn) return;
@@ -85,8 +86,8 @@ void show_walls_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double
     turns.from_drawn[moving.wall] = now;
     turns.in_step[moving.wall] = moving.at(flow.state.time + dt, flow.state.motion).linear * now.transpose();
   }
-  flow.turning.resize(flow.state.particles.owned);
-  follow_turning_walls<Dim>(flow.wall_scene(), turns, start.wall_velocity, velocity, flow.turning);
+  flow.wall_turn_acceleration.resize(flow.state.particles.owned);
+  follow_turning_walls<Dim>(flow.wall_scene(), turns, start.wall_velocity, velocity, flow.wall_turn_acceleration);
   flow.halo().exchange(velocity);
 }
 
@@ -94,7 +95,7 @@ TAILWATER_IN_2D_AND_3D(drive_walls);
 TAILWATER_IN_2D_AND_3D(drive_walls_to_end);
 TAILWATER_IN_2D_AND_3D(place_walls);
 TAILWATER_IN_2D_AND_3D(displacements_of_walls);
-TAILWATER_IN_2D_AND_3D(show_walls);
-TAILWATER_IN_2D_AND_3D(show_walls_at_mid_step);
+TAILWATER_IN_2D_AND_3D(set_wall_velocities);
+TAILWATER_IN_2D_AND_3D(set_wall_velocities_at_mid_step);
 
 }  // namespace tailwater

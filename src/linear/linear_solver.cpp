@@ -35,7 +35,7 @@ constexpr double least_sure_tolerance = 1e-7;
 /// method that is not there after so many never will be.
 constexpr int most_attempts = 30;
 
-/// A system, its solution on the way, and how far it is. Its verbs are collective.
+/// A system, its current solution, and its residual. Its functions are collective.
 class Solve {
  public:
   Solve(const LinearSystem& system, std::span<double> x, double tolerance)

@@ -53,7 +53,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
   has_ghosts_ = ranks_.any(has_ghosts);
 }
 
-std::span<float> LinearSystem::room_of_weights(std::size_t count) {
+std::span<float> LinearSystem::borrow_weight_storage(std::size_t count) {
   TAILWATER_ASSERT(columns_.empty(), "there are no weights");
   if (weights_.capacity() < count) make_room(weights_, count + count / 4);  // as neighbours have (find_pairs.cpp)
   weights_.resize(count);

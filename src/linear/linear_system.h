@@ -89,7 +89,7 @@ class LinearSystem {
 
   /// The room of the weights, for so many numbers of somebody else. There must be no weights; a new pattern takes it
   /// back. Two arrays of this size that came and went would leave holes in memory that other arrays divide.
-  std::span<float> room_of_weights(std::size_t count);
+  std::span<float> borrow_weight_storage(std::size_t count);
 
   /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
   void set_cells(Cells cells) { cells_ = std::move(cells); }

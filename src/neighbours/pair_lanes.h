@@ -29,7 +29,7 @@ struct PlaceLanes {
 
 /// Several pairs of particle i, side by side: as many as there are lanes, or the rest of its row.
 template <int Dim, bool is_full>
-struct SeveralPairs {
+struct PairBatch {
   const Pairs<Dim>& pairs;
   std::size_t i;
   LaneRange<is_full> range;  ///< entries of the row
@@ -38,7 +38,7 @@ struct SeveralPairs {
   /// Of the neighbours, which must have an entry each.
   Lanes of(std::span<const double> field) const { return j(field.data()); }
   Lanes of(std::span<const float> field) const { return j(field.data()); }
-  VecLanes<Dim> of(std::span<const Four> field) const { return j.template vectors<Dim>(field.data()); }
+  VecLanes<Dim> of(std::span<const Float4> field) const { return j.template vectors<Dim>(field.data()); }
 
   PlaceLanes<Dim> place() const { return place_of(j.numbers(pairs.place.data())); }
   /// The same of neighbours of which `numbers` are those of their Place, maybe with others behind it.
@@ -76,23 +76,23 @@ struct SeveralPairs {
 
 /// Pair k of particle i alone.
 template <int Dim>
-SeveralPairs<Dim, false> one_pair(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) {
+PairBatch<Dim, false> one_pair(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) {
   const LaneRange<false> range{k, 1};
   return {pairs, i, range, range.neighbours(pairs.j.data())};
 }
 
 template <int Dim>
 float Pairs<Dim>::F(std::size_t i, std::size_t k) const {
-  const SeveralPairs<Dim, false> pair = one_pair(*this, i, k);
+  const PairBatch<Dim, false> pair = one_pair(*this, i, k);
   return pair.F(pair.place().d)[0];
 }
 
-/// Calls body(several), of SeveralPairs, for the pairs of particle i, in their order. What the body adds up stays in
+/// Calls body(batch), of PairBatch, for the pairs of particle i, in their order. What the body adds up stays in
 /// registers.
 template <int Dim, class Body>
 [[gnu::always_inline, gnu::flatten]] inline void for_each_pair(const Pairs<Dim>& pairs, std::size_t i, Body&& body) {
   for_each_lanes(pairs.begin(i), pairs.end(i), [&]<bool is_full>(LaneRange<is_full> range) {
-    body(SeveralPairs<Dim, is_full>{pairs, i, range, range.neighbours(pairs.j.data())});
+    body(PairBatch<Dim, is_full>{pairs, i, range, range.neighbours(pairs.j.data())});
   });
 }
 

@@ -36,12 +36,12 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const Kernel
   VecLanes<Dim> gradient{};
   VecLanes<Dim> crowding{};
   SymmetricLanes<Dim> moment{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PlaceLanes<Dim> place = several.place();
-    const Lanes W = several.kernel_at(place.d);
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
+    const Lanes W = batch.kernel_at(place.d);
     const Lanes squared_ratio = (W * inverse_W) * (W * inverse_W);
     const Lanes pairing = 1.0F + 0.2F * (squared_ratio * squared_ratio);
-    const VecLanes<Dim> weights = place.volume() * several.F(place.d) * place.d;
+    const VecLanes<Dim> weights = place.volume() * batch.F(place.d) * place.d;
     concentration += place.volume() * W;
     gradient -= weights;
     crowding -= pairing * weights;

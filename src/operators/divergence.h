@@ -14,11 +14,11 @@ namespace tailwater {
 
 template <int Dim>
 double standard_divergence(const Pairs<Dim>& pairs, std::size_t i, const PairVectorField<Dim>& pair_vectors,
-                           std::span<const Four> velocity) {
+                           std::span<const Float4> velocity) {
   LaneSum sum;
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PairVectorLanes<Dim> pair = pair_vectors(several);
-    sum += pair.place.volume() * (several.of(velocity) - velocity[i]).dot(pair.a);
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PairVectorLanes<Dim> pair = pair_vectors(batch);
+    sum += pair.place.volume() * (batch.of(velocity) - velocity[i]).dot(pair.a);
   });
   return sum.total();
 }

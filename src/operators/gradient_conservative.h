@@ -20,9 +20,9 @@ Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span
   VecSum<Dim> sum;
   const Lanes own_volume = in_all_lanes(volume[i]);
   const Lanes own = in_all_lanes(field[i]);
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PairVectorLanes<Dim> pair = pair_vectors(several);
-    sum += own_volume * pair.place.volume() * (own + several.of(field)) * pair.a;
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PairVectorLanes<Dim> pair = pair_vectors(batch);
+    sum += own_volume * pair.place.volume() * (own + batch.of(field)) * pair.a;
   });
   return sum.total() / volume[i];
 }

@@ -39,12 +39,12 @@ Mat<Dim> corrected(const Mat<Dim>& sum, const Mat<Dim>& M, double share) {
 /// Gradient of a vector at particle i [1/s for a velocity]: result(a, b) = d field_a / d x_b. `first_moment` is M_i.
 template <int Dim>
 Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Dim>& first_moment,
-                            std::span<const Four> field) {
+                            std::span<const Float4> field) {
   MatLanes<Dim> sums{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PlaceLanes<Dim> place = several.place();
-    const Lanes weight = place.volume() * several.F(place.d);
-    const VecLanes<Dim> difference = several.of(field) - field[i];
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
+    const Lanes weight = place.volume() * batch.F(place.d);
+    const VecLanes<Dim> difference = batch.of(field) - field[i];
     for (int b = 0; b < Dim; ++b) sums.column[b] -= weight * place.d.at[b] * difference;
   });
   return corrected<Dim>(sum_of(sums), first_moment, share_of_correction<Dim>(first_moment));
@@ -54,13 +54,13 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
 /// wall, whose dummies glide along. M has 0.45 across a wall or a surface; the correction is full from 0.25 on, and
 /// there is none below 0.1 (a single row).
 template <int Dim>
-Mat<Dim> gradient_in_water(const Pairs<Dim>& pairs, std::size_t i, std::span<const Four> field) {
+Mat<Dim> gradient_in_water(const Pairs<Dim>& pairs, std::size_t i, std::span<const Float4> field) {
   MatLanes<Dim> sums{};
   MatLanes<Dim> moments{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PlaceLanes<Dim> place = several.place();
-    const Lanes weight = place.volume_of_fluid() * several.F(place.d);
-    const VecLanes<Dim> difference = several.of(field) - field[i];
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
+    const Lanes weight = place.volume_of_fluid() * batch.F(place.d);
+    const VecLanes<Dim> difference = batch.of(field) - field[i];
     for (int b = 0; b < Dim; ++b) {
       sums.column[b] -= weight * place.d.at[b] * difference;
       moments.column[b] += weight * place.d.at[b] * place.d;

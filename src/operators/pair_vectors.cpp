@@ -62,15 +62,15 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     Lanes weight_sums{};
     Lanes interiors{};
     Lanes kernel_sums{};
-    for_each_pair(pairs, i, [&](const auto& several) {
-      const PlaceLanes<Dim> place = several.place();
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const PlaceLanes<Dim> place = batch.place();
       const Lanes squared = place.d.dot(place.d);
-      const auto other = several.j.numbers(moments.data());
+      const auto other = batch.j.numbers(moments.data());
       const Lanes other_interior = other[0];
-      const Lanes weight = several.range.only(other_interior) * (1.0F - squared * inverse_square);
+      const Lanes weight = batch.range.only(other_interior) * (1.0F - squared * inverse_square);
       for (int n = 0; n < symmetric_size<Dim>; ++n) sums[n] += weight * other[first_moment + n];
       weight_sums += weight;
-      const Lanes W = place.of_fluid(several.kernel_at(place.d));
+      const Lanes W = place.of_fluid(batch.kernel_at(place.d));
       interiors += W * other_interior;
       kernel_sums += W;
     });
@@ -113,10 +113,10 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     VecLanes<Dim> sums{};
     VecLanes<Dim> kernel_sums{};
     Lanes weights{};
-    for_each_pair(pairs, i, [&](const auto& several) {
-      const PairVectorLanes<Dim> pair = unclosed(several);
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const PairVectorLanes<Dim> pair = unclosed(batch);
       const Lanes volume_j = pair.place.volume();
-      const Lanes weight = volume_j * several.store(pair.F, equation.F.data() + pairs.begin(i));
+      const Lanes weight = volume_j * batch.store(pair.F, equation.F.data() + pairs.begin(i));
       sums -= volume_j * pair.a;
       if (is_near_surface) kernel_sums += weight * pair.place.d;
       weights += weight;
@@ -134,10 +134,10 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
 /// sum_j w_j F_ij l_j [1/m], of w_j l_j
 template <int Dim>
 Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, const ClosingEquation<Dim>& equation,
-                             std::span<const Four> weighted_l, std::size_t i) {
+                             std::span<const Float4> weighted_l, std::size_t i) {
   VecLanes<Dim> sums{};
   for_each_pair(pairs, i,
-                [&](const auto& several) { sums += several.range.load(equation.F.data()) * several.of(weighted_l); });
+                [&](const auto& batch) { sums += batch.range.load(equation.F.data()) * batch.of(weighted_l); });
   return sum_of(sums);
 }
 
@@ -175,7 +175,7 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
   // Jacobi; the first sweep starts from 0, where the sum is 0.
   std::vector<Vec<Dim>> l(size, Vec<Dim>::Zero());
   std::vector<Vec<Dim>> next(size, Vec<Dim>::Zero());
-  std::vector<Four> weighted_l(size);
+  std::vector<Float4> weighted_l(size);
   for (int n = 0; n < sweeps; ++n) {
     for_each(pairs.owned(), [&](std::size_t i) {
       if (equation.weights[i] == 0.0) return;

@@ -83,16 +83,16 @@ struct PairVectorField {
   std::vector<PairVectorEnd<Dim>> ends;  ///< of all particles, ghosts included
 
   template <bool is_full>
-  PairVectorLanes<Dim> operator()(const SeveralPairs<Dim, is_full>& several) const {
+  PairVectorLanes<Dim> operator()(const PairBatch<Dim, is_full>& batch) const {
     using End = PairVectorEnd<Dim>;
     static_assert(offsetof(End, at) == offsetof(Place<Dim>, at) &&
                   offsetof(End, signed_volume) == offsetof(Place<Dim>, signed_volume));
     constexpr std::size_t l = offsetof(End, l) / sizeof(float);
     constexpr std::size_t correction = offsetof(End, correction) / sizeof(float);
-    const auto other = several.j.numbers(ends.data());
-    const End& own = ends[several.i];
-    PairVectorLanes<Dim> pair{several.place_of(other), {}, {}};
-    pair.F = several.F(pair.place.d);
+    const auto other = batch.j.numbers(ends.data());
+    const End& own = ends[batch.i];
+    PairVectorLanes<Dim> pair{batch.place_of(other), {}, {}};
+    pair.F = batch.F(pair.place.d);
     SymmetricLanes<Dim> corrections;
     for (int n = 0; n < symmetric_size<Dim>; ++n) corrections.packed[n] = own.correction[n] + other[correction + n];
     const VecLanes<Dim> corrected = corrections.times(pair.place.d);

@@ -1,7 +1,7 @@
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "pressure/pockets.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 

@@ -6,7 +6,7 @@
 #include "closures/fluid_pairs.h"
 #include "pressure/operators.h"
 #include "pressure/pockets.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 namespace {
@@ -29,7 +29,7 @@ double work_of_driven_particle(const Flow<Dim>& flow, std::size_t i, double dt) 
   const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
     if (end.holds(particles.position[j])) return Vec<Dim>(Vec<Dim>::Zero());
     return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
-                    flow.here.pair_vectors.at(pairs, i, k));
+                    flow.surroundings.pair_vectors.at(pairs, i, k));
   });
   const Vec<Dim> weight = flow.setup.density * flow.setup.gravity;
   return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
@@ -65,13 +65,13 @@ template <int Dim>
 double wall_work(const Flow<Dim>& flow, double dt) {
   if (flow.setup.wall_motion.moving().empty()) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
-  const std::vector<std::size_t> walls =
-      indices_where(particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.here.is_wet[i]; });
+  const std::vector<std::size_t> walls = indices_where(
+      particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.surroundings.is_wet[i]; });
   const std::vector<double>& air = flow.sides.pressure;
   std::vector<double> from_air;  // pressure over that of the air beside
   if (!air.empty()) subtract_seen<Dim>(flow, air, from_air = particles.pressure);
   const std::vector<double>& pressure = air.empty() ? particles.pressure : from_air;
-  const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, pressure);
+  const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, walls, pressure);
   double work = sum_over(walls.size(), 0.0, [&](std::size_t n) {
     const std::size_t i = walls[n];
     const Vec<Dim> V = entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[i]);
@@ -114,8 +114,8 @@ double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
 }  // namespace
 
 template <int Dim>
-Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
-                 const PosedEquation& equation, double dt) {
+Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
+                   const PosedEquation& equation, double dt) {
   return {density_work(flow, equation, dt), wall_work(flow, dt), end_work(flow, dt),
           viscous_work(flow, start, predicted, dt), flow.setup.ranks.is_root() ? flow.sides.work : 0.0};
 }
@@ -147,7 +147,7 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
 
 TAILWATER_IN_2D_AND_3D(wall_work);
 TAILWATER_IN_2D_AND_3D(end_work);
-TAILWATER_IN_2D_AND_3D(book_works);
+TAILWATER_IN_2D_AND_3D(work_of_step);
 TAILWATER_IN_2D_AND_3D(balance_energy);
 
 }  // namespace tailwater

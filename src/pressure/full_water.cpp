@@ -12,7 +12,7 @@ double find_fullness(const Flow<Dim>& flow) {
   if (!flow.setup.has_air() || !flow.setup.open_ends.empty()) return 0.0;
   const Vec<2> nothing = Vec<2>::Zero();
   Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
-    return flow.role[i] == Role::water ? Vec<2>(1.0 - flow.here.interior[i], 1.0) : nothing;
+    return flow.role[i] == Role::water ? Vec<2>(1.0 - flow.surroundings.interior[i], 1.0) : nothing;
   });
   flow.setup.ranks.sum_each(beside_air_and_all[0], beside_air_and_all[1]);
   return beside_air_and_all[1] > 0.0 ? std::max(0.0, 1.0 - beside_air_and_all[0]) : 0.0;
@@ -35,20 +35,21 @@ void take_out_mean(const Flow<Dim>& flow, double fullness, std::vector<double>& 
 }
 
 template <int Dim>
-void lift_to_zero(const Flow<Dim>& flow, double fullness, std::span<const double> rest, std::span<double> part) {
+void shift_minimum_to_zero(const Flow<Dim>& flow, double fullness, std::span<const double> rest,
+                           std::span<double> part) {
   if (fullness == 0.0) return;
   const std::size_t owned = flow.state.particles.owned;
   constexpr double none = std::numeric_limits<double>::lowest();
   const double least = -flow.setup.ranks.largest(largest_over(owned, none, [&](std::size_t i) {
-    return flow.here.takes_part[i] ? -part[i] - (rest.empty() ? 0.0 : rest[i]) : none;
+    return flow.surroundings.takes_part[i] ? -part[i] - (rest.empty() ? 0.0 : rest[i]) : none;
   }));
   for_each(owned, [&](std::size_t i) {
-    if (flow.here.takes_part[i]) part[i] -= fullness * least;
+    if (flow.surroundings.takes_part[i]) part[i] -= fullness * least;
   });
 }
 
 TAILWATER_IN_2D_AND_3D(find_fullness);
 TAILWATER_IN_2D_AND_3D(take_out_mean);
-TAILWATER_IN_2D_AND_3D(lift_to_zero);
+TAILWATER_IN_2D_AND_3D(shift_minimum_to_zero);
 
 }  // namespace tailwater

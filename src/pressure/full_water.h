@@ -19,6 +19,7 @@ void take_out_mean(const Flow<Dim>& flow, double fullness, std::vector<double>& 
 /// Adds to `part` of the pressure `rest` + `part` (owned; no `rest`: 0), as far as the water is full, what makes the
 /// least of it 0. Collective.
 template <int Dim>
-void lift_to_zero(const Flow<Dim>& flow, double fullness, std::span<const double> rest, std::span<double> part);
+void shift_minimum_to_zero(const Flow<Dim>& flow, double fullness, std::span<const double> rest,
+                           std::span<double> part);
 
 }  // namespace tailwater

@@ -3,22 +3,22 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 
 template <int Dim>
-std::vector<Vec<Dim>> pushes_of_walls(const Flow<Dim>& flow, std::span<const std::size_t> walls,
-                                      const std::vector<double>& pressure) {
+std::vector<Vec<Dim>> reactions_of_walls(const Flow<Dim>& flow, std::span<const std::size_t> walls,
+                                         const std::vector<double>& pressure) {
   std::vector<Vec<Dim>> pushes(walls.size());
-  flow.discretisation().find_pushes(flow, walls, pressure, pushes);
+  flow.discretisation().wall_reactions(flow, walls, pressure, pushes);
   return pushes;
 }
 
 template <int Dim>
 std::vector<double> find_divergence(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
-  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   std::vector<double> divergence(particles.owned, 0.0);
   flow.discretisation().find_divergence(flow, particles.velocity, divergence);
   return divergence;
@@ -34,7 +34,7 @@ double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
   return squares_and_count[1] > 0.0 ? std::sqrt(squares_and_count[0] / squares_and_count[1]) : 0.0;
 }
 
-TAILWATER_IN_2D_AND_3D(pushes_of_walls);
+TAILWATER_IN_2D_AND_3D(reactions_of_walls);
 TAILWATER_IN_2D_AND_3D(find_divergence);
 TAILWATER_IN_2D_AND_3D(bulk_rms);
 

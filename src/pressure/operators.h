@@ -1,4 +1,4 @@
-// What several verbs ask of the formulation's gradient and divergence.
+// What several stages ask of the formulation's gradient and divergence.
 #pragma once
 
 #include <span>
@@ -10,20 +10,20 @@ namespace tailwater {
 
 /// What each of these owned wall particles pushes the fluid with by a pressure field (flow/formulation.h).
 template <int Dim>
-std::vector<Vec<Dim>> pushes_of_walls(const Flow<Dim>& flow, std::span<const std::size_t> walls,
-                                      const std::vector<double>& pressure);
+std::vector<Vec<Dim>> reactions_of_walls(const Flow<Dim>& flow, std::span<const std::size_t> walls,
+                                         const std::vector<double>& pressure);
 
-/// Calls visit(j, force [N]) for what water that is held (Role::held) does to each particle j by their pair.
+/// Calls visit(j, force [N]) for what water that is held (Role::stagnant) does to each particle j by their pair.
 template <int Dim, class Visit>
 void visit_forces_of_held_water(const Flow<Dim>& flow, const std::vector<double>& pressure, Visit&& visit) {
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are held
-    if (flow.role[i] != Role::held) continue;
+    if (flow.role[i] != Role::stagnant) continue;
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = static_cast<std::size_t>(pairs.j[k]);
       const double strength = particles.volume[i] * particles.volume[j] * (pressure[i] + pressure[j]);
-      visit(j, Vec<Dim>(strength * flow.here.pair_vectors.at(pairs, i, k)));
+      visit(j, Vec<Dim>(strength * flow.surroundings.pair_vectors.at(pairs, i, k)));
     }
   }
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "pressure/solve_rows.h"
 #include "pressure/tolerance.h"
 
@@ -22,7 +22,7 @@ constexpr double largest_change = 0.2;
 /// hold back the corner of the water. So it has what each of its neighbours would have at its place, grad q = -F there.
 template <int Dim>
 void show_to_walls(const Flow<Dim>& flow, AirResponse<Dim>& response) {
-  spread(flow, response.pressure);
+  extend_to_walls(flow, response.pressure);
   flow.halo().exchange(response.force);
   const LinearSystem& rows = flow.pressure_rows;
   const LinearSystem::Part part = rows.whole();
@@ -80,18 +80,18 @@ AirResponse<Dim> first_response(Flow<Dim>& flow, int pocket) {
 
 /// One pass. Returns the largest change.
 template <int Dim>
-double come_nearer(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) {
+double refine_response(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) {
   show_to_walls(flow, response);
   response.force = force_of(flow, pocket, response.pressure);
   const std::vector<Vec<Dim>> at_rest(flow.state.wall_velocity.size(), Vec<Dim>::Zero());
-  show_walls<Dim>(flow, at_rest, response.force);
+  set_wall_velocities<Dim>(flow, at_rest, response.force);
   std::vector<double> divergence(flow.state.particles.owned, 0.0);
   flow.discretisation().find_divergence(flow, response.force, divergence);
   LinearSystem& rows = flow.pressure_rows;
   for_each(divergence.size(), [&](std::size_t i) { rows.set_rhs(i, -divergence[i]); });
   std::vector<double> change(response.pressure.size(), 0.0);
   solve_roughly(flow, change, tolerance_of_pass(flow.pressure_solver.tolerance()));
-  spread(flow, change);
+  extend_to_walls(flow, change);
   flow.halo().exchange(change);
   for_each(change.size(), [&](std::size_t i) { response.pressure[i] += change[i]; });
   return flow.setup.ranks.largest(
@@ -101,7 +101,7 @@ double come_nearer(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) {
 }  // namespace
 
 template <int Dim>
-void spread(const Flow<Dim>& flow, std::vector<double>& field) {
+void extend_to_walls(const Flow<Dim>& flow, std::vector<double>& field) {
   flow.halo().exchange(field);
   const LinearSystem& rows = flow.pressure_rows;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
@@ -117,7 +117,7 @@ std::vector<double> shares_of(const Flow<Dim>& flow, int pocket) {
       if (share.pocket == pocket) field[side.particle] = share.share;
     }
   }
-  spread(flow, field);
+  extend_to_walls(flow, field);
   return field;
 }
 
@@ -128,16 +128,16 @@ void find_response(Flow<Dim>& flow, int pocket) {
   if (goes_on) {
     response.pressure.resize(flow.state.particles.size(), 0.0);
     response.force.resize(flow.state.particles.size(), Vec<Dim>::Zero());
-    goes_on = come_nearer(flow, pocket, response) <= largest_change;
+    goes_on = refine_response(flow, pocket, response) <= largest_change;
   }
   if (!goes_on) {
     response = first_response(flow, pocket);
-    for (int pass = 0; pass < passes_at_start; ++pass) come_nearer(flow, pocket, response);
+    for (int pass = 0; pass < passes_at_start; ++pass) refine_response(flow, pocket, response);
   }
   response.force = force_of(flow, pocket, response.pressure);
 }
 
-TAILWATER_IN_2D_AND_3D(spread);
+TAILWATER_IN_2D_AND_3D(extend_to_walls);
 TAILWATER_IN_2D_AND_3D(shares_of);
 TAILWATER_IN_2D_AND_3D(find_response);
 

@@ -17,7 +17,7 @@ namespace tailwater {
 /// Gives walls the mean of the water beside them, as they have it of the pressure, and ghosts of water what their
 /// owners have. Collective.
 template <int Dim>
-void spread(const Flow<Dim>& flow, std::vector<double>& field);
+void extend_to_walls(const Flow<Dim>& flow, std::vector<double>& field);
 
 /// chi_k of all particles. Collective.
 template <int Dim>

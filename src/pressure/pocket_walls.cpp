@@ -30,7 +30,7 @@ std::vector<PocketPairs<Dim>> pairs_of_walls(const Flow<Dim>& flow) {
     unit[k] = 1.0;
     std::vector<double> field = flow.air.response(flow.state.air.pockets[k].number).pressure;
     subtract_seen<Dim>(flow, unit, field);
-    const std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, moving, field);
+    const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, moving, field);
     for (const auto& each : flow.setup.wall_motion.moving()) {
       PocketPairs<Dim> sum{each.wall, static_cast<int>(k), Vec<Dim>::Zero(), Mat<Dim>::Zero()};
       for (std::size_t n = 0; n < moving.size(); ++n) {  // in order: all add to the same sum
@@ -87,7 +87,7 @@ template <int Dim>
 std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt) {
   std::vector<double> growth = growth_at_walls(flow, dt);
   visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
-    for (const PocketPairs<Dim>& pairs : flow.sides.pairs) {
+    for (const PocketPairs<Dim>& pairs : flow.sides.wall_pair_forces) {
       if (pairs.wall == wall) growth[pairs.pocket] += pairs.growth(velocity);
     }
   });
@@ -96,7 +96,7 @@ std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 void subtract_seen(const Flow<Dim>& flow, std::span<const double> air, std::vector<double>& field) {
-  for (const auto& [i, seen] : flow.sides.seen) field[i] -= seen.share * air[seen.pocket];
+  for (const auto& [i, seen] : flow.sides.air_fractions) field[i] -= seen.share * air[seen.pocket];
   flow.halo().exchange(field);
 }
 

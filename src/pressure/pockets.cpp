@@ -52,7 +52,7 @@ void find_sides(Flow<Dim>& flow) {
   for (int k = 0; k < static_cast<int>(flow.state.air.pockets.size()); ++k) {
     const std::vector<double> share = shares_of(flow, k);
     for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
-      if (share[i] != 0.0) flow.sides.seen.push_back({i, {k, share[i]}});
+      if (share[i] != 0.0) flow.sides.air_fractions.push_back({i, {k, share[i]}});
     }
   }
 }
@@ -60,7 +60,7 @@ void find_sides(Flow<Dim>& flow) {
 /// By how much the pressure that the pockets alone make, with what they have at the start of the step, is off that of
 /// the air; on walls that of the water beside them.
 template <int Dim>
-std::vector<double> find_own_drop(Flow<Dim>& flow) {
+std::vector<double> find_response_deficit(Flow<Dim>& flow) {
   std::vector<double> drop(flow.state.particles.size(), 0.0);
   const std::vector<AirPocket>& pockets = flow.state.air.pockets;
   std::vector<double> pressure;
@@ -74,7 +74,7 @@ std::vector<double> find_own_drop(Flow<Dim>& flow) {
   }
   const std::size_t owned = flow.state.particles.owned;
   for_each(owned, [&](std::size_t i) { drop[i] = flow.role[i] == Role::water ? std::abs(drop[i]) : 0.0; });
-  spread(flow, drop);
+  extend_to_walls(flow, drop);
   return drop;
 }
 
@@ -125,8 +125,8 @@ void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double d
   const std::vector<double> rhs(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
   for (int k = 0; k < pockets; ++k) find_response(flow, k);
   std::ranges::copy(rhs, flow.pressure_rows.rhs().begin());
-  if (!flow.setup.wall_motion.moving().empty()) sides.pairs = pairs_of_walls(flow);
-  sides.own_drop = find_own_drop(flow);
+  if (!flow.setup.wall_motion.moving().empty()) sides.wall_pair_forces = pairs_of_walls(flow);
+  sides.response_deficit = find_response_deficit(flow);
   sides.answers = find_answers(flow, dt);
   const Vec<Dim> gravity =
       flow.setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : flow.setup.gravity;

@@ -19,7 +19,7 @@
 #pragma once
 
 #include "flow/flow.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 

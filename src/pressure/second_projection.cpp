@@ -8,9 +8,9 @@
 #include "pressure/operators.h"
 #include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
+#include "pressure/stages.h"
 #include "pressure/suction.h"
 #include "pressure/tolerance.h"
-#include "pressure/verbs.h"
 
 namespace tailwater {
 namespace {
@@ -18,13 +18,13 @@ namespace {
 /// Limits `correction` so that the corrected pressure keeps only the share of a suction that suction.h allows. Near the
 /// surface nothing holds the particles together, and suction would do work (docs/theory/robustness.md).
 template <int Dim>
-void admit(const Flow<Dim>& flow, std::vector<double>& correction) {
+void limit_tension(const Flow<Dim>& flow, std::vector<double>& correction) {
   if (!flow.setup.has_air()) return;
   const std::vector<double>& pressure = flow.state.particles.pressure;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     const double sum = pressure[i] + correction[i];
     const double share = suction_share(flow, i);
-    const double least = -free_suction(flow, i);
+    const double least = -allowed_tension(flow, i);
     if (sum < least && share < 1.0) correction[i] = std::lerp(least, sum, share) - pressure[i];
   });
 }
@@ -36,7 +36,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   const double density = flow.setup.density;
   Particles<Dim>& particles = flow.state.particles;
   const std::size_t fallback_rows = assemble_weights(flow, drive);
-  show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+  set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   std::vector<double> source(particles.owned, 0.0);
   flow.discretisation().find_divergence(flow, particles.velocity, source);
   for_each(particles.owned,
@@ -53,8 +53,8 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   std::vector<double>& correction = second.correction;
   correction = particles.second_pressure;
   subtract_air(flow);
-  lift_to_zero<Dim>(flow, fullness, particles.pressure, correction);
-  admit(flow, correction);
+  shift_minimum_to_zero<Dim>(flow, fullness, particles.pressure, correction);
+  limit_tension(flow, correction);
   flow.halo().exchange(correction);
   std::vector<Vec<Dim>> gradient(particles.owned);
   flow.discretisation().find_gradient(flow, correction, gradient);

@@ -4,9 +4,9 @@
 #include "pressure/full_water.h"
 #include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
+#include "pressure/stages.h"
 #include "pressure/suction.h"
 #include "pressure/tolerance.h"
-#include "pressure/verbs.h"
 
 namespace tailwater {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// Whether particle i pulls and may not with all of it.
 template <int Dim>
 bool pulls(const Flow<Dim>& flow, std::size_t i) {
-  return flow.state.particles.pressure[i] < -free_suction(flow, i) && suction_share(flow, i) < 1.0;
+  return flow.state.particles.pressure[i] < -allowed_tension(flow, i) && suction_share(flow, i) < 1.0;
 }
 
 /// Limits suction in the equation where the present pressure asks for it.
@@ -24,7 +24,7 @@ void hold_suction(Flow<Dim>& flow) {
   for_each(particles.owned, [&](std::size_t i) {
     if (!pulls(flow, i)) return;
     const double share = suction_share(flow, i);
-    const double least = -free_suction(flow, i);
+    const double least = -allowed_tension(flow, i);
     flow.pressure_rows.divide_diagonal(i, share, least);
     particles.pressure[i] = std::lerp(least, particles.pressure[i], share);
   });
@@ -37,7 +37,7 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   std::vector<double>& pressure = flow.state.particles.pressure;
   flow.halo().exchange(pressure);
   if (!flow.setup.has_air()) return;
-  const std::vector<double>& drop = flow.sides.own_drop;  // walls may pull by as much, too
+  const std::vector<double>& drop = flow.sides.response_deficit;  // walls may pull by as much, too
   for_each(drop.size(), [&](std::size_t i) { pressure[i] += drop[i]; });
   const bool has_followed =
       flow.wall_model().follow_pressure(flow.wall_scene(), flow.wall_force(drive.acceleration), pressure);
@@ -57,10 +57,10 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallD
   if (flow.setup.has_air()) {
     // Only to tell where water near the surface would pull; and it is the guess of the second solve.
     const PressureReport rough = report_of(rows.solve_roughly(rough_tolerance(tolerance)));
-    lift_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
+    shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
     hold_suction(flow);
     report = report_of(rows.solve(tolerance));
-    lift_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
+    shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
     report.iterations += rough.iterations;
     report.interventions += rough.interventions;
   } else {

@@ -4,12 +4,12 @@
 #include "base/for_each.h"
 #include "pressure/full_water.h"
 #include "pressure/pockets.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 
 template <int Dim>
-std::vector<double> aim(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt) {
+std::vector<double> target_divergence(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt) {
   std::vector<double> target(flow.state.particles.owned, 0.0);
   if (!flow.setup.formulation.is_divergence_free_midway) return target;
   for_each(target.size(), [&](std::size_t i) {
@@ -39,7 +39,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   return equation;
 }
 
-TAILWATER_IN_2D_AND_3D(aim);
+TAILWATER_IN_2D_AND_3D(target_divergence);
 TAILWATER_IN_2D_AND_3D(assemble);
 
 }  // namespace tailwater

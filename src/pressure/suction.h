@@ -9,7 +9,7 @@ namespace tailwater {
 /// an end stretch, 0 for walls.
 template <int Dim>
 double suction_share(const Flow<Dim>& flow, std::size_t i) {
-  if (flow.role[i] == Role::water) return flow.here.interior[i];
+  if (flow.role[i] == Role::water) return flow.surroundings.interior[i];
   return flow.state.particles.is_fluid(i) ? 1.0 : 0.0;
 }
 
@@ -17,8 +17,8 @@ double suction_share(const Flow<Dim>& flow, std::size_t i) {
 /// is off that of their air. In the outermost rows this pressure makes a velocity with a divergence, and what mends
 /// that pulls by as much at most. 0 without pockets.
 template <int Dim>
-double free_suction(const Flow<Dim>& flow, std::size_t i) {
-  return flow.sides.own_drop.empty() ? 0.0 : flow.sides.own_drop[i];
+double allowed_tension(const Flow<Dim>& flow, std::size_t i) {
+  return flow.sides.response_deficit.empty() ? 0.0 : flow.sides.response_deficit[i];
 }
 
 }  // namespace tailwater

@@ -1,6 +1,6 @@
 #include "base/for_each.h"
 #include "pressure/operators.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 #include "walls/facing_walls.h"
 
 namespace tailwater {
@@ -13,7 +13,7 @@ std::vector<double> shares_of_water(const Flow<Dim>& flow) {
   const bool rests = flow.setup.wall_motion.moving().empty();
   std::vector<double> share(particles.size(), 0.0);
   for_each(particles.size(), [&](std::size_t i) {
-    if (particles.is_fluid(i) || !flow.here.is_wet[i]) return;
+    if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) return;
     const auto row = static_cast<std::size_t>(particles.wall_row[i]);
     share[i] =
         rests ? flow.walls.share_of_water[row] : share_of_water(flow.walls, row, kernel_radius(flow.setup.kernel));
@@ -38,13 +38,13 @@ void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
     }
   }
   WallForces<Dim>& forces = flow.wall_forces;
-  std::vector<Vec<Dim>> pushes = pushes_of_walls<Dim>(flow, walls, pressure);
+  std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, walls, pressure);
   for_each(walls.size(), [&](std::size_t n) {
     const std::size_t i = walls[n];
     forces.pressure[i] -= (1.0 - share[i]) * particles.volume[i] * pushes[n];
   });
   pushes.resize(water.size());
-  flow.discretisation().find_pushes_on_walls(flow, water, share, pressure, pushes);
+  flow.discretisation().reactions_seen_by_water(flow, water, share, pressure, pushes);
   for_each(water.size(),
            [&](std::size_t n) { forces.through_water[water[n]] += particles.volume[water[n]] * pushes[n]; });
 }

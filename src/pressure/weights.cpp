@@ -2,7 +2,7 @@
 // the water by the formulation (robust/rows.cpp, published).
 #include "base/for_each.h"
 #include "linear/find_cells.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 namespace {
@@ -23,7 +23,7 @@ void assemble_end_row(Flow<Dim>& flow, std::size_t i) {
     return particles.is_fluid(j) && !end.holds(particles.position[j]) ? particles.volume[j] * pairs.value(i, k) : 0.0;
   };
   double total = 0.0;
-  for (std::size_t k = pairs.begin(i); flow.role[i] == Role::fed_end && k < pairs.end(i); ++k) total += weight(k);
+  for (std::size_t k = pairs.begin(i); flow.role[i] == Role::inflow_end && k < pairs.end(i); ++k) total += weight(k);
   LinearSystem::Row row = flow.pressure_rows.row(i);
   if (total == 0.0) {
     row.set_weights([](std::size_t) { return 0.0; });
@@ -52,12 +52,12 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
     const std::span positions(flow.state.particles.position);
     flow.pressure_rows.set_cells(
         find_cells<Dim>(positions.first(flow.state.particles.owned), cell_edge * flow.setup.spacing,
-                        [&](std::size_t i) { return has_equation(flow.role[i]) && flow.role[i] != Role::fed_end; }));
+                        [&](std::size_t i) { return has_equation(flow.role[i]) && flow.role[i] != Role::inflow_end; }));
   }
   flow.wall_model().assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (is_in_end_stretch(flow.role[i])) assemble_end_row(flow, i);
-    if (flow.role[i] == Role::held) flow.pressure_rows.row(i).finish_as_zero();  // later passes correct no pressure
+    if (flow.role[i] == Role::stagnant) flow.pressure_rows.row(i).finish_as_zero();  // later passes correct no pressure
   });
   return flow.discretisation().write_rows(flow);
 }

@@ -27,37 +27,41 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
   explicit FarmaniDiscretisation(double eta_squared) : eta_squared_(eta_squared) {}
 
   void find_surface(Flow<Dim>& flow, SurfaceMarks marks) override {  // (B21)
-    Surroundings<Dim>& here = flow.here;
+    Surroundings<Dim>& surroundings = flow.surroundings;
     const Particles<Dim>& particles = flow.state.particles;
     if (marks == SurfaceMarks::found) {
-      mark_by_density<Dim>(flow.pairs(), particles, here.concentration, here.is_surface);
-      flow.halo().exchange(here.is_surface);
-      find_interior_by_marks<Dim>(flow.pairs(), particles, flow.setup.spacing, here.is_surface, here.interior);
+      mark_by_density<Dim>(flow.pairs(), particles, surroundings.concentration, surroundings.is_surface);
+      flow.halo().exchange(surroundings.is_surface);
+      find_interior_by_marks<Dim>(flow.pairs(), particles, flow.setup.spacing, surroundings.is_surface,
+                                  surroundings.interior);
     }
   }
 
   /// For works and the report of the divergence only.
-  void find_pair_vectors(Flow<Dim>& flow) override { find_kernel_gradients(flow.pairs(), flow.here.pair_vectors); }
+  void find_pair_vectors(Flow<Dim>& flow) override {
+    find_kernel_gradients(flow.pairs(), flow.surroundings.pair_vectors);
+  }
 
   void add_viscous_force(const Flow<Dim>& flow, std::span<const Mat<Dim>>,
                          std::vector<Vec<Dim>>& acceleration) const override {  // (B9)
     const Particles<Dim>& particles = flow.state.particles;
     std::vector<double> viscosity(particles.size());
     effective_viscosity<Dim>(flow.setup.viscosity_law, particles.velocity, viscosity);
-    add_shao_lo_viscosity<Dim>(flow.pairs(), particles, eta_squared_, flow.here.concentration, viscosity,
+    add_shao_lo_viscosity<Dim>(flow.pairs(), particles, eta_squared_, flow.surroundings.concentration, viscosity,
                                particles.velocity, acceleration);
   }
 
   std::size_t write_rows(Flow<Dim>& flow) const override {  // (B8)
     const Pairs<Dim>& pairs = flow.pairs();
     const std::vector<double>& volume = flow.state.particles.volume;
-    const std::vector<double>& density = flow.here.concentration;
+    const std::vector<double>& density = flow.surroundings.concentration;
     write_rows_of_marked_water(flow, [&](std::size_t i, LinearSystem::Row& row) {
       return row.set_weights([&](std::size_t k) {
         const auto j = pairs.j[k];
-        return flow.here.takes_part[j] ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r(i, k),
-                                                                  pairs.slope(i, k), eta_squared_)
-                                       : 0.0;
+        return flow.surroundings.takes_part[j]
+                   ? shao_lo_laplacian_weight(volume[j], density[i], density[j], pairs.r(i, k), pairs.slope(i, k),
+                                              eta_squared_)
+                   : 0.0;
       });
     });
     return 0;
@@ -67,7 +71,8 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
                              double dt) const override {  // (B17)
     PressureSource source{std::vector<double>(flow.state.particles.owned, 0.0), {}};
     const double unit = flow.setup.density / (dt * dt);
-    for_each(source.rows.size(), [&](std::size_t i) { source.rows[i] = unit * (flow.here.concentration[i] - 1.0); });
+    for_each(source.rows.size(),
+             [&](std::size_t i) { source.rows[i] = unit * (flow.surroundings.concentration[i] - 1.0); });
     return source;
   }
 
@@ -81,35 +86,36 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
     const std::vector<double>& volume = flow.state.particles.volume;
     for_each(flow.state.particles.owned, [&](std::size_t i) {
       if (flow.role[i] != Role::water) return;
-      gradient[i] = density_weighted_gradient<Dim>(flow.pairs(), i, volume, flow.here.concentration, pressure);
+      gradient[i] = density_weighted_gradient<Dim>(flow.pairs(), i, volume, flow.surroundings.concentration, pressure);
     });
   }
 
-  void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
-                   std::span<Vec<Dim>> pushes) const override {
+  void wall_reactions(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
+                      std::span<Vec<Dim>> pushes) const override {
     const Pairs<Dim>& pairs = flow.pairs();
     const Particles<Dim>& particles = flow.state.particles;
     for_each(walls.size(), [&](std::size_t n) {
       const std::size_t i = walls[n];
       pushes[n] = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t, std::size_t k) {
-        return Vec<Dim>(density_weighted_slope<Dim>(pairs, i, k, particles.volume, flow.here.concentration, pressure) *
-                        pairs.e(i, k));
+        return Vec<Dim>(
+            density_weighted_slope<Dim>(pairs, i, k, particles.volume, flow.surroundings.concentration, pressure) *
+            pairs.e(i, k));
       });
     });
   }
 
-  void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
-                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override {
+  void reactions_seen_by_water(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
+                               const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override {
     const Pairs<Dim>& pairs = flow.pairs();
     for_each(water.size(), [&](std::size_t n) {
       const std::size_t i = water[n];
       pushes[n].setZero();
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
         if (share[pairs.j[k]] == 0.0) continue;
-        pushes[n] +=
-            share[pairs.j[k]] *
-            density_weighted_slope<Dim>(pairs, i, k, flow.state.particles.volume, flow.here.concentration, pressure) *
-            pairs.e(i, k);
+        pushes[n] += share[pairs.j[k]] *
+                     density_weighted_slope<Dim>(pairs, i, k, flow.state.particles.volume,
+                                                 flow.surroundings.concentration, pressure) *
+                     pairs.e(i, k);
       }
     });
   }

@@ -2,7 +2,7 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "operators/pair_vectors.h"
 #include "published/gradient_consistent.h"
 #include "published/laplacian_consistent.h"
@@ -34,28 +34,31 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
       : tensors_(std::move(tensors)), shifting_(shifting) {}
 
   void find_surface(Flow<Dim>& flow, SurfaceMarks marks) override {
-    Surroundings<Dim>& here = flow.here;
+    Surroundings<Dim>& surroundings = flow.surroundings;
     const Pairs<Dim>& pairs = flow.pairs();
     const Particles<Dim>& particles = flow.state.particles;
     tensors_->resize(particles.owned);
-    compute_renormalisation<Dim>(pairs, particles.volume, here.takes_part, *tensors_);  // (F10), (F13)
+    compute_renormalisation<Dim>(pairs, particles.volume, surroundings.takes_part, *tensors_);  // (F10), (F13)
     if (marks == SurfaceMarks::found) {
-      mark_by_cone<Dim>({pairs, here.concentration, here.concentration_gradient, *tensors_, flow.setup.spacing},
-                        particles, here.is_surface);
-      flow.halo().exchange(here.is_surface);
-      find_interior_by_marks<Dim>(pairs, particles, flow.setup.spacing, here.is_surface, here.interior);
+      mark_by_cone<Dim>(
+          {pairs, surroundings.concentration, surroundings.concentration_gradient, *tensors_, flow.setup.spacing},
+          particles, surroundings.is_surface);
+      flow.halo().exchange(surroundings.is_surface);
+      find_interior_by_marks<Dim>(pairs, particles, flow.setup.spacing, surroundings.is_surface, surroundings.interior);
     }
   }
 
   /// For works and pushes only: gradient and divergence are consistent.
-  void find_pair_vectors(Flow<Dim>& flow) override { find_kernel_gradients(flow.pairs(), flow.here.pair_vectors); }
+  void find_pair_vectors(Flow<Dim>& flow) override {
+    find_kernel_gradients(flow.pairs(), flow.surroundings.pair_vectors);
+  }
 
   void add_viscous_force(const Flow<Dim>& flow, std::span<const Mat<Dim>>,
                          std::vector<Vec<Dim>>& acceleration) const override {  // (F2)
     const Particles<Dim>& particles = flow.state.particles;
     std::vector<double> viscosity(particles.size());
     effective_viscosity<Dim>(flow.setup.viscosity_law, particles.velocity, viscosity);  // (F3)
-    add_consistent_viscosity<Dim>(flow.pairs(), particles, *tensors_, flow.here.takes_part, flow.setup.spacing,
+    add_consistent_viscosity<Dim>(flow.pairs(), particles, *tensors_, flow.surroundings.takes_part, flow.setup.spacing,
                                   viscosity, particles.velocity, acceleration);
     std::vector<Mat<Dim>> tau(particles.size());  // (F4)-(F6)
     sub_particle_stress<Dim>(flow.pairs(), particles, stress, flow.setup.spacing, particles.velocity, tau);
@@ -71,7 +74,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
       const Renormalisation<Dim>& tensors = (*tensors_)[i];
       if (tensors.laplacian_is_sound()) {
         const double sum = row.set_weights([&](std::size_t k) {
-          return flow.here.takes_part[pairs.j[k]]
+          return flow.surroundings.takes_part[pairs.j[k]]
                      ? consistent_laplacian_weight<Dim>(tensors, volume[pairs.j[k]], pairs.e(i, k), pairs.r(i, k),
                                                         pairs.value(i, k))
                      : 0.0;
@@ -80,9 +83,10 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
       }
       fell_back[i] = 1;
       return row.set_weights([&](std::size_t k) {
-        return flow.here.takes_part[pairs.j[k]] ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(i, k),
-                                                                            pairs.value(i, k), flow.setup.spacing)
-                                                : 0.0;
+        return flow.surroundings.takes_part[pairs.j[k]]
+                   ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(i, k), pairs.value(i, k),
+                                               flow.setup.spacing)
+                   : 0.0;
       });
     });
     return count_each(fell_back.size(), [&](std::size_t i) { return fell_back[i] != 0; });
@@ -106,7 +110,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
       const Renormalisation<Dim>& tensors = (*tensors_)[i];
       divergence[i] = tensors.gradient_is_sound()
                           ? consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, flow.state.particles.volume,
-                                                     flow.here.takes_part, velocity)
+                                                     flow.surroundings.takes_part, velocity)
                                 .trace()
                           : 0.0;
     });
@@ -120,29 +124,30 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
       const Renormalisation<Dim>& tensors = (*tensors_)[i];
       if (!tensors.gradient_is_sound()) return;
       gradient[i] = consistent_gradient<Dim>(flow.pairs(), i, tensors.B1, flow.state.particles.volume,
-                                             flow.here.takes_part, std::span<const double>(pressure));
+                                             flow.surroundings.takes_part, std::span<const double>(pressure));
     });
   }
 
   /// The consistent gradient has no reactions: this is what the conservative one would push with.
-  void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
-                   std::span<Vec<Dim>> pushes) const override {
+  void wall_reactions(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
+                      std::span<Vec<Dim>> pushes) const override {
     find_conservative_pushes(flow, walls, pressure, pushes);
   }
 
-  void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
-                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override {
+  void reactions_seen_by_water(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
+                               const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override {
     find_conservative_pushes_on_walls(flow, water, share, pressure, pushes);
   }
 
   std::size_t find_shifts(Flow<Dim>& flow, double dt, std::vector<Vec<Dim>>& shifts) const override {
     Particles<Dim>& particles = flow.state.particles;
-    const std::size_t capped = find_published_shifts<Dim>(shifting_, dt, flow.pairs(), particles, flow.here, shifts);
+    const std::size_t capped =
+        find_published_shifts<Dim>(shifting_, dt, flow.pairs(), particles, flow.surroundings, shifts);
     for_each(particles.owned, [&](std::size_t i) {
-      if (is_in_end_stretch(flow.role[i]) || flow.role[i] == Role::held) shifts[i].setZero();
+      if (is_in_end_stretch(flow.role[i]) || flow.role[i] == Role::stagnant) shifts[i].setZero();
     });
-    show_walls<Dim>(flow, flow.state.wall_velocity, particles.velocity);
-    carry_fields_along<Dim>(flow.pairs(), *tensors_, flow.here, shifts, particles);
+    set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
+    carry_fields_along<Dim>(flow.pairs(), *tensors_, flow.surroundings, shifts, particles);
     return capped;
   }
 

@@ -10,7 +10,7 @@ namespace {
 template <int Dim>
 void assemble_wall_row(const WallScene<Dim>& scene, const Renormalisation<Dim>& tensors, const WallForce<Dim>& force,
                        std::size_t i, LinearSystem::Row row) {
-  if (!scene.here.is_wet[i] || !tensors.gradient_is_sound()) {
+  if (!scene.surroundings.is_wet[i] || !tensors.gradient_is_sound()) {
     row.finish_as_zero();
     return;
   }
@@ -18,7 +18,7 @@ void assemble_wall_row(const WallScene<Dim>& scene, const Renormalisation<Dim>& 
   const auto wall_row = scene.particles.wall_row[i];
   const Vec<Dim> normal = scene.walls.particles.normal[wall_row];
   const double sum = row.set_weights([&](std::size_t k) {
-    if (!scene.here.takes_part[pairs.j[k]]) return 0.0;
+    if (!scene.surroundings.takes_part[pairs.j[k]]) return 0.0;
     return consistent_gradient_weight<Dim>(tensors.B1, scene.particles.volume[pairs.j[k]], pairs.e(i, k), pairs.r(i, k),
                                            pairs.value(i, k))
         .dot(normal);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 #include "schemes/project.h"
 
 namespace tailwater {
@@ -63,7 +63,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);  // (F22)
     report.add(solve(flow, equation, drive));
     correct(flow, predicted, drive, dt);  // (F24)
-    report.work = book_works(flow, start, predicted, equation, dt);
+    report.work = work_of_step(flow, start, predicted, equation, dt);
     divergence_old = divergence_to_report(flow);
 
     report.pressure_change = relative_change(flow.setup.ranks, pressure_before, particles.pressure);

@@ -11,11 +11,11 @@ template <int Dim>
 void assemble_copy_of_row(const WallScene<Dim>& scene, std::size_t i, LinearSystem::Row row) {
   const double sum = row.set_weights([&](std::size_t k) {
     const auto j = scene.pairs.j[k];
-    const bool is_row = !scene.particles.is_fluid(j) && scene.here.is_wet[j] &&
+    const bool is_row = !scene.particles.is_fluid(j) && scene.surroundings.is_wet[j] &&
                         scene.walls.particles.is_on_wall(scene.particles.wall_row[j]);
     return is_row ? scene.pairs.value(i, k) : 0.0;
   });
-  if (!scene.here.is_wet[i] || sum <= 0.0) {
+  if (!scene.surroundings.is_wet[i] || sum <= 0.0) {
     row.finish_as_zero();
     return;
   }

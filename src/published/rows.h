@@ -13,7 +13,7 @@ void write_rows_of_marked_water(Flow<Dim>& flow, SetWeights&& set_weights) {
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (!is_solved_for(flow.role[i])) return;
     LinearSystem::Row row = flow.pressure_rows.row(i);
-    if (!flow.here.takes_part[i] || (flow.here.is_surface[i] && !flow.setup.is_closed)) {
+    if (!flow.surroundings.takes_part[i] || (flow.surroundings.is_surface[i] && !flow.setup.is_closed)) {
       row.finish_as_zero();
       return;
     }

@@ -24,28 +24,28 @@ Vec<Dim> direction(const Pairs<Dim>& pairs, std::size_t i) {
 
 template <int Dim>
 std::size_t find_published_shifts(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs,
-                                  const Particles<Dim>& particles, const Surroundings<Dim>& here,
+                                  const Particles<Dim>& particles, const Surroundings<Dim>& surroundings,
                                   std::span<Vec<Dim>> shifts) {
   return count_each(pairs.owned(), [&](std::size_t i) {
     shifts[i].setZero();
-    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || here.interior[i] == 0.0) return false;
+    if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || surroundings.interior[i] == 0.0) return false;
     shifts[i] = law.strength * particles.velocity[i].norm() * dt * direction(pairs, i);
-    return bound_shift<Dim>(shifts[i], here.interior[i], law.cap);
+    return bound_shift<Dim>(shifts[i], surroundings.interior[i], law.cap);
   });
 }
 
 template <int Dim>
-void carry_fields_along(const Pairs<Dim>& pairs, const Tensors<Dim>& tensors, const Surroundings<Dim>& here,
+void carry_fields_along(const Pairs<Dim>& pairs, const Tensors<Dim>& tensors, const Surroundings<Dim>& surroundings,
                         std::span<const Vec<Dim>> shifts, Particles<Dim>& particles) {
   std::vector<Vec<Dim>> velocity_change(particles.owned, Vec<Dim>::Zero());
   std::vector<double> pressure_change(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (!particles.is_fluid(i) || here.interior[i] < 1.0 || !tensors[i].gradient_is_sound()) return;
+    if (!particles.is_fluid(i) || surroundings.interior[i] < 1.0 || !tensors[i].gradient_is_sound()) return;
     const Mat<Dim>& B1 = tensors[i].B1;
-    velocity_change[i] = consistent_gradient<Dim>(pairs, i, B1, particles.volume, here.takes_part,
+    velocity_change[i] = consistent_gradient<Dim>(pairs, i, B1, particles.volume, surroundings.takes_part,
                                                   std::span<const Vec<Dim>>(particles.velocity)) *
                          shifts[i];
-    pressure_change[i] = consistent_gradient<Dim>(pairs, i, B1, particles.volume, here.takes_part,
+    pressure_change[i] = consistent_gradient<Dim>(pairs, i, B1, particles.volume, surroundings.takes_part,
                                                   std::span<const double>(particles.pressure))
                              .dot(shifts[i]);
   });

@@ -16,12 +16,12 @@ namespace tailwater {
 /// Shifts [m] of owned particles, with eps = `law.strength`. Returns how many would have been longer than the bound.
 template <int Dim>
 std::size_t find_published_shifts(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs,
-                                  const Particles<Dim>& particles, const Surroundings<Dim>& here,
+                                  const Particles<Dim>& particles, const Surroundings<Dim>& surroundings,
                                   std::span<Vec<Dim>> shifts);
 
 /// (F31), (F32); velocity and pressure must be up to date on ghosts and walls.
 template <int Dim>
-void carry_fields_along(const Pairs<Dim>& pairs, const Tensors<Dim>& tensors, const Surroundings<Dim>& here,
+void carry_fields_along(const Pairs<Dim>& pairs, const Tensors<Dim>& tensors, const Surroundings<Dim>& surroundings,
                         std::span<const Vec<Dim>> shifts, Particles<Dim>& particles);
 
 }  // namespace tailwater

@@ -45,10 +45,10 @@ class RobustDiscretisation final : public Discretisation<Dim> {
                         std::span<double> weights) const override;
   void find_gradient_at(const Flow<Dim>& flow, std::span<const std::size_t> particles,
                         const std::vector<double>& pressure, std::span<Vec<Dim>> gradient) const override;
-  void find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
-                   std::span<Vec<Dim>> pushes) const override;
-  void find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
-                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override;
+  void wall_reactions(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
+                      std::span<Vec<Dim>> pushes) const override;
+  void reactions_seen_by_water(const Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
+                               const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const override;
   std::size_t find_shifts(Flow<Dim>& flow, double dt, std::vector<Vec<Dim>>& shifts) const override;
 
  private:

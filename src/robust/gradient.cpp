@@ -12,7 +12,7 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
   const std::vector<double>& volume = flow.state.particles.volume;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    gradient[i] = conservative_gradient<Dim>(flow.pairs(), i, volume, flow.here.pair_vectors, pressure);
+    gradient[i] = conservative_gradient<Dim>(flow.pairs(), i, volume, flow.surroundings.pair_vectors, pressure);
   });
 }
 
@@ -22,7 +22,8 @@ void RobustDiscretisation<Dim>::find_gradient_at(const Flow<Dim>& flow, std::spa
                                                  std::span<Vec<Dim>> gradient) const {
   const std::vector<double>& volume = flow.state.particles.volume;
   for_each(particles.size(), [&](std::size_t n) {
-    gradient[n] = conservative_gradient<Dim>(flow.pairs(), particles[n], volume, flow.here.pair_vectors, pressure);
+    gradient[n] =
+        conservative_gradient<Dim>(flow.pairs(), particles[n], volume, flow.surroundings.pair_vectors, pressure);
   });
 }
 
@@ -33,30 +34,31 @@ void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>& flow, std::span
 }
 
 template <int Dim>
-void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
-                                            const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const {
+void RobustDiscretisation<Dim>::wall_reactions(const Flow<Dim>& flow, std::span<const std::size_t> walls,
+                                               const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) const {
   find_conservative_pushes(flow, walls, pressure, pushes);
 }
 
 template <int Dim>
-void RobustDiscretisation<Dim>::find_pushes_on_walls(const Flow<Dim>& flow, std::span<const std::size_t> water,
-                                                     std::span<const double> share, const std::vector<double>& pressure,
-                                                     std::span<Vec<Dim>> pushes) const {
+void RobustDiscretisation<Dim>::reactions_seen_by_water(const Flow<Dim>& flow, std::span<const std::size_t> water,
+                                                        std::span<const double> share,
+                                                        const std::vector<double>& pressure,
+                                                        std::span<Vec<Dim>> pushes) const {
   find_conservative_pushes_on_walls(flow, water, share, pressure, pushes);
 }
 
 template <int Dim>
 void find_standard_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity, std::span<double> divergence) {
-  const std::vector<Four> in_single = in_fours(velocity);
+  const std::vector<Float4> in_single = as_float4(velocity);
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    divergence[i] = standard_divergence<Dim>(flow.pairs(), i, flow.here.pair_vectors, in_single);
+    divergence[i] = standard_divergence<Dim>(flow.pairs(), i, flow.surroundings.pair_vectors, in_single);
   });
 }
 
 namespace {
 
-/// What pairs push each of these owned particles with, over its volume. weight(several, pair) says how much of each
+/// What pairs push each of these owned particles with, over its volume. weight(batch, pair) says how much of each
 /// neighbour counts, as a volume.
 template <int Dim, class Weight>
 void find_pushes_of_pairs(const Flow<Dim>& flow, std::span<const std::size_t> particles,
@@ -67,9 +69,9 @@ void find_pushes_of_pairs(const Flow<Dim>& flow, std::span<const std::size_t> pa
     VecSum<Dim> sum;
     const Lanes own_volume = in_all_lanes(volume[i]);
     const Lanes own = in_all_lanes(pressure[i]);
-    for_each_pair(flow.pairs(), i, [&](const auto& several) {
-      const PairVectorLanes<Dim> pair = flow.here.pair_vectors(several);
-      sum += own_volume * weight(several, pair) * (own + several.of(pressure)) * pair.a;
+    for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+      const PairVectorLanes<Dim> pair = flow.surroundings.pair_vectors(batch);
+      sum += own_volume * weight(batch, pair) * (own + batch.of(pressure)) * pair.a;
     });
     pushes[n] = sum.total() / volume[i];
   });
@@ -81,7 +83,7 @@ template <int Dim>
 void find_conservative_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
                               const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) {
   find_pushes_of_pairs(flow, walls, pressure, pushes,
-                       [](const auto& /*several*/, const auto& pair) { return pair.place.volume_of_fluid(); });
+                       [](const auto& /*batch*/, const auto& pair) { return pair.place.volume_of_fluid(); });
 }
 
 template <int Dim>
@@ -89,21 +91,21 @@ void find_conservative_pushes_on_walls(const Flow<Dim>& flow, std::span<const st
                                        std::span<const double> share, const std::vector<double>& pressure,
                                        std::span<Vec<Dim>> pushes) {
   find_pushes_of_pairs(flow, water, pressure, pushes,
-                       [&](const auto& several, const auto& pair) { return several.of(share) * pair.place.volume(); });
+                       [&](const auto& batch, const auto& pair) { return batch.of(share) * pair.place.volume(); });
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                   \
-  template void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>&, const std::vector<double>&,               \
-                                                         std::span<Vec<Dim>>) const;                                 \
-  template void RobustDiscretisation<Dim>::find_gradient_at(const Flow<Dim>&, std::span<const std::size_t>,          \
-                                                            const std::vector<double>&, std::span<Vec<Dim>>) const;  \
-  template void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>&, std::span<const Vec<Dim>>,              \
-                                                           std::span<double>) const;                                 \
-  template void RobustDiscretisation<Dim>::find_pushes(const Flow<Dim>&, std::span<const std::size_t>,               \
-                                                       const std::vector<double>&, std::span<Vec<Dim>>) const;       \
-  template void RobustDiscretisation<Dim>::find_pushes_on_walls(const Flow<Dim>&, std::span<const std::size_t>,      \
-                                                                std::span<const double>, const std::vector<double>&, \
-                                                                std::span<Vec<Dim>>) const;
+#define TAILWATER_INSTANTIATE(Dim)                                                                                  \
+  template void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>&, const std::vector<double>&,              \
+                                                         std::span<Vec<Dim>>) const;                                \
+  template void RobustDiscretisation<Dim>::find_gradient_at(const Flow<Dim>&, std::span<const std::size_t>,         \
+                                                            const std::vector<double>&, std::span<Vec<Dim>>) const; \
+  template void RobustDiscretisation<Dim>::find_divergence(const Flow<Dim>&, std::span<const Vec<Dim>>,             \
+                                                           std::span<double>) const;                                \
+  template void RobustDiscretisation<Dim>::wall_reactions(const Flow<Dim>&, std::span<const std::size_t>,           \
+                                                          const std::vector<double>&, std::span<Vec<Dim>>) const;   \
+  template void RobustDiscretisation<Dim>::reactions_seen_by_water(                                                 \
+      const Flow<Dim>&, std::span<const std::size_t>, std::span<const double>, const std::vector<double>&,          \
+      std::span<Vec<Dim>>) const;
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)
 #undef TAILWATER_INSTANTIATE

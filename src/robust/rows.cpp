@@ -33,10 +33,10 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
   const double spacing = flow.setup.spacing;
   return row.write_weights([&](float* weights) {
     LaneSum sums;
-    for_each_pair(pairs, i, [&](const auto& several) {
-      const VecLanes<Dim> d = several.place().d;
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const VecLanes<Dim> d = batch.place().d;
       const Lanes share = share_of_morris_weight(d.dot(d), spacing);
-      sums += several.store(2.0F * share * several.of(volume_taking_part) * several.F(d), weights);
+      sums += batch.store(2.0F * share * batch.of(volume_taking_part) * batch.F(d), weights);
     });
     return sums.total();
   });
@@ -48,10 +48,10 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
 template <int Dim>
 double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) const {
   const double air = laws_.air.weight(sum, flow.setup.lattice.morris);
-  const double interior = flow.here.interior[i];
+  const double interior = flow.surroundings.interior[i];
   if (interior == 0.0) return air;
   const double spacing = flow.setup.spacing;
-  const double inside = 4.0 * flow.here.open_faces[i].squaredNorm() + softness / (spacing * spacing);
+  const double inside = 4.0 * flow.surroundings.open_faces[i].squaredNorm() + softness / (spacing * spacing);
   return std::lerp(air, inside, interior);
 }
 
@@ -68,7 +68,7 @@ std::size_t RobustDiscretisation<Dim>::write_rows(Flow<Dim>& flow) const {
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<float> volume(particles.size());
   for_each(volume.size(), [&](std::size_t j) {
-    volume[j] = flow.here.takes_part[j] ? static_cast<float>(particles.volume[j]) : 0.0F;
+    volume[j] = flow.surroundings.takes_part[j] ? static_cast<float>(particles.volume[j]) : 0.0F;
   });
   const bool has_air = flow.setup.has_air();
   for_each(particles.owned, [&](std::size_t i) {

@@ -8,9 +8,9 @@ template <int Dim>
 std::size_t RobustDiscretisation<Dim>::find_shifts(Flow<Dim>& flow, double dt, std::vector<Vec<Dim>>& shifts) const {
   const Particles<Dim>& particles = flow.state.particles;
   const std::size_t capped =
-      compute_shift<Dim>(laws_.shifting, dt, largest_speed(flow), flow.pairs(), particles, flow.here, shifts);
+      compute_shift<Dim>(laws_.shifting, dt, largest_speed(flow), flow.pairs(), particles, flow.surroundings, shifts);
   for_each(particles.owned, [&](std::size_t i) {
-    if (is_in_end_stretch(flow.role[i]) || flow.role[i] == Role::held) shifts[i].setZero();
+    if (is_in_end_stretch(flow.role[i]) || flow.role[i] == Role::stagnant) shifts[i].setZero();
   });
   return capped;
 }

@@ -8,7 +8,7 @@
 // gamma  share of the density error that a step corrects; s_i is what the energy leaves of it for particles too close
 //        (`balance_energy`), and `pull` times `interior` for particles too far apart: at the surface nothing pulls
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "robust/discretisation.h"
 
 namespace tailwater {
@@ -23,7 +23,7 @@ template <int Dim>
 std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation, double dt) {
   const Setup<Dim>& setup = flow.setup;
   const std::size_t owned = flow.state.particles.owned;
-  const std::vector<double>& concentration = flow.here.concentration;
+  const std::vector<double>& concentration = flow.surroundings.concentration;
   std::vector<double> source(owned, 0.0);
   const double unit = setup.density / (dt * dt);
   std::vector<double> overlap(owned);
@@ -33,7 +33,7 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   const double share = relaxation * courant;
   for_each(owned, [&](std::size_t i) {
     const double error = concentration[i] - 1.0;
-    const double answered = (error < 0.0 ? pull * flow.here.interior[i] : lift) * error + overlap[i];
+    const double answered = (error < 0.0 ? pull * flow.surroundings.interior[i] : lift) * error + overlap[i];
     source[i] = share * unit * answered;
   });
   return source;

@@ -9,36 +9,39 @@ namespace tailwater {
 
 template <int Dim>
 void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, SurfaceMarks /*marks*/) {
-  Surroundings<Dim>& here = flow.here;
+  Surroundings<Dim>& surroundings = flow.surroundings;
   const Particles<Dim>& particles = flow.state.particles;
-  find_interior<Dim>(flow.pairs(), particles, here.concentration, flow.setup.kernel_values.W_0, here.interior);
+  find_interior<Dim>(flow.pairs(), particles, surroundings.concentration, flow.setup.kernel_values.W_0,
+                     surroundings.interior);
   if (flow.walls.is_curved) {
-    flow.halo().exchange(here.interior);
-    see_water_in_front<Dim>(flow.wall_scene(), flow.setup.spacing, here.interior);
+    flow.halo().exchange(surroundings.interior);
+    see_water_in_front<Dim>(flow.wall_scene(), flow.setup.spacing, surroundings.interior);
   }
-  mark_thin_water<Dim>(particles, here.concentration, here.is_surface);  // for the field files
-  flow.halo().exchange(here.interior);
+  mark_thin_water<Dim>(particles, surroundings.concentration, surroundings.is_surface);  // for the field files
+  flow.halo().exchange(surroundings.interior);
 }
 
 template <int Dim>
 void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  Surroundings<Dim>& here = flow.here;
+  Surroundings<Dim>& surroundings = flow.surroundings;
   if (laws_.pair_vectors == PairVectors::kernel) {
-    find_kernel_gradients(flow.pairs(), here.pair_vectors);
-    here.open_faces = here.concentration_gradient;
-    for_each(here.mean_interior.size(), [&](std::size_t i) {  // the corrections below find it on their way
-      if (here.interior[i] > 0.0) here.mean_interior[i] = mean_over_fluid<Dim>(flow.pairs(), i, here.interior, 0.0);
+    find_kernel_gradients(flow.pairs(), surroundings.pair_vectors);
+    surroundings.open_faces = surroundings.concentration_gradient;
+    for_each(surroundings.mean_interior.size(), [&](std::size_t i) {  // the corrections below find it on their way
+      if (surroundings.interior[i] > 0.0)
+        surroundings.mean_interior[i] = mean_over_fluid<Dim>(flow.pairs(), i, surroundings.interior, 0.0);
     });
     return;
   }
   const CorrectionReach reach =
       laws_.pair_vectors == PairVectors::corrected_to_surface ? CorrectionReach::surface : CorrectionReach::inside;
-  find_corrected_pair_vectors<Dim>(
-      flow.pairs(), flow.halo(),
-      {kernel_radius(flow.setup.kernel), particles.volume, particles.kind, here.interior, here.first_moment}, reach,
-      closing_sweeps(reach), flow.pressure_rows.room_of_weights(flow.pairs().j.size()), here.pair_vectors,
-      here.open_faces, here.mean_interior);
+  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
+                                   {kernel_radius(flow.setup.kernel), particles.volume, particles.kind,
+                                    surroundings.interior, surroundings.first_moment},
+                                   reach, closing_sweeps(reach),
+                                   flow.pressure_rows.borrow_weight_storage(flow.pairs().j.size()),
+                                   surroundings.pair_vectors, surroundings.open_faces, surroundings.mean_interior);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                 \

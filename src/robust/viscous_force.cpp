@@ -18,7 +18,7 @@ void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::sp
       viscosity[i] += spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], setup.viscosity_law.molecular);
     });
   }
-  add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.spacing, flow.here.pair_vectors, viscosity,
+  add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.spacing, flow.surroundings.pair_vectors, viscosity,
                                noise_viscosity, particles.velocity, velocity_gradient, acceleration);
 }
 

@@ -21,7 +21,7 @@ inline void to_json(Json& json, const CellRun& run) { json = {run.row, run.begin
 inline void from_json(const Json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
 
 TAILWATER_SAVED(inline, WaterAmount, particles, volume, energy)
-TAILWATER_SAVED(inline, LevelMiss, mean, lasts, since, total, most)
+TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
 TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate,
                 entry_speed, depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived,
                 short_steps)

@@ -18,14 +18,14 @@ constexpr double columns_that_wait = 3.0;
 
 }  // namespace
 
-bool EndWatch::is_first(const std::string& what) {
+bool OpenEndMonitor::is_first(const std::string& what) {
   if (std::ranges::find(told_, what) != told_.end()) return false;
   told_.push_back(what);
   return true;
 }
 
 template <int Dim>
-void EndWatch::look(const Flow<Dim>& flow) {
+void OpenEndMonitor::update(const Flow<Dim>& flow) {
   const double spacing = flow.setup.spacing;
   for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
     const OpenEnd<Dim>& end = flow.setup.open_ends[e];
@@ -51,9 +51,9 @@ void EndWatch::look(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-void EndWatch::warn_of_end(const Flow<Dim>& flow) const {
+void OpenEndMonitor::warn_of_end(const Flow<Dim>& flow) const {
   for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
-    const LevelMiss& miss = flow.state.open_ends[e].miss;
+    const LevelError& miss = flow.state.open_ends[e].miss;
     if (miss.since < 0.0) continue;
     const std::string now =
         miss.lasts > 0.0 ? fmt::format("still {:.3g} m too {}", std::abs(miss.mean), miss.mean < 0.0 ? "low" : "high")
@@ -63,13 +63,13 @@ void EndWatch::warn_of_end(const Flow<Dim>& flow) const {
   }
 }
 
-Json EndWatch::saved() const { return told_; }
+Json OpenEndMonitor::saved() const { return told_; }
 
-void EndWatch::restore(const Json& saved) { saved.get_to(told_); }
+void OpenEndMonitor::restore(const Json& saved) { saved.get_to(told_); }
 
-template void EndWatch::look(const Flow<2>&);
-template void EndWatch::look(const Flow<3>&);
-template void EndWatch::warn_of_end(const Flow<2>&) const;
-template void EndWatch::warn_of_end(const Flow<3>&) const;
+template void OpenEndMonitor::update(const Flow<2>&);
+template void OpenEndMonitor::update(const Flow<3>&);
+template void OpenEndMonitor::warn_of_end(const Flow<2>&) const;
+template void OpenEndMonitor::warn_of_end(const Flow<3>&) const;
 
 }  // namespace tailwater

@@ -9,12 +9,12 @@
 
 namespace tailwater {
 
-class EndWatch {
+class OpenEndMonitor {
  public:
-  /// Warns of levels that are not held (LevelMiss) and of inlets that bring less than they should. Call after each
+  /// Warns of levels that are not held (LevelError) and of inlets that bring less than they should. Call after each
   /// step; only the root's warnings are seen.
   template <int Dim>
-  void look(const Flow<Dim>& flow);
+  void update(const Flow<Dim>& flow);
   /// Warns again of levels that were not held: for how long, and whether they are now. Call at the end of the run.
   template <int Dim>
   void warn_of_end(const Flow<Dim>& flow) const;

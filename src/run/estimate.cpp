@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/for_each.h"
 #include "case/formulation.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "formulations/make_flow.h"
 #include "geometry/mesh_surface.h"
 #include "run/inflow_estimate.h"

@@ -14,15 +14,15 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
   std::sort(fluid.begin(), fluid.end(),
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
   // Before the first step there are no work fields: the start is a lattice without marks.
-  const bool has_work_fields = !flow.here.concentration.empty();
+  const bool has_work_fields = !flow.surroundings.concentration.empty();
   const auto make_room = [&](auto&... field) { (field.reserve(fluid.size()), ...); };
   make_room(position_, velocity_, pressure_, density_error_, is_surface_, eddy_viscosity_, id_);
   for (const std::size_t i : fluid) {
     position_.push_back(particles.position[i]);
     velocity_.push_back(particles.velocity[i]);
     pressure_.push_back(particles.pressure[i]);
-    density_error_.push_back(has_work_fields ? flow.here.concentration[i] - 1.0 : 0.0);
-    is_surface_.push_back(has_work_fields ? flow.here.is_surface[i] : 0);
+    density_error_.push_back(has_work_fields ? flow.surroundings.concentration[i] - 1.0 : 0.0);
+    is_surface_.push_back(has_work_fields ? flow.surroundings.is_surface[i] : 0);
     eddy_viscosity_.push_back(
         spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], flow.setup.viscosity_law.molecular));
     id_.push_back(particles.id[i]);

@@ -85,9 +85,9 @@ Json FrameOutput<Dim>::saved() const {
 }
 
 template <int Dim>
-void FrameOutput<Dim>::take_up(const Json& saved, const Communicator& ranks) {
+void FrameOutput<Dim>::restore(const Json& saved, const Communicator& ranks) {
   series_.go_on(saved.at("count"), ranks);
-  schedule_.take_up(saved);
+  schedule_.restore(saved);
   next_step_ = saved.value("next_step", next_step_);
 }
 

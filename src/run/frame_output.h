@@ -24,7 +24,7 @@ class FrameOutput {
 
   /// How far the stream has come, for a checkpoint, and going on from it.
   Json saved() const;
-  void take_up(const Json& saved, const Communicator& ranks);
+  void restore(const Json& saved, const Communicator& ranks);
 
  private:
   FrameSeries<Dim> series_;

@@ -96,7 +96,7 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
                                                          : spec.time.end / default_field_files),
       cpu_start_(cpu_seconds_of_process()) {
   do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), flow.air.is_on(), kept_bytes(kept, "steps")); });
-  if (kept != nullptr) take_up(*kept);
+  if (kept != nullptr) restore(*kept);
 }
 
 template <int Dim>
@@ -127,11 +127,11 @@ Json RunOutput<Dim>::saved() const {
           {"warnings", warnings()},
           {"limits", limits_.saved()},
           {"warned_outside", warned_outside_},
-          {"end_watch", end_watch_.saved()}};
+          {"end_watch", end_monitor_.saved()}};
 }
 
 template <int Dim>
-void RunOutput<Dim>::take_up(const Json& kept) {
+void RunOutput<Dim>::restore(const Json& kept) {
   kept.at("case_file").get_to(case_file_);
   const std::optional<std::int64_t> ranks_bytes = kept_bytes(&kept, "ranks");
   do_on_root(ranks_, [&] {
@@ -140,14 +140,14 @@ void RunOutput<Dim>::take_up(const Json& kept) {
   const Json& fields = kept.at("fields");
   series_.go_on(fields.at("times"), ranks_);
   wall_series_.go_on(fields.at("wall_times"), ranks_);
-  fields_schedule_.take_up(fields);
-  frames_.take_up(kept.at("view"), ranks_);
+  fields_schedule_.restore(fields);
+  frames_.restore(kept.at("view"), ranks_);
   kept.at("statistics").get_to(statistics_);
   water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
   recall_warnings(kept.at("warnings"));
   limits_.restore(kept.at("limits"));
   warned_outside_ = kept.at("warned_outside");
-  end_watch_.restore(kept.at("end_watch"));
+  end_monitor_.restore(kept.at("end_watch"));
   const Json& cost = kept.at("cost");
   wall_seconds_before_ = cost.at("wall_seconds");
   cpu_seconds_before_ = cost.at("cpu_seconds");
@@ -239,7 +239,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   const FlowMeasures measures = measure(flow);
   const auto outside = static_cast<std::size_t>(water_outside(flow).particles);
   warn_if_outside(flow, outside);
-  end_watch_.look(flow);
+  end_monitor_.update(flow);
   statistics_.add(report, measures, outside);
   do_on_root(ranks_, [&] {
     require_folder_in_place();
@@ -282,7 +282,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   probes_.write_maps(folder_, flow.state.time, ranks_);
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   limits_.warn_of_largest();
-  end_watch_.warn_of_end(flow);
+  end_monitor_.warn_of_end(flow);
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
   tell_results();
@@ -291,7 +291,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
 template <int Dim>
 void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, ExitCode code, const std::string& message) {
   limits_.warn_of_largest();
-  end_watch_.warn_of_end(flow);
+  end_monitor_.warn_of_end(flow);
   try {
     write_summary(flow, "failed", code, message);
   } catch (const IoError&) {

@@ -72,7 +72,7 @@ class RunOutput {
   using Clock = std::chrono::steady_clock;
 
   RunFolder make_folder(const Flow<Dim>& flow, bool goes_on) const;
-  void take_up(const Json& kept);
+  void restore(const Json& kept);
   void require_folder_in_place();
   double wall_seconds() const;  ///< of the earlier runs too, as the next
   double cpu_seconds() const;   ///< of all ranks; collective
@@ -103,7 +103,7 @@ class RunOutput {
   WaterAmount water_at_start_;
   Schedule fields_schedule_;
   bool warned_outside_ = false;
-  EndWatch end_watch_;
+  OpenEndMonitor end_monitor_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_look_at_folder_;
   double cpu_start_;

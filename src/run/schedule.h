@@ -23,7 +23,7 @@ class Schedule {
 
   /// For a checkpoint, and from one of a run whose interval may have been another.
   Json saved() const { return {{"interval", interval_}, {"next", next_}, {"last", last_}}; }
-  void take_up(const Json& saved) {
+  void restore(const Json& saved) {
     saved.at("next").get_to(next_);
     saved.at("last").get_to(last_);
     if (saved.at("interval") != interval_) set_next(last_);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/for_each.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "formulations/make_flow.h"
 #include "schemes/advance.h"
 
@@ -31,7 +31,7 @@ template <int Dim>
 void Simulation<Dim>::start() {
   locate(flow_);
   guard_.require_sound_step(next_time_step(flow_));
-  guard_.attempt(remember(flow_), [&] { tailwater::start(flow_); });
+  guard_.attempt(save_step_start(flow_), [&] { tailwater::start(flow_); });
   if (observer_ != nullptr) observer_->started(flow_);
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "geometry/from_spec.h"
 #include "run/failure.h"
 

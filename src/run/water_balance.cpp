@@ -19,7 +19,7 @@ Json amount_json(const WaterAmount& water, double density) {
 }
 
 /// By how much, since when and for how long a prescribed level was missed; null: it was held.
-Json json_of_miss(const LevelMiss& miss) {
+Json json_of_miss(const LevelError& miss) {
   if (miss.since < 0.0) return nullptr;
   return {{"by_m", miss.most}, {"since_s", miss.since}, {"for_s", miss.total}};
 }

@@ -1,6 +1,6 @@
 #include "schemes/advance.h"
 
-#include "bodies/verbs.h"
+#include "bodies/stages.h"
 
 namespace tailwater {
 
@@ -8,10 +8,10 @@ template <int Dim>
 StepStart<Dim> begin_step(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
   assign_roles(flow);
-  hold_open_ends(flow, dt);
+  update_open_ends(flow, dt);
   steer_wave_makers(flow);
   watch_air(flow);
-  StepStart<Dim> start = remember(flow);
+  StepStart<Dim> start = save_step_start(flow);
   steer_bodies(flow, start, dt);
   return start;
 }

@@ -1,4 +1,4 @@
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "schemes/project.h"
 #include "schemes/projection.h"
 

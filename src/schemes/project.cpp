@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/for_each.h"
-#include "bodies/verbs.h"
+#include "bodies/stages.h"
 #include "pressure/operators.h"
 
 namespace tailwater {
@@ -19,13 +19,13 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   WallDrive<Dim> drive = drive_walls(flow, start, dt);
   locate(flow);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
-  show_walls_at_mid_step(flow, start, dt, predicted.velocity);
+  set_wall_velocities_at_mid_step(flow, start, dt, predicted.velocity);
   grow_boundary_layers(flow, predicted);
-  const PosedEquation equation =
-      assemble(flow, predicted, aim(flow, std::move(predicted.velocity_gradient), dt), drive, dt);  // (F15)
+  const PosedEquation equation = assemble(
+      flow, predicted, target_divergence(flow, std::move(predicted.velocity_gradient), dt), drive, dt);  // (F15)
   report.add(solve_with_bodies(flow, start, equation, dt, drive));
   correct(flow, predicted, drive, dt);  // (F16)
-  report.work = book_works(flow, start, predicted, equation, dt);
+  report.work = work_of_step(flow, start, predicted, equation, dt);
   return report;
 }
 

@@ -12,8 +12,9 @@ StepReport explicit_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
 
 /// Implicit projection, residual form: the velocity at the end of the step is divergence-free at the new positions
 /// (F19). The explicit step comes first. A second projection then removes the divergence that the first projection and
-/// the move left at the new positions. Where the first one aims midway (`aim`) the velocity is divergence-free at both
-/// ends of the step and at mid-step, when it moves the particles: symmetric in time, like RATTLE (Andersen 1983).
+/// the move left at the new positions. Where the first one aims midway (`target_divergence`) the velocity is
+/// divergence-free at both ends of the step and at mid-step, when it moves the particles: symmetric in time, like
+/// RATTLE (Andersen 1983).
 template <int Dim>
 StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 

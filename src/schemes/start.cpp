@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bodies/verbs.h"
+#include "bodies/stages.h"
 #include "schemes/advance.h"
 #include "schemes/two_step.h"
 
@@ -25,7 +25,7 @@ template <int Dim>
 void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);
-  const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
+  const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
   solve_with_bodies(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
   for (std::size_t b = 0; b < start.body_velocity.size(); ++b) {  // nothing has moved yet
     flow.state.motion.bodies.each[b].velocity = start.body_velocity[b];
@@ -38,9 +38,9 @@ template <int Dim>
 void start(Flow<Dim>& flow) {
   const double dt = next_time_step(flow);
   assign_roles(flow);
-  hold_open_ends(flow, 0.0);
+  update_open_ends(flow, 0.0);
   watch_air(flow);
-  const StepStart<Dim> start = remember(flow);
+  const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
   flow.state.approach = largest_approach(flow);
   if (flow.setup.finds_wall_forces) flow.wall_forces.reset(flow.state.particles.owned);

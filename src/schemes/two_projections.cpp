@@ -1,4 +1,4 @@
-#include "bodies/verbs.h"
+#include "bodies/stages.h"
 #include "schemes/project.h"
 #include "schemes/projection.h"
 

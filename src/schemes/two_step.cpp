@@ -27,7 +27,7 @@ StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   const PredictedPressure<Dim> found = predict_pressure(flow, start, drive, dt);
   report.add(found.solved);
   correct(flow, found.predicted, drive, dt);  // (B16), (B18)
-  report.work = book_works(flow, start, found.predicted, found.equation, dt);
+  report.work = work_of_step(flow, start, found.predicted, found.equation, dt);
   const auto divergence_old = divergence_to_report(flow);
   report.interventions.stopped_at_walls += move(flow, start, dt);  // (B19)
   report.interventions += shift(flow, dt);

@@ -3,7 +3,7 @@
 
 #include "flow/flow.h"
 #include "flow/step.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 

@@ -8,35 +8,34 @@
 namespace tailwater {
 namespace {
 
-/// By how much the pressure of wet wall particle i exceeds the mean of the water's in reach. Calls also(several, W) for
+/// By how much the pressure of wet wall particle i exceeds the mean of the water's in reach. Calls also(batch, W) for
 /// its pairs, with W 0 where the neighbours are not water.
 template <int Dim, class Also>
 double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, Also&& also) {
   const Pairs<Dim>& pairs = scene.pairs;
   VecLanes<Dim> sum{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PlaceLanes<Dim> place = several.place();
-    const Lanes weight = place.of_fluid(several.kernel_at(place.d));
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
+    const Lanes weight = place.of_fluid(batch.kernel_at(place.d));
     sum += weight * place.d;
-    also(several, weight);
+    also(batch, weight);
   });
-  return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.here.wall_fluid_weight[i]);
+  return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.surroundings.wall_fluid_weight[i]);
 }
 
 template <int Dim>
 void assemble_dummy_row(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i,
                         LinearSystem::Row row) {
-  if (!scene.here.is_wet[i]) {
+  if (!scene.surroundings.is_wet[i]) {
     row.finish_as_zero();
     return;
   }
-  const auto share = static_cast<float>(1.0 / scene.here.wall_fluid_weight[i]);
+  const auto share = static_cast<float>(1.0 / scene.surroundings.wall_fluid_weight[i]);
   double excess = 0.0;
   const double sum = row.write_weights([&](float* weights) {
     LaneSum sums;
-    excess = excess_over_water(scene, force, i, [&](const auto& several, const Lanes& weight) {
-      sums += several.store(share * weight, weights);
-    });
+    excess = excess_over_water(
+        scene, force, i, [&](const auto& batch, const Lanes& weight) { sums += batch.store(share * weight, weights); });
     return sums.total();
   });
   row.finish(sum, excess);  // the sum is 1 but for rounding
@@ -63,12 +62,12 @@ class Dummies final : public WallModel<Dim> {
   /// The velocity of a no-slip mirror image, 2 V - mean_w.
   void find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                              std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> no_slip) const override {
-    const std::vector<Four> of_water = in_fours<Dim>(velocity);
+    const std::vector<Float4> of_water = as_float4<Dim>(velocity);
     for_each(scene.pairs.owned(), [&](std::size_t i) {
       if (scene.particles.is_fluid(i)) return;
       Vec<Dim> mean = Vec<Dim>::Zero();
-      if (scene.here.is_wet[i]) {
-        mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], of_water);
+      if (scene.surroundings.is_wet[i]) {
+        mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.surroundings.wall_fluid_weight[i], of_water);
       }
       const Vec<Dim> wall_velocity = entry_of<Dim>(V, scene.particles.wall_row[i]);
       no_slip[i] = (wall_velocity - mean) + wall_velocity;
@@ -83,7 +82,7 @@ class Dummies final : public WallModel<Dim> {
 
   void set_sources(const WallScene<Dim>& scene, const WallForce<Dim>& force, LinearSystem& system) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {
-      if (!scene.particles.is_fluid(i) && scene.here.is_wet[i]) {
+      if (!scene.particles.is_fluid(i) && scene.surroundings.is_wet[i]) {
         system.set_rhs(i, excess_over_water(scene, force, i, [](auto&&...) {}));
       }
     });
@@ -92,11 +91,11 @@ class Dummies final : public WallModel<Dim> {
   bool follow_pressure(const WallScene<Dim>& scene, const WallForce<Dim>& force,
                        std::span<double> pressure) const override {
     for_each(scene.pairs.owned(), [&](std::size_t i) {
-      if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
+      if (scene.particles.is_fluid(i) || !scene.surroundings.is_wet[i]) return;
       LaneSum sum;
       const double excess = excess_over_water(
-          scene, force, i, [&](const auto& several, const Lanes& weight) { sum += weight * several.of(pressure); });
-      pressure[i] = std::max(0.0, sum.total() / scene.here.wall_fluid_weight[i] + excess);
+          scene, force, i, [&](const auto& batch, const Lanes& weight) { sum += weight * batch.of(pressure); });
+      pressure[i] = std::max(0.0, sum.total() / scene.surroundings.wall_fluid_weight[i] + excess);
     });
     return true;
   }

@@ -102,7 +102,7 @@ void follow_turning_walls(const WallScene<Dim>& scene, const WallTurns<Dim>& tur
   const Walls<Dim>& walls = scene.walls;
   for_each(scene.pairs.owned(), [&](std::size_t i) {
     acceleration[i].setZero();
-    if (scene.particles.is_fluid(i) || !scene.here.is_wet[i]) return;
+    if (scene.particles.is_fluid(i) || !scene.surroundings.is_wet[i]) return;
     const auto row = static_cast<std::size_t>(scene.particles.wall_row[i]);
     if (row >= walls.moving && (!walls.is_curved || walls.curvature[row].isZero(0.0))) return;
     const Mirror<Dim> mirror = mirror_at(scene, i);

@@ -40,10 +40,10 @@ Vec<Dim> along_wall(const WallScene<Dim>& scene, std::int32_t row, const Vec<Dim
   return v - scene.walls.particles.blocked[row] * v;
 }
 
-/// Sets the stresses of a wall whose place and glide are known.
+/// Sets the stresses of a wall whose place and slip_velocity are known.
 template <int Dim>
 void apply_wall_law(const FrictionLaw& law, double layer_viscosity, FrictionWall<Dim>& wall) {
-  const double speed = wall.glide.norm();
+  const double speed = wall.slip_velocity.norm();
   const bool may_be_thin = law.knows_layers && wall.distance < law.spacing;
   const WallLaw surface{law.viscosity, wall.roughness};
   const double u_tau = surface.turbulent_friction_velocity(speed, [&](double guess) {
@@ -63,12 +63,12 @@ FrictionWall<Dim> find_friction_wall(const WallScene<Dim>& scene, const Friction
   FrictionWall<Dim> wall;
   visit_friction_pairs(scene, law.spacing, i, [&](std::int32_t, std::int32_t row, double weight, std::size_t k) {
     wall.weight += weight;
-    wall.glide += weight * along_wall<Dim>(scene, row, velocity[i] - entry_of<Dim>(V, row));
+    wall.slip_velocity += weight * along_wall<Dim>(scene, row, velocity[i] - entry_of<Dim>(V, row));
     wall.distance += weight * (scene.pairs.d(i, k).dot(scene.walls.particles.normal[row]) - scene.walls.depth[row]);
     wall.roughness += weight * scene.walls.roughness[row];
   });
   if (wall.weight == 0.0) return {};
-  wall.glide /= wall.weight;
+  wall.slip_velocity /= wall.weight;
   wall.distance = std::max(wall.distance / wall.weight, least_distance * law.spacing);
   wall.roughness /= wall.weight;
   apply_wall_law(law, scene.particles.layer_viscosity[i], wall);
@@ -96,8 +96,8 @@ void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std:
     double k_i = 0.0;
     if (wall.weight > 0.0) {
       if (wall.is_turbulent()) {
-        k_i = law.exchange_length * wall.excess / wall.glide.norm();
-        acceleration[i] -= k_i * wall.weight * wall.glide;
+        k_i = law.exchange_length * wall.excess / wall.slip_velocity.norm();
+        acceleration[i] -= k_i * wall.weight * wall.slip_velocity;
       }
       Vec<Dim> sum = Vec<Dim>::Zero();
       visit_friction_pairs(scene, law.spacing, i, [&](std::int32_t w, std::int32_t row, double weight, std::size_t) {

@@ -20,12 +20,12 @@ struct FrictionLaw {
 /// What a fluid particle feels of the walls with friction in its reach: weighted means over their particles.
 template <int Dim>
 struct FrictionWall {
-  double weight = 0.0;                ///< 1/m^2; sum of lambda c_iw; 0: no such wall
-  Vec<Dim> glide = Vec<Dim>::Zero();  ///< m/s; the water's velocity along the wall, relative to it
-  double distance = 0.0;              ///< m; at least dx/4, which is as near as particles keep
-  double roughness = 0.0;             ///< m; k_s
-  double friction_velocity = 0.0;     ///< m/s; u_tau of the larger of the two laws
-  double excess = 0.0;                ///< m^2/s^2; by which the turbulent stress over rho exceeds the laminar one
+  double weight = 0.0;                        ///< 1/m^2; sum of lambda c_iw; 0: no such wall
+  Vec<Dim> slip_velocity = Vec<Dim>::Zero();  ///< m/s; the water's velocity along the wall, relative to it
+  double distance = 0.0;                      ///< m; at least dx/4, which is as near as particles keep
+  double roughness = 0.0;                     ///< m; k_s
+  double friction_velocity = 0.0;             ///< m/s; u_tau of the larger of the two laws
+  double excess = 0.0;  ///< m^2/s^2; by which the turbulent stress over rho exceeds the laminar one
   bool is_turbulent() const { return excess > 0.0; }
 };
 
@@ -37,8 +37,8 @@ std::vector<FrictionWall<Dim>> find_friction_walls(const WallScene<Dim>& scene, 
 
 /// Adds lambda times the stress of `walls` to the acceleration [m/s^2] of fluid particles: the tangential part of
 /// sum_w lambda c_iw [nu (u_noslip - u_i) - k_i (u_i - V)]. Here c_iw is the Morris weight, `no_slip` the wall model's
-/// velocity for each wall particle (up to date on ghosts), and V the wall's velocity, which the wall's glide knows.
-/// k_i [m^2/s] makes the second term the excess of the turbulent stress; `excess_viscosity`, if it is not empty,
+/// velocity for each wall particle (up to date on ghosts), and V the wall's velocity, which the wall's slip_velocity
+/// knows. k_i [m^2/s] makes the second term the excess of the turbulent stress; `excess_viscosity`, if it is not empty,
 /// receives it for owned particles. Relative to the wall, friction only slows the water.
 template <int Dim>
 void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const FrictionWall<Dim>> walls,

@@ -65,7 +65,7 @@ struct WallScene {
   const Pairs<Dim>& pairs;
   const Particles<Dim>& particles;
   const Walls<Dim>& walls;
-  const Surroundings<Dim>& here;
+  const Surroundings<Dim>& surroundings;
 };
 
 /// The body force in the walls' own frame.

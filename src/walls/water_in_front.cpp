@@ -35,14 +35,14 @@ template <int Dim>
 double mean_in_front(const Pairs<Dim>& pairs, std::size_t i, const Vec<Dim>& n, std::span<const double> interior) {
   Lanes sum{};
   Lanes weights{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PlaceLanes<Dim> place = several.place();
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
     Lanes ahead{};
     for (int a = 0; a < Dim; ++a) ahead -= static_cast<float>(n[a]) * place.d.at[a];
     ahead = max_of(ahead, Lanes{});
     const Lanes square = ahead * ahead / place.d.dot(place.d);
-    const Lanes weight = place.of_fluid(several.kernel_at(place.d) * square * square * square * square);
-    sum += weight * several.of(interior);
+    const Lanes weight = place.of_fluid(batch.kernel_at(place.d) * square * square * square * square);
+    sum += weight * batch.of(interior);
     weights += weight;
   });
   const double weight = sum_of(weights);

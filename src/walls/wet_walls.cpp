@@ -34,9 +34,9 @@ Vec<Dim> part_in_cone(const Vec<Dim>& d, const Mat<Dim>& others, const Vec<Dim>&
 template <int Dim>
 Vec<Dim> towards_water(const Pairs<Dim>& pairs, std::size_t i) {
   VecLanes<Dim> sum{};
-  for_each_pair(pairs, i, [&](const auto& several) {
-    const PlaceLanes<Dim> place = several.place();
-    sum += place.of_fluid(several.kernel_at(place.d)) * place.d;
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
+    sum += place.of_fluid(batch.kernel_at(place.d)) * place.d;
   });
   return -sum_of(sum);
 }
@@ -51,7 +51,7 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
     is_wet[i] = 0;
     if (particles.is_fluid(i)) return;
     LaneSum sum;
-    for_each_pair(pairs, i, [&](const auto& several) { sum += several.kernel_of_fluid(); });
+    for_each_pair(pairs, i, [&](const auto& batch) { sum += batch.kernel_of_fluid(); });
     fluid_weight[i] = sum.total();
     is_wet[i] = fluid_weight[i] > least_wet_weight * W_0;
   });

@@ -18,9 +18,9 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
 /// Shepard mean sum_f W u_f / sum_f W of the fluid in reach of wet wall particle i, whose sum of W is `fluid_weight`.
 template <int Dim>
 Vec<Dim> fluid_velocity_at_wall(const Pairs<Dim>& pairs, std::size_t i, double fluid_weight,
-                                std::span<const Four> velocity) {
+                                std::span<const Float4> velocity) {
   VecLanes<Dim> sum{};
-  for_each_pair(pairs, i, [&](const auto& several) { sum += several.kernel_of_fluid() * several.of(velocity); });
+  for_each_pair(pairs, i, [&](const auto& batch) { sum += batch.kernel_of_fluid() * batch.of(velocity); });
   return sum_of(sum) / fluid_weight;
 }
 
@@ -41,12 +41,13 @@ Mirror<Dim> mirror_at(const WallScene<Dim>& scene, std::size_t i);
 /// dry ones to 0.
 template <int Dim, class Shown>
 void show_water(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V, std::span<Vec<Dim>> velocity, Shown&& shown) {
-  const std::vector<Four> of_water = in_fours<Dim>(velocity);
+  const std::vector<Float4> of_water = as_float4<Dim>(velocity);
   for_each(scene.pairs.owned(), [&](std::size_t i) {
     if (scene.particles.is_fluid(i)) return;
     velocity[i].setZero();
-    if (!scene.here.is_wet[i]) return;
-    const Vec<Dim> mean = fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.here.wall_fluid_weight[i], of_water);
+    if (!scene.surroundings.is_wet[i]) return;
+    const Vec<Dim> mean =
+        fluid_velocity_at_wall<Dim>(scene.pairs, i, scene.surroundings.wall_fluid_weight[i], of_water);
     const auto row = scene.particles.wall_row[i];
     const Vec<Dim> own = entry_of<Dim>(V, row);
     const Vec<Dim> relative = mean - own;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
 

@@ -34,13 +34,13 @@ struct Shifted {
           const std::vector<double>& interior)
       : set(moving(points, speed), make_kernel<Dim>(KernelName::wendland_c2, radius), dx),
         shift(set.size(), Vec<Dim>::Ones()) {
-    Surroundings<Dim> here;
-    here.interior = interior;
+    Surroundings<Dim> surroundings;
+    surroundings.interior = interior;
     const KernelValues values{kernel_value(set.neighbourhood.kernel(), 0.0),
                               kernel_value(set.neighbourhood.kernel(), dx)};
     for (std::size_t i = 0; i < set.size(); ++i) {
-      here.mean_interior.push_back(mean_over_fluid<Dim>(set.pairs(), i, interior, 0.0));
-      here.crowding.push_back(kernel_sums<Dim>(set.pairs(), i, values).crowding);
+      surroundings.mean_interior.push_back(mean_over_fluid<Dim>(set.pairs(), i, interior, 0.0));
+      surroundings.crowding.push_back(kernel_sums<Dim>(set.pairs(), i, values).crowding);
     }
     const bool is_lind = kind == ShiftingKind::lind;
     const ShiftingLaw law{.strength = is_lind ? 2.0 : 0.1, .cap = cap, .spacing = dx};

@@ -167,7 +167,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
                              dx);
   const Mat<Dim> slope = 3.0 * Mat<Dim>::Identity() + Mat<Dim>::Ones();
   const auto velocity = sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(slope * x); });
-  const std::vector<Four> in_single = in_fours<Dim>(velocity);
+  const std::vector<Float4> in_single = as_float4<Dim>(velocity);
   std::vector<Mat<Dim>> gradient(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
     const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, {0.0, 1.0});

@@ -65,21 +65,21 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
   const Rows<Dim> rows;
   const Pairs<Dim>& pairs = rows.pairs;
   ASSERT_EQ(pairs.j.size(), count * (count - 1) / 2);
-  const std::vector<Four> fours = in_fours<Dim>(rows.vectors);
+  const std::vector<Float4> fours = as_float4<Dim>(rows.vectors);
   std::vector<int> visits(pairs.j.size(), 0);
   std::vector<float> stored(pairs.j.size() + lane_count, -1.0F);
   for (std::size_t i = 0; i < count; ++i) {
-    for_each_pair(pairs, i, [&](const auto& several) {
-      const auto& range = several.range;
-      const PlaceLanes<Dim> place = several.place();
-      const Lanes W = several.kernel_at(place.d);
-      const Lanes F = several.F(place.d);
-      const std::array<Lanes, 16> record = several.j.numbers(rows.records.data());
-      const Lanes field = several.of(rows.field);
-      const VecLanes<Dim> vectors = several.of(fours);
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const auto& range = batch.range;
+      const PlaceLanes<Dim> place = batch.place();
+      const Lanes W = batch.kernel_at(place.d);
+      const Lanes F = batch.F(place.d);
+      const std::array<Lanes, 16> record = batch.j.numbers(rows.records.data());
+      const Lanes field = batch.of(rows.field);
+      const VecLanes<Dim> vectors = batch.of(fours);
       const VecLanes<Dim> differences = vectors - fours[i];
       const Lanes fluid = place.of_fluid(in_all_lanes(1.0));
-      const Lanes W_of_fluid = several.kernel_of_fluid();
+      const Lanes W_of_fluid = batch.kernel_of_fluid();
       for (int n = 0; n < range.count; ++n) {
         const std::size_t k = range.begin + n;
         const auto neighbour = pairs.j[k];
@@ -108,7 +108,7 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
         EXPECT_EQ(fluid[n], 0.0F);
         EXPECT_EQ(W_of_fluid[n], 0.0F);
       }
-      several.store(F, stored.data() + pairs.begin(i));
+      batch.store(F, stored.data() + pairs.begin(i));
     });
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -57,7 +57,7 @@ TYPED_TEST(ConservationTest, ForcesOfTheConservativeGradientSumToZero) {
 TYPED_TEST(ConservationTest, StandardDivergenceOfAUniformVelocityIsZero) {
   constexpr int Dim = TypeParam::value;
   const ParticleSet<Dim> set = disorder<Dim>(KernelName::wendland_c2);
-  const std::vector<Four> velocity(set.size(), Four{{3.7F, 3.7F, 3.7F}});
+  const std::vector<Float4> velocity(set.size(), Float4{{3.7F, 3.7F, 3.7F}});
   const auto vectors = kernel_gradients<Dim>(set);
   for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
     EXPECT_EQ(standard_divergence<Dim>(set.pairs(), i, vectors, velocity), 0.0);
@@ -75,7 +75,7 @@ TYPED_TEST(ConservationTest, StandardDivergenceIsTheAdjointOfTheConservativeGrad
   const std::vector<double>& volume = set.particles.volume;
   const Pairs<Dim>& pairs = set.pairs();
   const auto vectors = kernel_gradients<Dim>(set);
-  const std::vector<Four> in_single = in_fours<Dim>(velocity);
+  const std::vector<Float4> in_single = as_float4<Dim>(velocity);
   double sum = 0.0;
   double terms = 0.0;
   for (std::size_t i = 0; i < pairs.owned(); ++i) {

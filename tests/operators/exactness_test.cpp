@@ -235,7 +235,7 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
     const auto vectors = kernel_gradients<Dim>(set);
     const auto linear = sample(set, [](const Vec<Dim>& x) { return some_vector<Dim>().dot(x); });
     const Mat<Dim> G = some_symmetric_matrix<Dim>();
-    const auto velocity = in_fours<Dim>(sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(G * x); }));
+    const auto velocity = as_float4<Dim>(sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(G * x); }));
     std::size_t tested = 0;
     for (std::size_t i = 0; i < set.size(); ++i) {
       if (!is_interior<Dim>(set.position(i))) continue;

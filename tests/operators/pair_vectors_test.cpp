@@ -120,7 +120,7 @@ TYPED_TEST(PairVectorsTest, MomentumAndWorkAreExactAcrossPeriodicEdges) {
   auto pressure = sample(set, [&](const Vec<Dim>&) { return noise(); });
   auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
   set.neighbourhood.halo().exchange(pressure, velocity);
-  const std::vector<Four> in_single = in_fours<Dim>(velocity);
+  const std::vector<Float4> in_single = as_float4<Dim>(velocity);
   const std::vector<double>& volume = set.particles.volume;
   const Pairs<Dim>& pairs = set.pairs();
   Vec<Dim> force = Vec<Dim>::Zero();
@@ -159,7 +159,7 @@ TYPED_TEST(PairVectorsTest, AreOfFirstOrderOnAStrainedLattice) {
   G(0, 0) = 1.0;
   G(1, 1) = -1.0;
   const Vec<Dim> slope = G.col(0);
-  const auto velocity = in_fours<Dim>(sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(G * x); }));
+  const auto velocity = as_float4<Dim>(sample(set, [&](const Vec<Dim>& x) { return Vec<Dim>(G * x); }));
   const auto pressure = sample(set, [&](const Vec<Dim>& x) { return slope.dot(x); });
   const Pairs<Dim>& pairs = set.pairs();
   const double bound = 100.0 * single_eps;
@@ -236,7 +236,7 @@ TYPED_TEST(PairVectorsTest, StretchingOfASurfaceIsNoCompressionOnceTheyReachIt) 
   const double top = 0.5 * (count - 1) * dx;
   const auto interior =
       sample(set, [&](const Vec<Dim>& x) { return x.cwiseAbs().maxCoeff() < top - 1.5 * dx ? 1.0 : 0.0; });
-  const auto velocity = in_fours<Dim>(sample(set, [&](const Vec<Dim>& x) {
+  const auto velocity = as_float4<Dim>(sample(set, [&](const Vec<Dim>& x) {
     Vec<Dim> u = Vec<Dim>::Zero();
     u[0] = x[0];
     u[Dim - 1] = -x[Dim - 1];

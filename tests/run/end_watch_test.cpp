@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// What is told in the end of an outlet whose level was missed.
-std::string told_of(const LevelMiss& miss) {
+std::string told_of(const LevelError& miss) {
   const CaseSpec spec = read_case_text(
       "particles.spacing = 0.1\ntime.end = 1\n[[wall]]\npoints = [[0, 1], [0, 0], [2, 0]]\n[[fluid]]\nmin = [0, 0]\n"
       "max = [2, 0.5]\n[[outlet]]\nname = \"end\"\nfrom = [2, 0]\nto = [2, 1]\nlevel = 0.5\n",
@@ -21,11 +21,11 @@ std::string told_of(const LevelMiss& miss) {
   Flow<2> flow = make_flow<2>(spec);
   flow.state.open_ends.at(0).miss = miss;
   const std::size_t before = warnings().size();
-  EndWatch().warn_of_end(flow);
+  OpenEndMonitor().warn_of_end(flow);
   return warnings().size() > before ? warnings().back() : "";
 }
 
-TEST(EndWatch, TellsInTheEndWhetherALevelIsHeldAgain) {
+TEST(OpenEndMonitor, TellsInTheEndWhetherALevelIsHeldAgain) {
   EXPECT_EQ(told_of({}), "");
   EXPECT_EQ(
       told_of({.mean = -0.3, .lasts = 2.0, .since = 1.0, .total = 2.0, .most = -0.4}),

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "io/temporary_folder.h"
 #include "run/pond.h"
 #include "support/dimensions.h"

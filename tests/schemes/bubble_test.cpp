@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "flow/measure.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "schemes/cases.h"
 #include "schemes/oscillation.h"
 #include "support/record.h"

@@ -7,7 +7,7 @@
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "formulations/make_flow.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 #include "schemes/advance.h"
 
 namespace tailwater {

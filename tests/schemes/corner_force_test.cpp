@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "geometry/meshes.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 #include "schemes/force_reader.h"
 
 namespace tailwater {

@@ -247,7 +247,7 @@ TEST(OpenEnd, ALevelThatIsNotHeldIsTold) {
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 6.0) pass_and_step(flow);
-  const LevelMiss& miss = flow.state.open_ends[1].miss;
+  const LevelError& miss = flow.state.open_ends[1].miss;
   EXPECT_GE(miss.since, 0.0);
   EXPECT_NEAR(miss.most, depth - 0.4, dx);
   EXPECT_GT(miss.total, 0.0);

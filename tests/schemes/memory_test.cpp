@@ -34,7 +34,7 @@ TYPED_TEST(MemoryTest, OfArraysByPairAMatrixKeepsTheNeighboursAndTheWeights) {
   const WallDrive<Dim> drive = drive_walls(flow, begin, dt);
   locate(flow);
   Prediction<Dim> predicted = predict(flow, begin, drive, dt);
-  const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
+  const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
   const PosedEquation equation = assemble(flow, predicted, target, drive, dt);
 
   const double bytes = bytes_on_heap() - before;

@@ -51,7 +51,7 @@ TYPED_TEST(PlateTest, FillsEachSupportOnce) {
     if (!particles.is_fluid(i)) continue;
     const Vec<Dim>& x = particles.position[i];
     if (x[Dim - 1] < depth - support) {
-      EXPECT_NEAR(flow.here.concentration[i], 1.0, 1e-6) << x.transpose();
+      EXPECT_NEAR(flow.surroundings.concentration[i], 1.0, 1e-6) << x.transpose();
       ++looked_at;
     }
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {

@@ -538,7 +538,7 @@ TEST(RanksTest, WaterIsHeldInTheNarrowGapUnderABody) {
   spec.bodies = {body};
   Flow<2> flow = make_flow<2>(spec, Communicator::world());
   run(flow, 1);
-  EXPECT_GT(flow.setup.ranks.sum(static_cast<int>(std::ranges::count(flow.role, Role::held))), 0);
+  EXPECT_GT(flow.setup.ranks.sum(static_cast<int>(std::ranges::count(flow.role, Role::stagnant))), 0);
   expect_same<2>(spec, 0.3, as_it_is);
 }
 

@@ -24,11 +24,11 @@ constexpr double dt = 0.01;
 
 /// One second projection of the present velocity.
 void reproject_here(Flow<2>& flow) {
-  const StepStart<2> start = remember(flow);
+  const StepStart<2> start = save_step_start(flow);
   locate(flow);
   WallDrive<2> drive = drive_walls(flow, start, dt);
   Prediction<2> predicted = predict(flow, start, drive, dt);
-  const std::vector<double> target = aim(flow, std::move(predicted.velocity_gradient), dt);
+  const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
   solve(flow, assemble(flow, predicted, target, drive, dt), drive);
   reproject(flow, drive, dt);
 }
@@ -43,7 +43,7 @@ TEST(Reproject, TakesMostOfTheDivergenceAndNoMomentum) {
     const Vec<2>& x = flow.state.particles.position[i];
     velocity[i] = {std::sin(k * x[0]), std::sin(k * x[1]) * std::cos(k * x[0])};
   }
-  remember(flow);
+  save_step_start(flow);
   locate(flow);
   const double start = rms_divergence(flow);
   const auto momentum = [&] {

@@ -87,18 +87,18 @@ struct Asked {
     Flow<2> flow = make_flow<2>(round_tank());
     const Eigen::Matrix2d back = Eigen::Rotation2Dd(-omega * dt).toRotationMatrix();
     set_velocity(flow, [&](const Vec<2>& x) { return Vec<2>((x - back * x) / dt); });
-    const StepStart<2> start = remember(flow);
+    const StepStart<2> start = save_step_start(flow);
     locate(flow);
     std::vector<Vec<2>> images = flow.state.particles.velocity;
-    show_walls<2>(flow, flow.state.wall_velocity, images);
+    set_wall_velocities<2>(flow, flow.state.wall_velocity, images);
     const std::vector<Vec<2>> mirrored_at_rest = images;
-    show_walls_at_mid_step(flow, start, dt, images);
+    set_wall_velocities_at_mid_step(flow, start, dt, images);
     by_rows.resize(flow.state.particles.owned, 0.0);
     by_images.resize(by_rows.size(), 0.0);
     for (std::size_t i = 0; i < by_rows.size(); ++i) {
-      if (flow.state.particles.is_fluid(i) || flow.here.is_wet[i] == 0) continue;
+      if (flow.state.particles.is_fluid(i) || flow.surroundings.is_wet[i] == 0) continue;
       const Vec<2>& n = flow.walls.particles.normal[flow.state.particles.wall_row[i]];
-      by_rows[i] += 0.5 * n.dot(flow.turning[i]);
+      by_rows[i] += 0.5 * n.dot(flow.wall_turn_acceleration[i]);
       by_images[i] += 0.5 * n.dot(images[i] + mirrored_at_rest[i]) / dt;  // the image less the water
     }
   }
@@ -186,15 +186,15 @@ TEST(TurningWall, IsNoSurfaceForWaterThatHasLeftItByPartOfARow) {
     if (flow.state.particles.is_fluid(i)) flow.state.particles.position[i][0] += 0.2 * dx;
   }
   locate(flow);
-  std::vector<double> by_neighbours(flow.here.interior.size());
-  find_interior<2>(flow.pairs(), flow.state.particles, flow.here.concentration, flow.setup.kernel_values.W_0,
+  std::vector<double> by_neighbours(flow.surroundings.interior.size());
+  find_interior<2>(flow.pairs(), flow.state.particles, flow.surroundings.concentration, flow.setup.kernel_values.W_0,
                    by_neighbours);
   double least = 1.0;
   double least_by_neighbours = 1.0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     const Vec<2>& x = flow.state.particles.position[i];
     if (!flow.state.particles.is_fluid(i) || x.norm() > 1.0 + dx || x[0] < 0.95 * x.norm()) continue;
-    least = std::min(least, flow.here.interior[i]);
+    least = std::min(least, flow.surroundings.interior[i]);
     least_by_neighbours = std::min(least_by_neighbours, by_neighbours[i]);
   }
   EXPECT_LT(least_by_neighbours, 0.1);
@@ -205,7 +205,7 @@ TEST(TurningWall, IsNoSurfaceForWaterThatHasLeftItByPartOfARow) {
 // plate (Coriolis), which is in the rows. The images mirror it at the velocity that it comes with, omega s dt.
 TEST(TurningWall, GivesTheWaterAlongATurningPlateItsCoriolisAcceleration) {
   const double omega = 0.5;
-  const double glide = 1.5;
+  const double slip_velocity = 1.5;
   CaseSpec spec = free_case(0.05);
   WallTable plate;
   plate.points = {{-2.0, 0.0}, {2.0, 0.0}};
@@ -219,23 +219,24 @@ TEST(TurningWall, GivesTheWaterAlongATurningPlateItsCoriolisAcceleration) {
   Flow<2> flow = make_flow<2>(spec);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     const Vec<2>& x = flow.state.particles.position[i];
-    if (flow.state.particles.is_fluid(i)) flow.state.particles.velocity[i] = Vec<2>(glide - omega * x[1], omega * x[0]);
+    if (flow.state.particles.is_fluid(i))
+      flow.state.particles.velocity[i] = Vec<2>(slip_velocity - omega * x[1], omega * x[0]);
   }
-  const StepStart<2> start = remember(flow);
+  const StepStart<2> start = save_step_start(flow);
   locate(flow);
   std::vector<Vec<2>> velocity = flow.state.particles.velocity;
-  show_walls<2>(flow, flow.state.wall_velocity, velocity);
+  set_wall_velocities<2>(flow, flow.state.wall_velocity, velocity);
   const std::vector<Vec<2>> plain = velocity;
   const double dt = 1e-3;
-  show_walls_at_mid_step(flow, start, dt, velocity);
+  set_wall_velocities_at_mid_step(flow, start, dt, velocity);
   std::size_t wet = 0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    if (flow.state.particles.is_fluid(i) || flow.here.is_wet[i] == 0) continue;
+    if (flow.state.particles.is_fluid(i) || flow.surroundings.is_wet[i] == 0) continue;
     ++wet;
     // The mean of the water in reach, 0.1 m above, glides slower by what the plate turns faster there.
-    EXPECT_NEAR(flow.turning[i][1], 2.0 * omega * glide, 0.1 * omega * glide);
-    EXPECT_LT(std::abs(flow.turning[i][0]), 1e-9);
-    EXPECT_LT((velocity[i] - plain[i] + dt * flow.turning[i]).norm(), 1e-12);
+    EXPECT_NEAR(flow.wall_turn_acceleration[i][1], 2.0 * omega * slip_velocity, 0.1 * omega * slip_velocity);
+    EXPECT_LT(std::abs(flow.wall_turn_acceleration[i][0]), 1e-9);
+    EXPECT_LT((velocity[i] - plain[i] + dt * flow.wall_turn_acceleration[i]).norm(), 1e-12);
   }
   EXPECT_GT(wet, 20u);
 }

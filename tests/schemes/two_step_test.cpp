@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "operators/divergence.h"
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 #include "schemes/cases.h"
 #include "schemes/two_step.h"
 #include "support/dimensions.h"
@@ -47,7 +47,7 @@ TYPED_TEST(TwoStepTest, LeavesAMovingLatticeAlone) {
   double time_per_step = 1.0;
   for (int n = 0; n < 5; ++n) time_per_step = std::min(time_per_step, step(flow).dt);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    EXPECT_NEAR(flow.here.concentration[i], 1.0, density_error);
+    EXPECT_NEAR(flow.surroundings.concentration[i], 1.0, density_error);
     EXPECT_LT((flow.state.particles.velocity[i] - Vec<Dim>::Constant(0.7)).norm(),
               5.0 * density_error * length / time_per_step);
   }
@@ -64,17 +64,17 @@ TEST(TwoStep, PressesApartWhatIsTooDense) {
   make_published(spec.scheme);
   Flow<2> flow = make_flow<2>(spec);
   for (Vec<2>& x : flow.state.particles.position) x *= 0.98;
-  const StepStart<2> start = remember(flow);
+  const StepStart<2> start = save_step_start(flow);
   WallDrive<2> drive = drive_walls(flow, start, 1e-3);
   predict_pressure(flow, start, drive, 1e-3);
   double highest = 0.0;
   Vec<2> place = Vec<2>::Zero();
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    if (flow.here.is_surface[i]) {
+    if (flow.surroundings.is_surface[i]) {
       EXPECT_EQ(flow.state.particles.pressure[i], 0.0);
     } else {
       EXPECT_GT(flow.state.particles.pressure[i], 0.0);
-      EXPECT_GT(flow.here.concentration[i], 1.0);
+      EXPECT_GT(flow.surroundings.concentration[i], 1.0);
     }
     if (flow.state.particles.pressure[i] > highest) {
       highest = flow.state.particles.pressure[i];
@@ -129,7 +129,7 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   Flow<Dim> flow = make_flow<Dim>(spec);
   assign_roles(flow);
   const double dt = next_time_step(flow);
-  const StepStart<Dim> start = remember(flow);
+  const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
   WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   const Prediction<Dim> predicted = predict(flow, start, drive, dt);
@@ -137,16 +137,17 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   locate(flow);
   const std::vector<double> no_target(flow.state.particles.owned, 0.0);
   const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);
-  const std::vector<Four> velocity = in_fours<Dim>(predicted.velocity);
+  const std::vector<Float4> velocity = as_float4<Dim>(predicted.velocity);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!has_equation(flow.role[i])) continue;
     flow.pressure_rows.set_rhs(
-        i, -flow.setup.density / dt * standard_divergence<Dim>(flow.pairs(), i, flow.here.pair_vectors, velocity));
+        i,
+        -flow.setup.density / dt * standard_divergence<Dim>(flow.pairs(), i, flow.surroundings.pair_vectors, velocity));
   }
   solve(flow, equation, drive);
   int tested = 0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
-    if (!flow.state.particles.is_fluid(i) || flow.here.is_surface[i]) continue;
+    if (!flow.state.particles.is_fluid(i) || flow.surroundings.is_surface[i]) continue;
     const double height = flow.state.particles.position[i][Dim - 1];
     EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.density * g * (depth - height),
                 flow.setup.density * g * dx)

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "flow/measure.h"
-#include "flow/verbs.h"
+#include "flow/stages.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
 #include "support/record.h"

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "flow/verbs.h"
-#include "pressure/verbs.h"
+#include "flow/stages.h"
+#include "pressure/stages.h"
 #include "schemes/force_reader.h"
 #include "support/dimensions.h"
 

@@ -20,7 +20,7 @@ struct WettedWall {
   WettedWall(const Mat<Dim>& blocked, double friction, std::unique_ptr<const WallModel<Dim>> chosen)
       : set(particles(), make_kernel<Dim>(KernelName::wendland_c2, 3.0 * wetted_dx), wetted_dx),
         model(std::move(chosen)) {
-    here.resize(set.size(), false);
+    surroundings.resize(set.size(), false);
     for (std::size_t i = 0; i < set.size(); ++i) {
       if (set.particles.is_fluid(i)) continue;
       walls.particles.position.push_back(set.position(i));
@@ -35,7 +35,7 @@ struct WettedWall {
       V.push_back(Vec<Dim>::Zero());
     }
     find_wet_walls<Dim>(set.pairs(), set.particles, kernel_value(set.neighbourhood.kernel(), 0.0),
-                        here.wall_fluid_weight, here.is_wet);
+                        surroundings.wall_fluid_weight, surroundings.is_wet);
   }
 
   static Particles<Dim> particles() {
@@ -81,7 +81,7 @@ struct WettedWall {
   std::unique_ptr<const WallModel<Dim>> model;
   Walls<Dim> walls;
   std::vector<Vec<Dim>> V;
-  Surroundings<Dim> here;
+  Surroundings<Dim> surroundings;
 };
 
 template <int Dim>

@@ -25,8 +25,9 @@ struct EdgeOfBlock {
   using IsWet = std::function<bool(const Vec<Dim>&)>;
 
   explicit EdgeOfBlock(const IsWet& is_wet) : walls(block()), set(particles(walls, is_wet), kernel(), dx) {
-    here.resize(set.size(), false);
-    find_wet_walls<Dim>(set.pairs(), set.particles, kernel_value(kernel(), 0.0), here.wall_fluid_weight, here.is_wet);
+    surroundings.resize(set.size(), false);
+    find_wet_walls<Dim>(set.pairs(), set.particles, kernel_value(kernel(), 0.0), surroundings.wall_fluid_weight,
+                        surroundings.is_wet);
   }
 
   static Kernel<Dim> kernel() { return make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx); }
@@ -68,13 +69,13 @@ struct EdgeOfBlock {
     for (std::size_t i = 0; i < set.size(); ++i) {
       const Vec<Dim>& x = set.position(i);
       const bool is_near = x[0] > -3.0 * dx && x[Dim - 1] > -3.0 * dx && (Dim == 2 || std::abs(x[1]) < dx);
-      if (!set.particles.is_fluid(i) && here.is_wet[i] && is_near) visit(i, x);
+      if (!set.particles.is_fluid(i) && surroundings.is_wet[i] && is_near) visit(i, x);
     }
   }
 
   Walls<Dim> walls;
   ParticleSet<Dim> set;
-  Surroundings<Dim> here;
+  Surroundings<Dim> surroundings;
 };
 
 template <class D>

@@ -1,6 +1,6 @@
-// The verbs of a step that do not involve the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020).
-// Each does one thing. It takes what it needs and returns what later verbs need, so the signatures show the order. The
-// verbs of the pressure are in pressure/verbs.h; explicit_projection.cpp, two_projections.cpp and two_step.cpp in
+// The stages of a step that do not involve the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020).
+// Each does one thing. It takes what it needs and returns what later stages need, so the signatures show the order. The
+// stages of the pressure are in pressure/stages.h; explicit_projection.cpp, two_projections.cpp and two_step.cpp in
 // schemes put all of them in order. Verbs are collective; a result about the whole flow is the same on all ranks.
 #pragma once
 
@@ -12,14 +12,14 @@
 
 namespace tailwater {
 
-/// Finds neighbours, ghosts, kernel values and `flow.here` at the present positions.
+/// Finds neighbours, ghosts, kernel values and `flow.surroundings` at the present positions.
 template <int Dim>
 void locate(Flow<Dim>& flow, SurfaceMarks marks = SurfaceMarks::found);
 
 /// Wraps the particles into a periodic domain and returns r^n, u^n and their energy. Lists reach only a skin beyond the
 /// domain, so no particle may stay outside for more than a step.
 template <int Dim>
-StepStart<Dim> remember(Flow<Dim>& flow);
+StepStart<Dim> save_step_start(Flow<Dim>& flow);
 
 /// Makes particles of the walls that water may reach in the coming step and that are none yet. Indices stay, behind the
 /// owned particles there may be more; then lists and ghosts are forgotten. Collective.
@@ -50,13 +50,14 @@ WallDisplacements<Dim> displacements_of_walls(const Flow<Dim>& flow, double dt);
 /// Sets the wall entries of `velocity` to the velocity that the walls show to the water, and brings ghosts up to date.
 /// `V` is the walls' own velocity, one entry per row of their table.
 template <int Dim>
-void show_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity);
+void set_wall_velocities(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::vector<Vec<Dim>>& velocity);
 
 /// With `divergence_free = "midway"`: shows curved and rotating walls as they are at mid-step (walls/turning_walls.h),
-/// in a step of dt from `start`. Sets the wall entries of `velocity`, which `show_walls` has set, and the flow's
-/// `turning`.
+/// in a step of dt from `start`. Sets the wall entries of `velocity`, which `set_wall_velocities` has set, and the
+/// flow's `turning`.
 template <int Dim>
-void show_walls_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& velocity);
+void set_wall_velocities_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
+                                     std::vector<Vec<Dim>>& velocity);
 
 /// Gives each owned particle its role in this step. Call once per step, at the positions where it starts, before all
 /// that goes by roles.
@@ -66,7 +67,7 @@ void assign_roles(Flow<Dim>& flow);
 /// Finds the conditions at the open ends in this step: the velocity of the particles in end stretches, the level
 /// beyond. Call once per step, at the positions where it starts.
 template <int Dim>
-void hold_open_ends(Flow<Dim>& flow, double dt);
+void update_open_ends(Flow<Dim>& flow, double dt);
 
 /// Looks for pockets of air, if water may have gone far since the last look. Call once per step, at the positions where
 /// it starts. Collective.

@@ -1,11 +1,11 @@
-// The verbs of the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020). As in flow/verbs.h the
+// The stages of the pressure: (F...) Farzin et al. (2014), (B...) Farmani et al. (2020). As in flow/stages.h the
 // signatures tell the order: aim, assemble, solve, correct, balance; a second projection where the particles arrived.
 #pragma once
 
 #include <functional>
 #include <vector>
 
-#include "flow/verbs.h"
+#include "flow/stages.h"
 
 namespace tailwater {
 
@@ -13,9 +13,9 @@ namespace tailwater {
 /// (F18); with `divergence_free = "midway"` the divergence dt/2 tr(grad u . grad u) that the same motion loses on the
 /// first half of its displacement, so that the velocity is divergence-free there: second order in time, where (F18)
 /// loses the energy dt |grad p|^2/rho per unit volume and time (docs/theory/robustness.md). Takes the gradient of u^n,
-/// which no later verb needs: it is gone before the matrix is made.
+/// which no later stage needs: it is gone before the matrix is made.
 template <int Dim>
-std::vector<double> aim(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt);
+std::vector<double> target_divergence(const Flow<Dim>& flow, std::vector<Mat<Dim>> velocity_gradient, double dt);
 
 /// Writes the matrix of the pressure equation, one row per particle: fluid, surface, wall; of the right-hand sides only
 /// those that no source decides. If there is a matrix of these positions, only the latter. Returns how many rows fell
@@ -79,8 +79,8 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
 
 /// Works of a step on this rank's water. Call after `correct`, before anything moves.
 template <int Dim>
-Works book_works(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
-                 const PosedEquation& equation, double dt);
+Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
+                   const PosedEquation& equation, double dt);
 
 /// Work [J] of the pressure of moving walls on this rank's water in a step of dt. Needs the pressure of this step and
 /// the walls' velocity that `correct` left.

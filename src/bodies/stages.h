@@ -1,8 +1,8 @@
-// The verbs of bodies that float: what the order of a step calls. Without bodies they do nothing, and
+// The stages of bodies that float: what the order of a step calls. Without bodies they do nothing, and
 // `solve_with_bodies` is the pressure's own `solve`.
 #pragma once
 
-#include "pressure/verbs.h"
+#include "pressure/stages.h"
 
 namespace tailwater {
 
