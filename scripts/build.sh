@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the program into build/<preset>/: build/<preset>/bin/tailwater. Usage: scripts/build.sh [preset] [--tests]
-# With --tests the test programs too, and warnings are errors: what is tested has none with the compiler of Debian 12.
+# With --tests the test programs too. Both have the same compiler flags, so one after the other compiles nothing again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
@@ -13,6 +13,5 @@ esac
 scripts/install.sh "${needed[@]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-cmake --preset "$preset" -D TAILWATER_BUILD_TESTS=$tests -D CMAKE_COMPILE_WARNING_AS_ERROR=$tests \
-  >"$log" || { cat "$log" >&2; exit 1; }
+cmake --preset "$preset" -D TAILWATER_BUILD_TESTS=$tests >"$log" || { cat "$log" >&2; exit 1; }
 cmake --build "build/$preset" --parallel
