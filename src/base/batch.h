@@ -33,12 +33,12 @@ unsigned bits_of(Truths holds) {
 }
 
 /// As many are looked at together, whatever the width of a register.
-inline constexpr int batch = 8;
-using IndexBatch = std::int32_t __attribute__((vector_size(4 * batch)));
-using FloatBatch = float __attribute__((vector_size(4 * batch)));
+inline constexpr int batch_size = 8;
+using IndexBatch = std::int32_t __attribute__((vector_size(4 * batch_size)));
+using FloatBatch = float __attribute__((vector_size(4 * batch_size)));
 
 /// The first `count` bits, all if there are more numbers than a batch has.
-inline unsigned first_bits(std::size_t count) { return (1U << std::min<std::size_t>(count, batch)) - 1U; }
+inline unsigned first_bits(std::size_t count) { return (1U << std::min<std::size_t>(count, batch_size)) - 1U; }
 
 /// The numbers of a batch.
 template <class Batch, class Number>
@@ -50,11 +50,11 @@ Batch batch_at(const Number* numbers) {
 
 #if defined(__AVX2__)
 /// For each set of numbers, as bits: their places in the batch, put to the front, a byte each.
-inline constexpr std::array<std::uint64_t, 1 << batch> places_of_bits = [] {
-  std::array<std::uint64_t, 1 << batch> places{};
+inline constexpr std::array<std::uint64_t, 1 << batch_size> places_of_bits = [] {
+  std::array<std::uint64_t, 1 << batch_size> places{};
   for (unsigned bits = 0; bits < places.size(); ++bits) {
     int count = 0;
-    for (unsigned n = 0; n < batch; ++n) {
+    for (unsigned n = 0; n < batch_size; ++n) {
       if ((bits >> n & 1U) != 0) places[bits] |= static_cast<std::uint64_t>(n) << (8 * count++);
     }
   }

@@ -1,6 +1,8 @@
 #include "flow/flow.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "base/assert.h"
 #include "base/for_each.h"
@@ -74,6 +76,17 @@ AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, cons
   return AirWatch<Dim>(spec, box, setup.domain);
 }
 
+template <int Dim>
+std::vector<std::unique_ptr<Part<Dim>>> make_parts(const CaseSpec& spec, const Setup<Dim>& setup,
+                                                   const Boundary<Dim>& boundary,
+                                                   std::span<const PartMaker<Dim>> makers) {
+  std::vector<std::unique_ptr<Part<Dim>>> parts;
+  for (const PartMaker<Dim> make : makers) {
+    if (std::unique_ptr<Part<Dim>> part = make(spec, setup, boundary)) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 /// Throws InputError where the case gives air a pressure and there is none; before a run writes anything. Collective.
 template <int Dim>
 void require_start_pockets(Flow<Dim>& flow) {
@@ -85,19 +98,21 @@ void require_start_pockets(Flow<Dim>& flow) {
 }  // namespace
 
 template <int Dim>
-Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks)
-    : Flow(spec, formulation, ranks, Drawing<Dim>(spec, *formulation.walls, ranks)) {}
+Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
+                const Communicator& ranks)
+    : Flow(spec, formulation, makers, ranks, Drawing<Dim>(spec, *formulation.walls, ranks)) {}
 
 template <int Dim>
-Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks,
-                Drawing<Dim> drawing)
+Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
+                const Communicator& ranks, Drawing<Dim> drawing)
     : setup(spec, formulation, ranks, drawing),
+      parts(make_parts(spec, setup, drawing.walls.boundary, makers)),
       decomposition(ranks, spec.parallel),
       neighbourhood(setup.kernel, setup.spacing, skin_over_spacing * setup.spacing, setup.wall_traits.pairs,
                     setup.domain, ranks),
       pressure_rows(ranks),
       pressure_solver(spec.pressure_solver,
-                      {.rows_deep = setup.rows_deep, .dimension = Dim, .solves = setup.keeps_matrix() ? 3 : 2}),
+                      {.rows_deep = setup.rows_deep, .dimension = Dim, .solves = keeps_matrix() ? 3 : 2}),
       air(make_air_watch(spec, setup, drawing.walls.boundary)),
       walls(std::move(drawing.walls)),
       shared_rows(std::move(drawing.shared_rows)),
@@ -111,16 +126,30 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, c
   for (const FloatingBody<Dim>& body : setup.bodies) state.motion.bodies.each.push_back(body.drawn);
   setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
-  state.section_volumes.assign(setup.sections.size(), 0.0);
   pressure_rows.set_constant_is_free(setup.is_closed);
   regather_walls(*this);
   assign_roles(*this);
   if (!spec.pockets.empty()) require_start_pockets(*this);
+  for (const auto& part : parts) part->begin(*this);
 }
 
 template <int Dim>
-void Flow<Dim>::restore(State<Dim> saved) {
-  state = std::move(saved);
+SavedFlow<Dim> Flow<Dim>::saved() const {
+  SavedFlow<Dim> saved{state, Json::object()};
+  for (const auto& part : parts) saved.parts[std::string(part->name())] = part->save();
+  return saved;
+}
+
+template <int Dim>
+bool Flow<Dim>::restore(SavedFlow<Dim> saved) {
+  try {
+    for (const auto& part : parts) {
+      if (!part->restore(saved.parts.at(std::string(part->name())))) return false;
+    }
+  } catch (const Json::exception&) {
+    return false;
+  }
+  state = std::move(saved.state);
   neighbourhood.forget(state.particles);
   surroundings = {};
   [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
@@ -130,11 +159,14 @@ void Flow<Dim>::restore(State<Dim> saved) {
   near_walls.restore(walls, state.particles);
   assign_roles(*this);
   place_walls(*this, state.time);
+  return true;
 }
 
 template <int Dim>
 Eigen::AlignedBox<double, Dim> Flow<Dim>::box() const {
-  return box_around_case(walls.boundary, setup.open_ends);
+  Eigen::AlignedBox<double, Dim> box = box_around_case(walls.boundary, setup.open_ends);
+  for (const auto& part : parts) part->extend_box(box);
+  return box;
 }
 
 template struct Flow<2>;

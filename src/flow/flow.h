@@ -3,12 +3,18 @@
 // that its stages pass to each other (stages.h).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "air/air_watch.h"
 #include "closures/surroundings.h"
 #include "flow/loads.h"
+#include "flow/part.h"
 #include "flow/role.h"
 #include "flow/setup.h"
 #include "flow/state.h"
@@ -23,13 +29,15 @@ namespace tailwater {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles and walls of a case, of which `formulation` is (formulations/make_flow.h). Each rank keeps
-  /// its share of the particles and of the rows of walls; all ranks have the faces of all walls. Collective. Throws
-  /// InputError for an impossible geometry.
-  Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks);
+  /// Builds the particles, walls and parts of a case (formulations/make_flow.h). Each rank keeps its share of the
+  /// particles and of the rows of walls; all ranks have the faces of all walls. Collective. Throws InputError for an
+  /// impossible geometry.
+  Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
+       const Communicator& ranks);
 
   Setup<Dim> setup;
   State<Dim> state;
+  std::vector<std::unique_ptr<Part<Dim>>> parts;  ///< those that the case has, in the order of their calls
 
   // Tools.
   Decomposition<Dim> decomposition;
@@ -55,7 +63,29 @@ struct Flow {
   double driven_change = 0.0;  ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
   /// Builds a case that is already drawn.
-  Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, const Communicator& ranks, Drawing<Dim> drawing);
+  Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
+       const Communicator& ranks, Drawing<Dim> drawing);
+
+  /// The part of type P; an empty one if the case has none.
+  template <class P>
+  const P& part() const {
+    for (const auto& any : parts) {
+      if (const auto* const found = dynamic_cast<const P*>(any.get())) return *found;
+    }
+    static const P none;
+    return none;
+  }
+  template <class P>
+  P& part() {
+    return const_cast<P&>(std::as_const(*this).template part<P>());
+  }
+  /// Whether water can leave or enter the domain.
+  bool is_open() const {
+    return std::ranges::any_of(parts, [](const auto& part) { return part->is_open(); });
+  }
+  /// Whether the matrix of a second projection serves the next step's first one too: not in an open domain, where rows
+  /// change between steps.
+  bool keeps_matrix() const { return setup.formulation.has_second_projection && !is_open() && setup.open_ends.empty(); }
 
   /// Frees the matrix of the pressure equation and what solvers have made of it.
   void forget_matrix() {
@@ -64,8 +94,10 @@ struct Flow {
     pressure_rows.forget_weights();
   }
 
-  /// Continues from `saved`, a state of the same case. Collective.
-  void restore(State<Dim> saved);
+  /// The state with that of the parts, from which `restore` goes on.
+  SavedFlow<Dim> saved() const;
+  /// Continues from a saved flow of the same case. Returns false if its parts are of another one. Collective.
+  bool restore(SavedFlow<Dim> saved);
 
   const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
   const Halo<Dim>& halo() const { return neighbourhood.halo(); }

@@ -138,6 +138,7 @@ bool add_inflow(Flow<Dim>& flow) {
           {1, entrant.volume, mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
     }
   }
+  for (const auto& part : flow.parts) some_came = part->bring_in(flow) || some_came;
   return some_came;
 }
 

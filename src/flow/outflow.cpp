@@ -41,10 +41,12 @@ bool remove_outflow(Flow<Dim>& flow) {
   const Floor<Dim> floor = find_floor(flow);
   const std::size_t falls = ends.size();
   const std::size_t stays = ends.size() + 1;
+  std::vector<std::uint8_t> leaves(particles.owned, 0);
+  for (const auto& part : flow.parts) part->take_out(flow, leaves);
   std::vector<std::size_t> leaves_by(particles.owned);  // the end that it passes, `falls` or `stays`
   for_each(particles.owned, [&](std::size_t i) {
     leaves_by[i] = stays;
-    if (!particles.is_fluid(i)) return;
+    if (!particles.is_fluid(i) || leaves[i] != 0) return;
     const Vec<Dim>& x = particles.position[i];
     const auto end =
         std::find_if(ends.begin(), ends.end(), [&](const OpenEnd<Dim>& e) { return e.opening.is_passed_by(x); });
@@ -55,10 +57,11 @@ bool remove_outflow(Flow<Dim>& flow) {
     }
   });
   const std::vector<std::size_t> kept =
-      indices_where(particles.owned, [&](std::size_t i) { return leaves_by[i] == stays; });
+      indices_where(particles.owned, [&](std::size_t i) { return leaves_by[i] == stays && leaves[i] == 0; });
   const bool some_left = kept.size() != particles.owned;
   if (!flow.setup.ranks.any(some_left)) return false;
   flow.air.forget_responses();
+  for (const auto& part : flow.parts) part->reordered(Reordering::removed);
   for (std::size_t w = 0; w <= falls; ++w) {
     WaterAmount passed = sum_over(particles.owned, WaterAmount{}, [&](std::size_t i) -> WaterAmount {
       if (leaves_by[i] != w) return {};

@@ -37,6 +37,7 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
                                 force);
     for_each(force.size(), [&](std::size_t i) { force[i] *= setup.density; });
   }
+  for (const auto& part : flow.parts) part->follow_friction(flow, walls, predicted.velocity_gradient, dt);
 }
 
 /// Slows the water between a 2D channel's side walls and in damping zones: with the rate s the step ends with
@@ -44,12 +45,15 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
 template <int Dim>
 void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& acceleration) {
   const ViscosityLaw& law = flow.setup.viscosity_law;
-  if (flow.setup.damping.empty() && law.channel_width == 0.0) return;
+  std::vector<double> of_parts;
+  for (const auto& part : flow.parts) part->add_damping_rate(flow, start, of_parts);
+  if (of_parts.empty() && flow.setup.damping.empty() && law.channel_width == 0.0) return;
   const Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     double rate = law.side_wall_rate(start.velocity[i].norm());
     for (const DampingZone<Dim>& zone : flow.setup.damping) rate += zone.rate_at(start.position[i]);
+    if (!of_parts.empty()) rate += of_parts[i];
     if (rate > 0.0) acceleration[i] = (acceleration[i] - rate * start.velocity[i]) / (1.0 + rate * dt);
   });
 }
@@ -96,6 +100,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
 
   damp(flow, start, dt, acceleration);
   add_loads<Dim>(flow.loads, acceleration);
+  for (const auto& part : flow.parts) part->add_acceleration(flow, acceleration);
 
   const bool with_gravity = setup.formulation.gravity_in_prediction;
   const Vec<Dim> gravity = with_gravity ? setup.gravity : Vec<Dim>(Vec<Dim>::Zero());

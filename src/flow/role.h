@@ -1,4 +1,5 @@
-// What a particle is for the pressure equation and the shifts, in one step.
+// What a particle is for the pressure equation and the shifts, in one step. Parts of the flow (flow/part.h) claim the
+// particles whose velocity and pressure they give.
 #pragma once
 
 #include <cstdint>

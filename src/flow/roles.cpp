@@ -32,6 +32,7 @@ void assign_roles(Flow<Dim>& flow) {
       flow.end_of[i] = static_cast<std::int16_t>(e);
     }
   });
+  for (const auto& part : flow.parts) part->claim(flow, flow.role);
 }
 
 TAILWATER_IN_2D_AND_3D(assign_roles);

@@ -106,15 +106,6 @@ void require_wide_channel(const ViscosityLaw& law, const TimeStepRule& rule) {
 }
 
 template <int Dim>
-std::vector<Opening<Dim>> make_sections(const CaseSpec& spec) {
-  std::vector<Opening<Dim>> sections;
-  for (const ProbeTable& probe : spec.probes) {
-    if (probe.type == ProbeType::discharge) sections.push_back(make_section<Dim>(probe, spec.particles.spacing));
-  }
-  return sections;
-}
-
-template <int Dim>
 std::vector<WavePlate<Dim>> make_wave_plates(const CaseSpec& spec) {
   std::vector<WavePlate<Dim>> plates;
   for (const WaveMakerTable& maker : spec.wave_makers) plates.emplace_back(spec, maker);
@@ -167,7 +158,6 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       wall_traits(formulation.walls->traits()),
       wall_motion(std::move(drawing.wall_motion)),
       open_ends(make_ends<Dim>(spec)),
-      sections(make_sections<Dim>(spec)),
       wave_plates(make_wave_plates<Dim>(spec)),
       bodies(make_bodies<Dim>(spec)),
       moorings(make_moorings<Dim>(spec)),

@@ -62,7 +62,6 @@ struct Setup {
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
   std::vector<OpenEnd<Dim>> open_ends;      ///< one per inlet, then one per outlet
-  std::vector<Opening<Dim>> sections;       ///< one per discharge probe
   std::vector<WavePlate<Dim>> wave_plates;  ///< one per wave maker
   std::vector<FloatingBody<Dim>> bodies;
   std::vector<Mooring<Dim>> moorings;
@@ -84,9 +83,6 @@ struct Setup {
   double noise_viscosity(double speed) const {
     return formulation.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
   }
-  /// Whether the matrix of a second projection serves the next step's first one too: not where ends are open, which
-  /// change rows between steps.
-  bool keeps_matrix() const { return formulation.has_second_projection && open_ends.empty(); }
 };
 
 }  // namespace tailwater

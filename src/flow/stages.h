@@ -96,10 +96,6 @@ bool remove_outflow(Flow<Dim>& flow);
 template <int Dim>
 bool add_inflow(Flow<Dim>& flow);
 
-/// Counts the particles that have passed the sections of discharge probes since `start`. Collective.
-template <int Dim>
-void count_passing(Flow<Dim>& flow, const StepStart<Dim>& start);
-
 /// Sorts the particles of this rank in the order that suits the pressure solver: in slabs where it sweeps through the
 /// rows of the matrix, along a Z curve where a multigrid takes them by cells (docs/theory/neighbours.md). Indices
 /// change; call between steps only.
@@ -149,9 +145,14 @@ Interventions shift(Flow<Dim>& flow, double dt);
 template <int Dim>
 double largest_approach(Flow<Dim>& flow);
 
-/// The largest step [s] that the water allows at its present velocities, whatever the walls do.
+/// What the parts ask of the next time step. Collective.
 template <int Dim>
-double step_of_water(const Flow<Dim>& flow);
+StepLimits step_limits(const Flow<Dim>& flow);
+
+/// The largest step [s] that the water allows at its present velocities, with the speeds and viscosities of the parts,
+/// whatever the walls do.
+template <int Dim>
+double step_of_water(const Flow<Dim>& flow, const StepLimits& limits);
 
 /// The largest allowed step [s] for the present velocities and the motion of the walls.
 template <int Dim>

@@ -60,6 +60,15 @@ struct PressureReport {
   Interventions interventions;
 };
 
+/// The equation that stands in the flow's pressure rows.
+struct PosedEquation {
+  std::size_t fallback_rows = 0;
+  int iterations = 0;                  ///< of the solves that parts needed to pose it
+  std::vector<double> density_source;  ///< Pa/m^2; PressureSource::density
+  double dt = 0.0;                     ///< s
+  double fullness = 0.0;               ///< 1 where water fills its walls, 0 where a particle or more is beside air
+};
+
 /// Works [J] of one step on the water: of the pressure on what the density source expands, of the pressure of moving
 /// walls, of what is prescribed at open ends, of viscosity and friction, of the gas in pockets of air, and of gravity
 /// along periodic directions.

@@ -88,13 +88,21 @@ double largest_approach(Flow<Dim>& flow) {
 }
 
 template <int Dim>
-double step_of_water(const Flow<Dim>& flow) {
+StepLimits step_limits(const Flow<Dim>& flow) {
+  StepLimits limits;
+  for (const auto& part : flow.parts) limits.include(part->step_limits(flow));
+  return limits;
+}
+
+template <int Dim>
+double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
   const Setup<Dim>& setup = flow.setup;
   double speed = largest_speed(flow);
   for (const OpenEnd<Dim>& end : setup.open_ends) {
     if (end.is_driven()) speed = std::max(speed, end.largest_speed(flow.state.time, setup.spacing));
   }
-  double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed);
+  speed = std::max(speed, limits.speed);
+  double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed) + limits.viscosity;
   if (setup.has_boundary_layers) viscosity += largest_layer_diffusivity(flow);
   const double dt = setup.time_step_rule.largest(speed, viscosity);
   // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.
@@ -105,7 +113,8 @@ double step_of_water(const Flow<Dim>& flow) {
 template <int Dim>
 double next_time_step(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
-  double dt = step_of_water(flow);
+  const StepLimits limits = step_limits(flow);
+  double dt = std::min(step_of_water(flow, limits), limits.step);
   if (setup.wall_motion.moving().empty()) return dt;
   dt = std::min(dt, step_of_moorings(setup));
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
@@ -119,6 +128,7 @@ double next_time_step(const Flow<Dim>& flow) {
 }
 
 TAILWATER_IN_2D_AND_3D(largest_approach);
+TAILWATER_IN_2D_AND_3D(step_limits);
 TAILWATER_IN_2D_AND_3D(step_of_water);
 TAILWATER_IN_2D_AND_3D(next_time_step);
 

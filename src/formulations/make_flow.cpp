@@ -1,5 +1,8 @@
 #include "formulations/make_flow.h"
 
+#include <array>
+
+#include "parts/section_counters.h"
 #include "published/farmani2020.h"
 #include "published/farzin2014.h"
 #include "robust/formulation.h"
@@ -17,7 +20,9 @@ FlowFormulation<Dim> make_formulation(const CaseSpec& spec) {
 
 template <int Dim>
 Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
-  return Flow<Dim>(spec, make_formulation<Dim>(spec), ranks);
+  // All parts that a flow can have, in the order in which the stages call them.
+  static constexpr std::array<PartMaker<Dim>, 1> parts{make_section_counters<Dim>};
+  return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }
 
 TAILWATER_IN_2D_AND_3D(make_formulation);

@@ -63,7 +63,7 @@ Survey survey(const LinearSystem& system) {
 /// The large weights of a row and their columns.
 class LargeWeights {
  public:
-  explicit LargeWeights(std::size_t longest) : columns_(longest + batch), weights_(longest + batch) {}
+  explicit LargeWeights(std::size_t longest) : columns_(longest + batch_size), weights_(longest + batch_size) {}
 
   /// Finds those of row i of which the sum is `total`. Returns their number.
   std::size_t find(const LinearSystem::Part& part, std::size_t i, double total) {
@@ -80,7 +80,7 @@ class LargeWeights {
   void keep_from(float least, const LinearSystem::Part& part, std::size_t i) {
     std::size_t count = 0;
     std::size_t k = part.begin[i];
-    for (; k + batch <= part.end[i]; k += batch) {
+    for (; k + batch_size <= part.end[i]; k += batch_size) {
       const unsigned large_ones = bits_of(batch_at<FloatBatch>(part.weight + k) >= least);
       write_chosen(part.column + k, large_ones, columns_.data() + count);
       count = write_chosen(part.weight + k, large_ones, weights_.data() + count) - weights_.data();

@@ -66,7 +66,7 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
   for (std::int64_t c = 0; c < cells; ++c) cell_begin_[c + 1] += cell_begin_[c];
   std::vector<std::int32_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
   size_ = positions.size();
-  order_.resize(size_ + batch);
+  order_.resize(size_ + batch_size);
   for (std::size_t i = 0; i < positions.size(); ++i) order_[next[cell[i]]++] = static_cast<std::int32_t>(i);
 }
 

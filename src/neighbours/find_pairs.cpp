@@ -36,7 +36,7 @@ struct FluidGrid {
     std::vector<Vec<Dim>> position(fluid.size());
     for_each(fluid.size(), [&](std::size_t n) { position[n] = particles.position[fluid[n]]; });
     grid = CellGrid<Dim>(position, reach);
-    order.resize(fluid.size() + batch);
+    order.resize(fluid.size() + batch_size);
     for_each(fluid.size(), [&](std::size_t n) { order[n] = static_cast<std::int32_t>(fluid[grid.order()[n]]); });
   }
 
@@ -81,7 +81,7 @@ class IndexList {
   void clear() { count_ = 0; }
   /// For so many more.
   void make_room(std::size_t more) {
-    if (count_ + more + batch > index_.size()) index_.resize(2 * (count_ + more + batch));
+    if (count_ + more + batch_size > index_.size()) index_.resize(2 * (count_ + more + batch_size));
   }
   /// Those of a batch whose bit is set.
   void add(const std::int32_t* indices, unsigned bits) {
@@ -90,8 +90,8 @@ class IndexList {
   /// Those that are in memory, from where they may be read a batch beyond the end.
   void add(std::span<const std::int32_t> indices) {
     make_room(indices.size());
-    for (std::size_t n = 0; n < indices.size(); n += batch) {
-      std::memcpy(index_.data() + count_ + n, indices.data() + n, batch * sizeof(std::int32_t));
+    for (std::size_t n = 0; n < indices.size(); n += batch_size) {
+      std::memcpy(index_.data() + count_ + n, indices.data() + n, batch_size * sizeof(std::int32_t));
     }
     count_ += indices.size();
   }
@@ -110,7 +110,7 @@ class IndexList {
   const std::int32_t* data() const { return index_.data(); }
 
  private:
-  std::vector<std::int32_t> index_ = std::vector<std::int32_t>(batch);
+  std::vector<std::int32_t> index_ = std::vector<std::int32_t>(batch_size);
   std::size_t count_ = 0;
 };
 
@@ -137,7 +137,7 @@ class Candidates {
       near_.add({searched.order + begin, searched.order + end});
     });
     for (IndexList* list : {&below, &above, &ghosts}) list->make_room(near_.size());
-    for (std::size_t n = 0; n < near_.size(); n += batch) {
+    for (std::size_t n = 0; n < near_.size(); n += batch_size) {
       const std::int32_t* const indices = near_.data() + n;
       const auto index = batch_at<IndexBatch>(indices);
       const unsigned all = first_bits(near_.size() - n);
@@ -160,7 +160,7 @@ class Candidates {
       }
       append(pairs, list);
     }
-    for (int n = 0; n < batch; ++n) at_[0][count_ + n] = pairs.place[group.begin].at[0] + farthest;
+    for (int n = 0; n < batch_size; ++n) at_[0][count_ + n] = pairs.place[group.begin].at[0] + farthest;
   }
 
   std::size_t size() const { return count_; }
@@ -199,9 +199,9 @@ class Candidates {
     std::int32_t* end = j;
     IndexBatch walls{};
     FloatBatch least = radius_squared;
-    for (std::size_t n = 0; n < count; n += batch) {
+    for (std::size_t n = 0; n < count; n += batch_size) {
       FloatBatch distances;
-      for (int m = 0; m < batch; m += lane_count) {
+      for (int m = 0; m < batch_size; m += lane_count) {
         VecLanes<Dim> d;
         for (int a = 0; a < Dim; ++a) {
           IntegerLanes places;
@@ -221,7 +221,7 @@ class Candidates {
 
   /// Reads and writes up to a batch beyond the end.
   void append(const Pairs<Dim>& pairs, const IndexList& list) {
-    const std::size_t room = count_ + list.size() + batch;
+    const std::size_t room = count_ + list.size() + batch_size;
     if (room > index_.size()) {
       index_.resize(2 * room);
       signed_volume_.resize(2 * room);
@@ -305,7 +305,7 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
   if (expected == 0) {
     std::vector<std::int32_t> j;
     for_each_row([&](std::size_t i) {
-      j.resize(std::max(j.size(), candidates.size() + batch));
+      j.resize(std::max(j.size(), candidates.size() + batch_size));
       expected += write_row(i, j.data()).size;
     });
     expected += expected / 4;  // of a lattice, as at the start: many may stand just beyond the rim
@@ -314,7 +314,7 @@ std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, co
   std::size_t crowded = 0;
   for_each_row([&](std::size_t i) {  // in order: rows are put one behind the other
     const std::size_t begin = pairs.row_begin[i];
-    const std::size_t most = begin + candidates.size() + batch;
+    const std::size_t most = begin + candidates.size() + batch_size;
     if (most > pairs.j.capacity()) pairs.j.reserve(with_room(most * (particles.owned / (i + 1) + 1)));
     if (most > pairs.j.size()) pairs.j.resize(pairs.j.capacity());
     const FoundRow row = write_row(i, pairs.j.data() + begin);

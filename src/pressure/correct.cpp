@@ -16,6 +16,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
     if (flow.role[i] != Role::water) return;
     particles.velocity[i] = predicted.velocity[i] + dt * (gravity - gradient[i] / setup.density);
   });
+  for (const auto& part : flow.parts) part->correct(flow, dt);
   push_by_pockets(flow, dt);
   count_displacement_for_air(flow, dt);
   flow.state.wall_velocity = drive.velocity;

@@ -48,7 +48,7 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   second.report =
       report_of(solve_rows(flow, particles.second_pressure, rough_tolerance(flow.pressure_solver.tolerance())));
   second.report.interventions.fallback_rows = fallback_rows;
-  flow.has_matrix = flow.setup.keeps_matrix();
+  flow.has_matrix = flow.keeps_matrix();
   if (!flow.has_matrix) flow.forget_matrix();
   std::vector<double>& correction = second.correction;
   correction = particles.second_pressure;

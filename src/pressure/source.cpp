@@ -36,6 +36,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
     flow.pressure_rows.set_rhs(i, source.rows[i] + (beside.empty() ? 0.0 : beside[i]));
   });
   pose_pockets<Dim>(flow, predicted.velocity, dt);
+  for (const auto& part : flow.parts) equation.iterations += part->pose(flow, predicted.velocity, dt);
   return equation;
 }
 

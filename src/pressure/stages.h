@@ -23,14 +23,6 @@ std::vector<double> target_divergence(const Flow<Dim>& flow, std::vector<Mat<Dim
 template <int Dim>
 std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive);
 
-/// What is known of an equation that stands in the flow's rows.
-struct PosedEquation {
-  std::size_t fallback_rows = 0;
-  std::vector<double> density_source;  ///< Pa/m^2; PressureSource::density
-  double dt = 0.0;                     ///< s
-  double fullness = 0.0;               ///< 1 where water fills its walls, 0 where a particle or more is beside air
-};
-
 /// (F15), (F22): lap p = rho/dt (div u_star - target), or (B17): lap p = (rho_0 - rho)/dt^2; matrix and sources.
 template <int Dim>
 PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::span<const double> target,

@@ -135,7 +135,7 @@ bool are_unique(std::vector<std::int64_t> numbers) {
 
 template <int Dim>
 void require_sound_numbers(const Checkpoint<Dim>& checkpoint) {
-  const State<Dim>& state = checkpoint.state;
+  const State<Dim>& state = checkpoint.flow.state;
   require_fit(state.time >= 0.0 && state.step >= 0, "run");
   require_fit(std::isfinite(checkpoint.reference_step) && checkpoint.reference_step >= 0.0, "run");
 }
@@ -186,10 +186,11 @@ std::vector<Value> sound_values(const Hdf5Reader& image, const char* name) {
 template <int Dim>
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& checkpoint,
                       const std::string& case_text, const Communicator& ranks) {
-  const std::vector<std::int64_t> owned = ranks.all_gather(static_cast<std::int64_t>(checkpoint.state.particles.owned));
+  const std::vector<std::int64_t> owned =
+      ranks.all_gather(static_cast<std::int64_t>(checkpoint.flow.state.particles.owned));
   const std::vector<std::string> cuts = ranks.gather(checkpoint.cuts);
   const std::vector<double> rank_log = ranks.gather(checkpoint.rank_log);
-  const Particles<Dim>& particles = checkpoint.state.particles;  // without ghosts: lists are forgotten
+  const Particles<Dim>& particles = checkpoint.flow.state.particles;  // without ghosts: lists are forgotten
   std::size_t bytes = room_beside_fields;
   const auto count = static_cast<std::size_t>(std::accumulate(owned.begin(), owned.end(), std::int64_t{0}));
   for_each_field(particles,
@@ -210,7 +211,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& 
     file->put("case", case_text);
     file->put("run", text_of(checkpoint));
     file->put("owned", std::span<const std::int64_t>(owned));
-    put(*file, "wall_velocity", checkpoint.state.wall_velocity);
+    put(*file, "wall_velocity", checkpoint.flow.state.wall_velocity);
     put(*file, "probe_memory", checkpoint.probe_memory);
     file->put("rank_log", std::span<const double>(rank_log), checkpoint.rank_log.size());
     file->put("cuts", all_cuts);
@@ -241,7 +242,7 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
   const auto width = static_cast<std::int64_t>(dealt.rank_logs.size() / dealt.cuts.size());
   checkpoint.rank_log = ranks.scatter(dealt.rank_logs, std::vector<std::int64_t>(dealt.cuts.size(), width));
 
-  State<Dim>& state = checkpoint.state;
+  State<Dim>& state = checkpoint.flow.state;
   for_each_field(state.particles, [&]<class Value>(const char* name, std::vector<Value>& field) {
     std::vector<Value> all;
     do_on_root(ranks, [&] {

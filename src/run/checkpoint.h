@@ -14,13 +14,13 @@
 namespace tailwater {
 
 /// The version of the contents of a checkpoint. It grows when they change.
-inline constexpr int checkpoint_format = 17;
+inline constexpr int checkpoint_format = 18;
 
 /// A moment at which particles have just been repartitioned and sorted, so that lists are forgotten and the
 /// state is complete.
 template <int Dim>
 struct Checkpoint {
-  State<Dim> state;                  ///< of this rank
+  SavedFlow<Dim> flow;               ///< of this rank
   Json output;                       ///< how far the run's output has come (RunOutput::saved); on all ranks
   std::vector<double> probe_memory;  ///< of the probes (ProbeSet::memory); on all ranks
   std::vector<double> rank_log;      ///< of this rank (RankLog::saved)

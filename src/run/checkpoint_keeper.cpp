@@ -44,7 +44,7 @@ void CheckpointKeeper<Dim>::go_on_from(std::int64_t step) {
 template <int Dim>
 void CheckpointKeeper<Dim>::remember(const Flow<Dim>& flow, const RunOutput<Dim>& output, double reference_step) {
   if (!last_) last_.emplace();
-  last_->state = flow.state;
+  last_->flow = flow.saved();
   last_->output = output.saved();
   last_->probe_memory = output.probe_memory();
   last_->reference_step = reference_step;
@@ -60,7 +60,7 @@ template <int Dim>
 bool CheckpointKeeper<Dim>::write(const Flow<Dim>& flow, const RunOutput<Dim>& output) {
   if (!last_) return false;
   written_at_ = Clock::now();
-  if (written_step_ == last_->state.step) return true;
+  if (written_step_ == last_->flow.state.step) return true;
   output.add_costs(last_->output);
   last_->cuts = flow.decomposition.cuts().bytes();
   do_on_root(ranks_, [&] {
@@ -69,8 +69,8 @@ bool CheckpointKeeper<Dim>::write(const Flow<Dim>& flow, const RunOutput<Dim>& o
     if (error) throw_io_error("make the folder", folder_.checkpoints(), error.value());
   });
   give_back_free_memory();
-  write_checkpoint(folder_.checkpoint(last_->state.step), *last_, case_text_, ranks_);
-  written_step_ = last_->state.step;
+  write_checkpoint(folder_.checkpoint(last_->flow.state.step), *last_, case_text_, ranks_);
+  written_step_ = last_->flow.state.step;
   written_at_ = Clock::now();
   do_on_root(ranks_, [&] {
     const std::vector<fs::path> files = checkpoints_in(folder_.path());

@@ -76,8 +76,8 @@ BodyState<Dim> body_of(const Json& json) {
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, section_volumes, motion, approach, energy_rise,
-               density_share, air, fallen] = checkpoint.state;
+  const auto& [time, step, particles, wall_velocity, open_ends, motion, approach, energy_rise, density_share, air,
+               fallen] = checkpoint.flow.state;
   Json json{{"time", time},
             {"step", step},
             {"approach", approach},
@@ -90,7 +90,7 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
             {"wave_makers", motion.wave_makers},
             {"bodies", Json::array()},
             {"inertia", motion.bodies.inertia},
-            {"section_volumes", section_volumes},
+            {"parts", checkpoint.flow.parts},
             {"output", checkpoint.output}};
   for (const BodyState<Dim>& body : motion.bodies.each) json["bodies"].push_back(body_json(body));
   return json.dump(1);
@@ -99,7 +99,7 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
 template <int Dim>
 void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   const Json json = Json::parse(text);
-  State<Dim>& state = checkpoint.state;
+  State<Dim>& state = checkpoint.flow.state;
   state.time = json.at("time");
   state.step = json.at("step");
   state.approach = json.at("approach");
@@ -114,7 +114,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   json.at("wave_makers").get_to(state.motion.wave_makers);
   for (const Json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
   json.at("inertia").get_to(state.motion.bodies.inertia);
-  json.at("section_volumes").get_to(state.section_volumes);
+  checkpoint.flow.parts = json.at("parts");
   checkpoint.output = json.at("output");
 }
 

@@ -20,17 +20,17 @@ FolderOutput<Dim>::FolderOutput(const CaseSpec& spec, const RunOptions& options,
 
 template <int Dim>
 void FolderOutput<Dim>::go_on_from(Simulation<Dim>& simulation, Checkpoint<Dim> checkpoint) {
-  if (!simulation.fits(checkpoint.state)) {
+  const std::int64_t step = checkpoint.flow.state.step;
+  if (!simulation.go_on_from(std::move(checkpoint.flow), checkpoint.reference_step,
+                             checkpoint.is_repartitioned ? std::optional(std::move(checkpoint.cuts)) : std::nullopt)) {
     throw IoError(
         "the checkpoint does not fit the walls, bodies, open ends and probes of its case; remedy: remove the newest "
         "file in '{}', to go on from the one before",
         output_.folder().checkpoints().string());
   }
-  keeper_.go_on_from(checkpoint.state.step);
+  keeper_.go_on_from(step);
   output_.rank_log().restore(checkpoint.rank_log);
   output_.restore_probe_memory(checkpoint.probe_memory);
-  simulation.go_on_from(std::move(checkpoint.state), checkpoint.reference_step,
-                        checkpoint.is_repartitioned ? std::optional(std::move(checkpoint.cuts)) : std::nullopt);
   tell("going on from step {}, t = {:.4f} s", flow_.state.step, flow_.state.time);
 }
 

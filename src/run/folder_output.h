@@ -36,7 +36,7 @@ class FolderOutput final : public RunObserver<Dim> {
     output_.record_repartition(flow, repartition);
   }
   void can_go_on(const Flow<Dim>& flow, double reference_step) override {
-    keeper_.save_step_start(flow, output_, reference_step);
+    keeper_.remember(flow, output_, reference_step);
   }
   void stepped(const Flow<Dim>& flow, const StepReport& report) override { output_.record_step(flow, report); }
 

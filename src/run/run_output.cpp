@@ -12,6 +12,7 @@
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
+#include "parts/section_counters.h"
 #include "run/air_balance.h"
 #include "run/estimate.h"
 #include "run/field_output.h"
@@ -64,9 +65,10 @@ template <int Dim>
 Json discharges_of(const Flow<Dim>& flow) {
   Json discharges = Json::array();
   const double time = flow.state.time;
-  for (std::size_t s = 0; s < flow.setup.sections.size(); ++s) {
-    const double volume = flow.state.section_volumes[s];
-    discharges.push_back({{"name", flow.setup.sections[s].name},
+  const auto& counters = flow.template part<SectionCounters<Dim>>();
+  for (std::size_t s = 0; s < counters.sections().size(); ++s) {
+    const double volume = counters.volumes()[s];
+    discharges.push_back({{"name", counters.sections()[s].name},
                           {"volume_m3", volume},
                           {"mean_m3_per_s", time > 0.0 ? volume / time : 0.0}});
   }
@@ -218,7 +220,7 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .density_error_rms = measures.density_error_rms,
                              .volume_out = measures.departed.volume,
                              .volume_in = measures.arrived.volume,
-                             .section_volumes = flow.state.section_volumes,
+                             .section_volumes = flow.template part<SectionCounters<Dim>>().volumes(),
                              .air = pocket_totals(flow)},
                   .ranks = ranks_,
                   .plate_of = plate_of,

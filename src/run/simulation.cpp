@@ -101,19 +101,19 @@ bool Simulation<Dim>::fits(State<Dim>& state) {
                            (motion.bodies.inertia.empty() || motion.bodies.inertia.size() == degrees * degrees);
   const bool is_alike = misplaced == 0 && moves_alike &&
                         state.wall_velocity.size() == flow_.state.wall_velocity.size() &&
-                        state.open_ends.size() == flow_.state.open_ends.size() &&
-                        state.section_volumes.size() == flow_.state.section_volumes.size();
+                        state.open_ends.size() == flow_.state.open_ends.size();
   return !flow_.setup.ranks.any(!is_alike) &&
          flow_.shared_rows.find_rows(flow_.walls, state.particles, 0, flow_.setup.first_wall_id);
 }
 
 template <int Dim>
-void Simulation<Dim>::go_on_from(State<Dim> state, double reference_step, std::optional<std::string> cuts) {
-  flow_.restore(std::move(state));
+bool Simulation<Dim>::go_on_from(SavedFlow<Dim> saved, double reference_step, std::optional<std::string> cuts) {
+  if (!fits(saved.state) || !flow_.restore(std::move(saved))) return false;
   guard_.restore_reference_step(reference_step);
-  if (!cuts) return;
+  if (!cuts) return true;
   if (!flow_.setup.ranks.is_alone()) flow_.decomposition.cuts().restore(std::move(*cuts));
   repartition_step_ = flow_.state.step;
+  return true;
 }
 
 template class Simulation<2>;

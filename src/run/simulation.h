@@ -50,14 +50,13 @@ class Simulation {
   /// step fails; the flow is then as it was before it.
   StepReport step();
 
-  /// Whether walls, what drives them, and open ends of a state are those of the case. Finds the rows of its walls.
-  bool fits(State<Dim>& state);
-  /// Goes on from a state that `fits`, with the `reference_step` [s] of then. `cuts` are those of its space, if
-  /// particles are distributed by them.
-  void go_on_from(State<Dim> state, double reference_step, std::optional<std::string> cuts);
+  /// Goes on from a saved flow, with the `reference_step` [s] of then. `cuts` are those of its space, if particles are
+  /// distributed by them. Returns false if its walls, the motion of these or its parts are not those of the case.
+  bool go_on_from(SavedFlow<Dim> saved, double reference_step, std::optional<std::string> cuts);
 
  private:
   void rearrange();
+  bool fits(State<Dim>& state);
 
   double end_;  ///< s
   Flow<Dim> flow_;

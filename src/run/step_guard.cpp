@@ -83,7 +83,7 @@ void StepGuard<Dim>::require_sound_step(double dt) {
   const std::string reason =
       fmt::format("the time step collapsed to {:.3g} s, less than {:g} of {:.3g} s, the step at the start", dt,
                   smallest_share, reference_step_);
-  if (dt < step_of_water(flow_)) {
+  if (dt < step_of_water(flow_, step_limits(flow_))) {
     fail(fmt::format("{}: {} moves too fast or jumps. Remedy: a smoother displacement or rotation of the wall", reason,
                      fastest_wall(flow_, dt)),
          std::nullopt);

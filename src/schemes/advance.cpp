@@ -11,6 +11,7 @@ StepStart<Dim> begin_step(Flow<Dim>& flow, double dt) {
   update_open_ends(flow, dt);
   steer_wave_makers(flow);
   watch_air(flow);
+  for (const auto& part : flow.parts) part->begin_step(flow, dt);
   StepStart<Dim> start = save_step_start(flow);
   steer_bodies(flow, start, dt);
   return start;
@@ -22,7 +23,7 @@ StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   report.dt = dt;
   flow.halo().exchange(flow.state.particles.velocity, flow.state.particles.pressure);  // probes read ghosts
   flow.state.approach = largest_approach(flow);
-  count_passing(flow, start);
+  for (const auto& part : flow.parts) part->finish_step(flow, start, dt);
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.stopped_at_walls, counts.capped_shifts, counts.fallback_rows);
   balance_energy(flow, start, report);

@@ -31,6 +31,7 @@ void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
     flow.state.motion.bodies.each[b].velocity = start.body_velocity[b];
     flow.state.motion.bodies.each[b].carried_over.setZero();
   }
+  for (const auto& part : flow.parts) part->stay(flow);
   add_wall_forces(flow, flow.state.particles.pressure);
 }
 
@@ -40,6 +41,7 @@ void start(Flow<Dim>& flow) {
   assign_roles(flow);
   update_open_ends(flow, 0.0);
   watch_air(flow);
+  for (const auto& part : flow.parts) part->begin_step(flow, 0.0);
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
   flow.state.approach = largest_approach(flow);

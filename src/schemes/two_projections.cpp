@@ -13,6 +13,7 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
   flow.state.wall_velocity = drive.velocity;
   const SecondProjection second = reproject(flow, drive, dt);
+  for (const auto& part : flow.parts) part->project_again(flow, second.correction, dt);
   carry_over_second_pressure(flow, second.correction, dt);
   ++report.passes;
   report.iterations += second.report.iterations;  // the residual stays that of the first solve, to the tolerance

@@ -40,7 +40,7 @@ Vec<Dim> along_wall(const WallScene<Dim>& scene, std::int32_t row, const Vec<Dim
   return v - scene.walls.particles.blocked[row] * v;
 }
 
-/// Sets the stresses of a wall whose place and slip_velocity are known.
+/// Sets the stresses of a wall whose place and slip velocity are known.
 template <int Dim>
 void apply_wall_law(const FrictionLaw& law, double layer_viscosity, FrictionWall<Dim>& wall) {
   const double speed = wall.slip_velocity.norm();

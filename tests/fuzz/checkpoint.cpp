@@ -28,7 +28,7 @@ constexpr const char* case_text =
 /// Four particles of water above one of a wall.
 Checkpoint<2> sound_checkpoint() {
   Checkpoint<2> checkpoint;
-  Particles<2>& particles = checkpoint.state.particles;
+  Particles<2>& particles = checkpoint.flow.state.particles;
   particles.resize(5);
   particles.owned = particles.size();
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -40,10 +40,11 @@ Checkpoint<2> sound_checkpoint() {
     particles.wall_row[i] = is_wall ? 0 : -1;
     particles.id[i] = static_cast<std::int64_t>(i);
   }
-  checkpoint.state.time = 0.5;
-  checkpoint.state.step = 10;
-  checkpoint.state.wall_velocity.assign(1, Vec<2>::Zero());
-  checkpoint.state.open_ends.resize(1);
+  checkpoint.flow.state.time = 0.5;
+  checkpoint.flow.state.step = 10;
+  checkpoint.flow.state.wall_velocity.assign(1, Vec<2>::Zero());
+  checkpoint.flow.state.open_ends.resize(1);
+  checkpoint.flow.parts = Json::object();
   checkpoint.output = {{"steps", 10}};
   checkpoint.rank_log = {1.0, 2.0};
   checkpoint.reference_step = 0.01;
@@ -196,7 +197,7 @@ void change(Sets& sets, Changes& changes) {
 /// What a run may rely on in a checkpoint that was not refused.
 template <int Dim>
 void require_sound(Checkpoint<Dim> checkpoint) {
-  Particles<Dim>& particles = checkpoint.state.particles;
+  Particles<Dim>& particles = checkpoint.flow.state.particles;
   particles.apply_to_fields([&](const auto&... field) {
     if (((field.size() != particles.owned) || ...)) finding("fields of different sizes", "");
   });

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "formulations/make_flow.h"
+#include "parts/section_counters.h"
 #include "probes/discharge.h"
 #include "schemes/open_ends.h"
 
@@ -43,7 +44,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
                .gravity = flow.setup.gravity,
                .spacing = flow.setup.spacing,
                .time = flow.state.time,
-               .totals = {.section_volumes = flow.state.section_volumes},
+               .totals = {.section_volumes = flow.part<SectionCounters<2>>().volumes()},
                .domain = flow.setup.domain})
         .at(0);
   };
@@ -65,7 +66,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
     EXPECT_NEAR(row[0], speed * depth, 0.2 * speed * depth) << "a column in 20 dx/sqrt(g H) = 0.5 s is 5 %";
   }
   const double mean = sum / (flow.state.time - first_time);
-  const double counted = (flow.state.section_volumes[0] - first_volume) / (flow.state.time - first_time);
+  const double counted = (flow.part<SectionCounters<2>>().volumes()[0] - first_volume) / (flow.state.time - first_time);
   EXPECT_NEAR(counted, speed * depth, 0.02 * speed * depth);
   EXPECT_NEAR(mean, counted, 0.02 * counted);
 }
@@ -95,7 +96,7 @@ TEST(Discharge, IsTheSameAtBothEndsOfAPeriodAndBetweenThem) {
   }
   Flow<2> flow = make_flow<2>(spec);
   while (flow.state.time < 2.5) step(flow);
-  for (const double volume : flow.state.section_volumes) {
+  for (const double volume : flow.part<SectionCounters<2>>().volumes()) {
     EXPECT_NEAR(volume, 0.3 * flow.state.time, 0.3 * 0.05);  // a column of particles
   }
 }

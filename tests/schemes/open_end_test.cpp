@@ -8,6 +8,7 @@
 #include <set>
 
 #include "formulations/make_flow.h"
+#include "parts/section_counters.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
 
@@ -245,7 +246,7 @@ TYPED_TEST(OpenEndTest, WhatEntersIsWhatIsAskedFor) {
       const bool is_before = flow.state.particles.is_fluid(i) && flow.state.particles.position[i][0] <= 0.5 * width;
       if (is_before) before_section += flow.state.particles.volume[i];
     }
-    const double passed = flow.state.section_volumes[0];
+    const double passed = flow.template part<SectionCounters<2>>().volumes()[0];
     EXPECT_NEAR(0.5 * volume_at_start + arrived.volume, before_section + passed, 1e-9);
   }
 }

@@ -104,7 +104,7 @@ TEST_P(StateTest, IsAllThatARunNeedsToGoOn) {
   start(whole);
   take_steps(whole, 40);
   Flow<2> resumed = make_flow<2>(spec);
-  resumed.restore(whole.state);
+  ASSERT_TRUE(resumed.restore(whole.saved()));
   take_steps(whole, 20);
   take_steps(resumed, 20);
   expect_same(whole, resumed);

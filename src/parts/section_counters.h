@@ -1,0 +1,36 @@
+// Counts the water that passes the sections of discharge probes: particles times their volumes, with sign.
+#pragma once
+
+#include <vector>
+
+#include "flow/part.h"
+#include "geometry/opening.h"
+
+namespace tailwater {
+
+template <int Dim>
+class SectionCounters final : public Part<Dim> {
+ public:
+  SectionCounters() = default;
+  explicit SectionCounters(std::vector<Opening<Dim>> sections)
+      : sections_(std::move(sections)), volumes_(sections_.size(), 0.0) {}
+
+  const std::vector<Opening<Dim>>& sections() const { return sections_; }
+  /// m^Dim; what has passed each section since the start, less what came back.
+  const std::vector<double>& volumes() const { return volumes_; }
+
+  std::string_view name() const override { return "sections"; }
+  Json save() const override;
+  bool restore(const Json& saved) override;
+  void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
+
+ private:
+  std::vector<Opening<Dim>> sections_;  ///< one per discharge probe
+  std::vector<double> volumes_;
+};
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_section_counters(const CaseSpec& spec, const Setup<Dim>& setup,
+                                                 const Boundary<Dim>& boundary);
+
+}  // namespace tailwater
