@@ -2,7 +2,6 @@
 import { linesOf, nameAt } from "./case/pointing.ts";
 import type { Drawing, Lines, State } from "./contract.ts";
 import { DecodeWorker } from "./frames/window.ts";
-import { savePicture } from "./picture/still.ts";
 import { RunModel } from "./run/model.ts";
 import type { Subject } from "./run/subject.ts";
 import type { Server, Source } from "./source.ts";
@@ -151,10 +150,6 @@ export class App {
       // a page from disk may have no storage
     }
     this.look.change({ theme: name });
-  }
-
-  savePicture(): Promise<void> {
-    return savePicture(this);
   }
 
   setLimits(limits: [number, number]): void {

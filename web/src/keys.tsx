@@ -1,6 +1,7 @@
 // The keyboard: keys as in any player. Keys typed into fields and the editor stay there.
 import type { App } from "./app.ts";
 import { Dialog } from "./dialog.tsx";
+import { savePicture } from "./picture/still.ts";
 import { colourings } from "./water/value.ts";
 
 export const keyList: [string, string][] = [
@@ -92,7 +93,7 @@ function act(app: App, key: string, shift: boolean): boolean {
     g: () => app.look.change({ tab: "gauges", side: true }),
     r: () => app.look.change({ tab: "run", side: true }),
     e: () => app.server && app.look.change({ tab: "case", side: true }),
-    p: () => void app.savePicture(),
+    p: () => void savePicture(app),
     m: () => app.look.change({ dialog: "film" }),
     t: () => app.setTheme(look.theme === "dark" ? "light" : "dark"),
     "?": () => app.look.change({ dialog: look.dialog === "keys" ? "" : "keys" }),

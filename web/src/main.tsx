@@ -9,6 +9,7 @@ import { Icon } from "./icons.tsx";
 import { KeysDialog, listen } from "./keys.tsx";
 import { LookPanel } from "./look.tsx";
 import { FilmDialog } from "./picture/filmdialog.tsx";
+import { savePicture } from "./picture/still.ts";
 import { ReportPage } from "./report/page.tsx";
 import { StudyPage } from "./report/study.tsx";
 import { RunPanel } from "./run/panel.tsx";
@@ -43,7 +44,7 @@ function Page({ app }: { app: App }) {
           <>
             <button class="icon" title="How the water is drawn" aria-label="How the water is drawn" aria-expanded={lookOpen} onClick={() => openLook(!lookOpen)}><Icon name="look" /></button>
             <button class="icon" title="Show all (f)" aria-label="Show all" onClick={() => { app.view?.fit(); app.touch(); }}><Icon name="fit" /></button>
-            <button class="icon" title="Save a picture (p)" aria-label="Save a picture" onClick={() => void app.savePicture()}><Icon name="camera" /></button>
+            <button class="icon" title="Save a picture (p)" aria-label="Save a picture" onClick={() => void savePicture(app)}><Icon name="camera" /></button>
             <button class="icon" title="Save a film (m)" aria-label="Save a film" disabled={!(app.player.range[1] > app.player.range[0])} onClick={() => app.look.change({ dialog: "film" })}><Icon name="film" /></button>
           </>
         )}
