@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "formulations/make_flow.h"
 #include "pressure/stages.h"
+#include "published/make_flow.h"
 #include "schemes/advance.h"
 
 namespace tailwater {

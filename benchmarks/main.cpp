@@ -12,7 +12,7 @@
 #include "bench.h"
 #include "case/reader.h"
 #include "linear/session.h"
-#include "run/provenance.h"
+#include "results/provenance.h"
 
 namespace tailwater {
 namespace {

@@ -4,7 +4,7 @@
 #include "operators/concentration.h"
 #include "operators/pair_vectors.h"
 #include "pressure/operators.h"
-#include "run/field_output.h"
+#include "results/field_output.h"
 
 namespace tailwater {
 namespace {

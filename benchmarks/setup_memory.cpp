@@ -10,8 +10,8 @@
 
 #include "case/reader.h"
 #include "checks/check.h"
-#include "formulations/make_flow.h"
 #include "linear/session.h"
+#include "published/make_flow.h"
 
 namespace tailwater {
 namespace {

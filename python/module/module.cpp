@@ -11,7 +11,7 @@
 #include "io/messages.h"
 #include "linear/session.h"
 #include "python_simulation.h"
-#include "run/provenance.h"
+#include "results/provenance.h"
 #include "run/run_case.h"
 
 namespace py = pybind11;

@@ -20,13 +20,13 @@
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/preview.h"
-#include "formulations/make_flow.h"
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "linear/session.h"
 #include "probes/probe_set.h"
+#include "published/make_flow.h"
+#include "results/progress.h"
 #include "run/estimate.h"
-#include "run/progress.h"
 #include "run/run_case.h"
 
 namespace tailwater {

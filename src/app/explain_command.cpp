@@ -7,8 +7,8 @@
 
 #include "app/commands.h"
 #include "case/reader.h"
-#include "formulations/make_flow.h"
 #include "linear/session.h"
+#include "published/make_flow.h"
 #include "run/estimate.h"
 #include "run/explain.h"
 #include "run/run_case.h"

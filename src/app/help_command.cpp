@@ -11,7 +11,7 @@
 
 #include "app/commands.h"
 #include "base/text.h"
-#include "run/provenance.h"
+#include "results/provenance.h"
 
 namespace tailwater {
 namespace {

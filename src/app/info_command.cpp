@@ -9,8 +9,8 @@
 #include "app/sweep_table.h"
 #include "base/json.h"
 #include "base/text.h"
-#include "run/provenance.h"
-#include "run/run_info.h"
+#include "results/provenance.h"
+#include "results/run_info.h"
 
 namespace tailwater {
 namespace {

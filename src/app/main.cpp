@@ -22,7 +22,7 @@
 #include "case/nearest_name.h"
 #include "io/messages.h"
 #include "linear/session.h"
-#include "run/provenance.h"
+#include "results/provenance.h"
 #include "run/run_case.h"
 
 namespace tailwater {

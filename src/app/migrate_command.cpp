@@ -6,7 +6,7 @@
 
 #include "app/commands.h"
 #include "case/case_toml.h"
-#include "case/migration.h"
+#include "case_help/migration.h"
 #include "io/messages.h"
 #include "io/write_file.h"
 

@@ -11,7 +11,7 @@
 #include "io/messages.h"
 #include "io/vtp_writer.h"
 #include "io/write_file.h"
-#include "run/field_output.h"
+#include "results/field_output.h"
 
 namespace tailwater {
 

@@ -9,8 +9,8 @@
 #include "app/ranks.h"
 #include "app/run_arguments.h"
 #include "app/sweep.h"
-#include "case/help.h"
 #include "case/reader.h"
+#include "case_help/help.h"
 #include "io/messages.h"
 #include "run/run_case.h"
 

@@ -24,9 +24,9 @@
 #include "io/messages.h"
 #include "io/run_folder.h"
 #include "io/write_file.h"
-#include "run/progress.h"
+#include "results/progress.h"
+#include "results/run_info.h"
 #include "run/resume.h"
-#include "run/run_info.h"
 
 namespace tailwater {
 namespace {

@@ -19,7 +19,7 @@
 #include "geometry/from_spec.h"
 #include "io/write_file.h"
 #include "probes/probe_set.h"
-#include "run/provenance.h"
+#include "results/provenance.h"
 #include "run/run_case.h"
 
 namespace tailwater {

@@ -21,11 +21,11 @@
 #include "app/sweep_table.h"
 #include "base/error.h"
 #include "base/json.h"
-#include "case/help.h"
+#include "case_help/help.h"
 #include "io/folder_lock.h"
 #include "io/run_folder.h"
 #include "io/write_file.h"
-#include "run/provenance.h"
+#include "results/provenance.h"
 
 namespace tailwater {
 namespace {

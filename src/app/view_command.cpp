@@ -24,7 +24,7 @@
 #include "io/messages.h"
 #include "io/run_folder.h"
 #include "io/write_file.h"
-#include "run/provenance.h"
+#include "results/provenance.h"
 #include "server/folder_reader.h"
 #include "server/view_server.h"
 

@@ -16,12 +16,6 @@
 
 namespace tailwater {
 
-/// No quantity of a flow is larger in SI units, and products of a few such numbers are still far from the largest
-/// double.
-inline constexpr double largest_number = 1e15;
-/// Likewise for quantities that cannot be negative, unless they are 0.
-inline constexpr double smallest_number = 1e-15;
-
 /// The named numbers an expression may use, besides pi.
 using NamedNumbers = std::map<std::string, double, std::less<>>;
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "case/key_rules.h"
-#include "case/linked_files.h"
 #include "case/table_rules.h"
+#include "case_files/linked_files.h"
 
 namespace tailwater {
 

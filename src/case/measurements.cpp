@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "case/linked_files.h"
 #include "case/nearest_name.h"
 #include "case/probe_columns.h"
+#include "case_files/linked_files.h"
 
 namespace tailwater {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "case/spec.h"
-#include "case/time_series.h"
+#include "case_files/time_series.h"
 
 namespace tailwater {
 

@@ -18,7 +18,8 @@
 
 #include "case/choices.h"
 #include "case/sources.h"
-#include "case/time_series.h"
+#include "case_files/coordinates.h"
+#include "case_files/time_series.h"
 
 namespace tailwater {
 
@@ -27,9 +28,6 @@ namespace tailwater {
 inline std::string default_name(const std::string& table, std::size_t index) {
   return table + std::to_string(index + 1);
 }
-
-/// A point or vector as read from the file: `dimension` numbers.
-using Coordinates = std::vector<double>;
 
 /// Names of the coordinates in expressions that are evaluated for each particle; in 2D the first two.
 inline constexpr std::array<std::string_view, 3> position_names{"x", "y", "z"};

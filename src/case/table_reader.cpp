@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/number_range.h"
 #include "base/text.h"
 #include "case/nearest_name.h"
 #include "case/removed_keys.h"

@@ -29,7 +29,7 @@ namespace tailwater {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles, walls and parts of a case (formulations/make_flow.h). Each rank keeps its share of the
+  /// Builds the particles, walls and parts of a case (published/make_flow.h). Each rank keeps its share of the
   /// particles and of the rows of walls; all ranks have the faces of all walls. Collective. Throws InputError for an
   /// impossible geometry.
   Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,

@@ -1,6 +1,6 @@
-// A formulation: how a flow is discretised, and in which order a step is taken. The four of the case file are made in
-// the room `formulations` of what stands in `robust` and `published`; no file between here and there asks which one a
-// flow has. It is called once per loop, never per pair.
+// A formulation: how a flow is discretised, and in which order a step is taken. published/make_flow.h makes the four of
+// the case file of what stands in `robust` and `published`; no file between here and there asks which one a flow has.
+// It is called once per loop, never per pair.
 #pragma once
 
 #include <cstddef>

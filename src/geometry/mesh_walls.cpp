@@ -8,8 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "case_files/mesh_file.h"
 #include "geometry/from_spec.h"
-#include "geometry/mesh_file.h"
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
@@ -226,7 +226,7 @@ class SoundMesh {
 }  // namespace
 
 TriangleMesh read_placed_mesh(const PlacedFile& file, const std::string& owner) {
-  TriangleMesh mesh = read_mesh(file.file, owner);
+  TriangleMesh mesh{read_mesh(file.file, owner)};
   put_in_place(file, owner, mesh);
   return mesh;
 }

@@ -5,13 +5,11 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "case_files/mesh_file.h"
 
 namespace tailwater {
 
-struct TriangleMesh {
-  std::vector<Vec<3>> points;                 ///< m
-  std::vector<std::array<int, 3>> triangles;  ///< indices into `points`, counter-clockwise as their front sees them
-
+struct TriangleMesh : MeshTriangles {
   const Vec<3>& corner(int triangle, int c) const { return points[triangles[triangle][c]]; }
   /// At right angles to the triangle, on its front; its length is twice the area.
   Vec<3> area_normal(int triangle) const;

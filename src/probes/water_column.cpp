@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "base/for_each.h"
+#include "base/number_range.h"
 #include "geometry/from_spec.h"
 #include "probes/places.h"
 #include "probes/water_share.h"

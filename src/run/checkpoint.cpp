@@ -12,8 +12,8 @@
 #include "case/reader.h"
 #include "io/hdf5_image.h"
 #include "parallel/together.h"
+#include "results/provenance.h"
 #include "run/checkpoint_text.h"
-#include "run/provenance.h"
 
 namespace tailwater {
 namespace {

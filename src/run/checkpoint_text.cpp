@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "run/saved.h"
+#include "results/saved.h"
 
 namespace tailwater {
 

@@ -13,8 +13,8 @@
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "flow/stages.h"
-#include "formulations/make_flow.h"
 #include "geometry/mesh_surface.h"
+#include "published/make_flow.h"
 #include "run/inflow_estimate.h"
 #include "schemes/advance.h"
 

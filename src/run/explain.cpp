@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "case/named_numbers.h"
-#include "run/progress.h"
+#include "results/progress.h"
 
 namespace tailwater {
 namespace {

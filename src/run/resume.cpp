@@ -14,10 +14,10 @@
 #include "io/run_folder.h"
 #include "io/sealed_file.h"
 #include "parallel/together.h"
+#include "results/provenance.h"
+#include "results/summary_file.h"
 #include "run/checkpoint.h"
-#include "run/provenance.h"
 #include "run/run_case.h"
-#include "run/summary_file.h"
 
 namespace tailwater {
 namespace {

@@ -16,11 +16,11 @@
 #include "geometry/from_spec.h"
 #include "io/messages.h"
 #include "parallel/at_start.h"
+#include "results/summary_file.h"
 #include "run/estimate.h"
 #include "run/folder_output.h"
 #include "run/requests.h"
 #include "run/simulation.h"
-#include "run/summary_file.h"
 
 namespace tailwater {
 namespace {

@@ -13,12 +13,12 @@
 #include "io/write_file.h"
 #include "parallel/together.h"
 #include "parts/section_counters.h"
-#include "run/air_balance.h"
+#include "results/air_balance.h"
+#include "results/field_output.h"
+#include "results/probe_results.h"
+#include "results/provenance.h"
+#include "results/summary_file.h"
 #include "run/estimate.h"
-#include "run/field_output.h"
-#include "run/probe_results.h"
-#include "run/provenance.h"
-#include "run/summary_file.h"
 #include "walls/hidden_pairs.h"
 
 namespace tailwater {

@@ -5,7 +5,7 @@
 
 #include "base/for_each.h"
 #include "flow/stages.h"
-#include "formulations/make_flow.h"
+#include "published/make_flow.h"
 #include "schemes/advance.h"
 
 namespace tailwater {

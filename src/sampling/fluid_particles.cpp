@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/number_range.h"
 #include "base/random.h"
 #include "case/formulation.h"
 #include "case/named_numbers.h"

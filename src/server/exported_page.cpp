@@ -9,7 +9,7 @@
 #include "base/json.h"
 #include "io/base64.h"
 #include "io/deflate.h"
-#include "run/run_info.h"
+#include "results/run_info.h"
 #include "server/frame_index.h"
 #include "server/page.h"
 #include "server/run_watch.h"

@@ -8,7 +8,7 @@
 
 #include "base/json.h"
 #include "io/run_folder.h"
-#include "run/run_info.h"
+#include "results/run_info.h"
 
 namespace tailwater {
 namespace {

@@ -14,7 +14,7 @@
 #include "io/folder_lock.h"
 #include "io/run_folder.h"
 #include "io/write_file.h"
-#include "run/run_info.h"
+#include "results/run_info.h"
 #include "server/answers.h"
 #include "server/bounded_queue.h"
 #include "server/guard.h"

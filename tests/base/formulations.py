@@ -6,8 +6,8 @@ import sys
 
 # The case room knows the keys; the factory and the makers of the formulations read them.
 # run/explain.cpp tells the case in words, as it is written.
-MAY_ASK = ("case/", "formulations/", "robust/formulation.cpp", "published/farzin2014.cpp", "published/farmani2020.cpp",
-           "run/explain.cpp")
+MAY_ASK = ("case/", "case_help/help.cpp", "robust/formulation.cpp", "published/farzin2014.cpp", "published/farmani2020.cpp",
+           "published/make_flow.cpp", "run/explain.cpp")
 ASKS = re.compile(r"\b(SchemeName|Formulation|Integrator)::|\bscheme\.\w|\bstudy\.\w|\b(SchemeTable|StudyTable)\b")
 TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|//[^\n]*')
 

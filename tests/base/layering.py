@@ -7,7 +7,7 @@ import sys
 
 def room_order(src):
     text = (src / "CMakeLists.txt").read_text()
-    return re.search(r"foreach\(name ([a-z ]+)\)", text).group(1).split()
+    return re.search(r"foreach\(name ([a-z_ ]+)\)", text).group(1).split()
 
 
 def declared_rooms(room):

@@ -10,7 +10,7 @@
 #include "case/reader.h"
 #include "geometry/cases.h"
 #include "run/inflow_estimate.h"
-#include "run/pond.h"
+#include "support/pond.h"
 
 namespace tailwater {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "run/pond.h"
 #include "support/dimensions.h"
+#include "support/pond.h"
 
 namespace tailwater {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "io/temporary_folder.h"
-#include "run/pond.h"
 #include "support/dimensions.h"
+#include "support/pond.h"
 
 namespace tailwater {
 namespace {

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "flow/stages.h"
 #include "io/temporary_folder.h"
-#include "run/pond.h"
 #include "support/dimensions.h"
+#include "support/pond.h"
 
 namespace tailwater {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cases.h"
-#include "formulations/make_flow.h"
+#include "published/make_flow.h"
 #include "support/dimensions.h"
 
 namespace tailwater {

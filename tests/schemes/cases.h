@@ -6,8 +6,8 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
-#include "formulations/make_flow.h"
 #include "pressure/stages.h"
+#include "published/make_flow.h"
 #include "schemes/advance.h"
 
 namespace tailwater {

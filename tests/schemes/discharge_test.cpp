@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "formulations/make_flow.h"
 #include "parts/section_counters.h"
 #include "probes/discharge.h"
+#include "published/make_flow.h"
 #include "schemes/open_ends.h"
 
 namespace tailwater {

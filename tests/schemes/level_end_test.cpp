@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "case/formulation.h"
-#include "formulations/make_flow.h"
+#include "published/make_flow.h"
 #include "schemes/open_ends.h"
 
 namespace tailwater {

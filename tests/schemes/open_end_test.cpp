@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "formulations/make_flow.h"
 #include "parts/section_counters.h"
+#include "published/make_flow.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
 

@@ -1,0 +1,174 @@
+#include "case_help/schema_rules.h"
+
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+namespace tailwater {
+namespace {
+
+/// The key has one of these values, written out or, where `is_default`, left out.
+Json is(const char* key, std::initializer_list<const char*> values, bool is_default = false) {
+  Json rule{{"properties", {{key, {{"enum", Json(std::vector<const char*>(values))}}}}}};
+  if (!is_default) rule["required"] = Json::array({key});
+  return rule;
+}
+
+/// The case that a run leaves has "", 0 or [] for what is not given.
+Json is_given(const char* key) {
+  return {{"required", Json::array({key})}, {"properties", {{key, {{"not", {{"enum", {"", 0, Json::array()}}}}}}}}};
+}
+
+Json any_is_given(std::initializer_list<const char*> keys) {
+  Json any = Json::array();
+  for (const char* key : keys) any.push_back(is_given(key));
+  return {{"anyOf", std::move(any)}};
+}
+
+Json not_both(const char* one, const char* other) {
+  return {{"not", {{"allOf", Json::array({is_given(one), is_given(other)})}}}};
+}
+
+Json if_then(Json condition, Json rule) { return {{"if", std::move(condition)}, {"then", std::move(rule)}}; }
+
+Json rule_for(const char* key, Json rule) { return {{"properties", {{key, std::move(rule)}}}}; }
+
+Json needs(const char* key) { return {{"required", Json::array({key})}}; }
+
+Json one_of(std::initializer_list<const char*> values) { return {{"enum", Json(std::vector<const char*>(values))}}; }
+
+Json none_of(std::initializer_list<const char*> values) { return {{"not", one_of(values)}}; }
+
+Json at_least(int count) { return {{"minItems", count}}; }
+
+/// Not a vector of zeros.
+Json has_length() { return rule_for("direction", {{"not", {{"items", {{"const", 0}}}}}}); }
+
+Json rules_of_walls() {
+  const Json is_chain = is("shape", {"polyline"}, true);
+  const Json is_body = is("shape", {"polygon", "box"});
+  const Json is_mesh = is("shape", {"mesh"});
+  return Json::array({
+      if_then(is_chain, rule_for("fluid_side", one_of({"left", "right"}))),
+      if_then(is_body, rule_for("fluid_side", one_of({"inside", "outside"}))),
+      if_then(is_mesh, rule_for("fluid_side", none_of({"left", "right"}))),
+      if_then(is_mesh, needs("fluid_side")),
+      if_then(is("shape", {"polyline", "polygon"}, true), any_is_given({"points", "points_file"})),
+      rule_for("points", at_least(2)),
+      if_then(is("shape", {"polygon"}), rule_for("points", at_least(3))),
+      not_both("points", "points_file"),
+      not_both("roughness", "manning"),
+  });
+}
+
+Json rules_of_inlets() {
+  return Json::array({
+      any_is_given({"discharge", "velocity", "level", "file"}),
+      not_both("discharge", "velocity"),
+      if_then(is_given("profile"), any_is_given({"discharge", "velocity", "file"})),
+      if_then(is_given("reserve"), is_given("water_from")),
+      has_length(),
+  });
+}
+
+Json rules_of_wave_makers() {
+  return Json::array({
+      if_then(is("waves", {"none"}), is("absorption", {"active"})),
+      if_then(is("type", {"flap"}), rule_for("waves", none_of({"solitary"}))),
+      if_then(is("waves", {"jonswap"}), rule_for("ramp", {{"exclusiveMinimum", 0}})),
+  });
+}
+
+/// A body that is free to turn, as it is when nothing is said, needs its inertia.
+Json rules_of_bodies() {
+  const Json turn{{"pattern", "^rotation"}};
+  const Json no_turn =
+      Json::array({Json{{"type", "array"}, {"not", {{"contains", turn}}}}, Json{{"type", "string"}, {"not", turn}}});
+  Json does_not_turn = rule_for("free", {{"anyOf", no_turn}});
+  does_not_turn["required"] = Json::array({"free"});
+  return Json::array({
+      needs("walls"),
+      rule_for("walls", at_least(1)),
+      {{"anyOf", Json::array({does_not_turn, is_given("inertia")})}},
+  });
+}
+
+Json rules_of_probes() {
+  return Json::array({
+      rule_for("name", {{"pattern", "^[A-Za-z0-9_][A-Za-z0-9_-]{0,99}$"}}),
+      if_then(is_given("region_min"), needs("region_max")),
+      if_then(is_given("region_max"), needs("region_min")),
+      rule_for("times", {{"items", {{"minimum", 0}}}}),
+      has_length(),
+  });
+}
+
+/// Two numbers, or none.
+Json is_range() { return {{"maxItems", 2}, {"not", {{"minItems", 1}, {"maxItems", 1}}}}; }
+
+}  // namespace
+
+Json table_rules_of_schema(std::string_view table) {
+  if (table == "domain") {
+    return Json::array(
+        {rule_for("periodic_x", is_range()), rule_for("periodic_y", is_range()), rule_for("periodic_z", is_range())});
+  }
+  if (table == "fluid") return Json::array({rule_for("points", at_least(3))});
+  if (table == "wall") return rules_of_walls();
+  if (table == "inlet") return rules_of_inlets();
+  if (table == "outlet") return Json::array({has_length()});
+  if (table == "wave_maker") return rules_of_wave_makers();
+  if (table == "body") return rules_of_bodies();
+  if (table == "mooring") {
+    return Json::array({needs("body"), rule_for("body", {{"minLength", 1}, {"minItems", 1}, {"maxItems", 2}})});
+  }
+  if (table == "probe") return rules_of_probes();
+  return Json::array();
+}
+
+Json file_rules_of_schema() {
+  Json has_fluid = needs("fluid");
+  has_fluid["properties"]["fluid"] = at_least(1);
+  Json has_level_beyond = needs("outlet");
+  has_level_beyond["properties"]["outlet"] = {{"contains", {{"anyOf", Json::array({needs("level"), needs("file")})}}}};
+  const Json has_bodies{{"required", Json::array({"body"})}, {"properties", {{"body", at_least(1)}}}};
+  Json lets_bodies_float = rule_for("name", one_of({"farzin2014"}));
+  lets_bodies_float["properties"]["formulation"] = one_of({"robust"});
+  Json is_published = needs("scheme");
+  is_published["properties"]["scheme"] = is("formulation", {"published"});
+  Json is_two_step = needs("scheme");
+  is_two_step["properties"]["scheme"] = is("name", {"farmani2020"});
+  const Json has_studies{{"propertyNames", none_of({"divergence_free", "displacement"})}};
+  return Json::array({
+      {{"anyOf", Json::array({std::move(has_fluid), needs("inlet"), std::move(has_level_beyond)})}},
+      if_then(has_bodies, rule_for("scheme", std::move(lets_bodies_float))),
+      if_then(std::move(is_published), rule_for("study", {{"maxProperties", 0}})),
+      if_then(std::move(is_two_step), rule_for("study", has_studies)),
+  });
+}
+
+Json dimension_rules_of_schema(int dimension) {
+  const auto each = [](const char* key, Json rule) -> Json { return {{"items", rule_for(key, std::move(rule))}}; };
+  if (dimension == 2) {
+    const Json in_plane = none_of({"-z", "+z"});
+    Json wall = each("shape", none_of({"mesh"}));
+    wall["items"]["properties"]["open"] = {{"items", in_plane}};
+    wall["items"]["properties"]["axis"] = {{"items", {{"minimum", 0}, {"maximum", 0}}}};
+    return {{"fluid", each("shape", none_of({"mesh"}))},
+            {"wall", std::move(wall)},
+            {"gate", each("side", in_plane)},
+            {"wave_maker", each("side", in_plane)},
+            {"body", each("free", {{"items", one_of({"x", "y", "rotation"})}})},
+            {"damping", each("towards", in_plane)},
+            {"domain", rule_for("periodic_z", {{"maxItems", 0}})}};
+  }
+  Json wall{{"items", is("shape", {"box", "mesh", "plate"})}};
+  wall["items"]["allOf"] = Json::array({if_then(is_given("rotation"), needs("axis"))});
+  return {{"physics", rule_for("channel_width", {{"maximum", 0}})},
+          {"fluid", each("shape", none_of({"polygon"}))},
+          {"wall", std::move(wall)},
+          {"body", each("free", {{"items", none_of({"rotation"})}})}};
+}
+
+}  // namespace tailwater

@@ -1,0 +1,31 @@
+#include "published/make_flow.h"
+
+#include <array>
+
+#include "parts/section_counters.h"
+#include "published/farmani2020.h"
+#include "published/farzin2014.h"
+#include "robust/formulation.h"
+
+namespace tailwater {
+
+template <int Dim>
+FlowFormulation<Dim> make_formulation(const CaseSpec& spec) {
+  const bool is_published = spec.scheme.formulation == Formulation::published;
+  if (spec.scheme.name == SchemeName::farmani2020) {
+    return is_published ? published_farmani<Dim>(spec) : robust_farmani<Dim>(spec);
+  }
+  return is_published ? published_farzin<Dim>(spec) : robust_farzin<Dim>(spec);
+}
+
+template <int Dim>
+Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
+  // All parts that a flow can have, in the order in which the stages call them.
+  static constexpr std::array<PartMaker<Dim>, 1> parts{make_section_counters<Dim>};
+  return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
+}
+
+TAILWATER_IN_2D_AND_3D(make_formulation);
+TAILWATER_IN_2D_AND_3D(make_flow);
+
+}  // namespace tailwater

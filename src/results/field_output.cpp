@@ -1,0 +1,66 @@
+#include "results/field_output.h"
+
+#include <algorithm>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+
+template <int Dim>
+FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& particles,
+                              const std::vector<std::string>& names)
+    : names_(names) {
+  std::vector<std::size_t> fluid = indices_where(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
+  std::sort(fluid.begin(), fluid.end(),
+            [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
+  // Before the first step there are no work fields: the start is a lattice without marks.
+  const bool has_work_fields = !flow.surroundings.concentration.empty();
+  const auto make_room = [&](auto&... field) { (field.reserve(fluid.size()), ...); };
+  make_room(position_, velocity_, pressure_, density_error_, is_surface_, eddy_viscosity_, id_);
+  for (const std::size_t i : fluid) {
+    position_.push_back(particles.position[i]);
+    velocity_.push_back(particles.velocity[i]);
+    pressure_.push_back(particles.pressure[i]);
+    density_error_.push_back(has_work_fields ? flow.surroundings.concentration[i] - 1.0 : 0.0);
+    is_surface_.push_back(has_work_fields ? flow.surroundings.is_surface[i] : 0);
+    eddy_viscosity_.push_back(
+        spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], flow.setup.viscosity_law.molecular));
+    id_.push_back(particles.id[i]);
+  }
+}
+
+template <int Dim>
+ParticleFields<Dim> FluidFields<Dim>::view() const {
+  ParticleFields<Dim> result{.position = position_, .fields = {}};
+  for (const std::string& name : names_) {
+    if (name == "pressure") result.fields.push_back({name, pressure_});
+    if (name == "velocity") result.fields.push_back({name, velocity_});
+    if (name == "density_error") result.fields.push_back({name, density_error_});
+    if (name == "is_free_surface") result.fields.push_back({name, is_surface_});
+    if (name == "eddy_viscosity") result.fields.push_back({name, eddy_viscosity_});
+    if (name == "id") result.fields.push_back({name, id_});
+  }
+  return result;
+}
+
+template <int Dim>
+WallFields<Dim>::WallFields(const Boundary<Dim>& boundary) {
+  corner_.reserve(Dim * boundary.faces.size());
+  wall_.reserve(Dim * boundary.faces.size());
+  for (const WallFace<Dim>& face : boundary.faces) {
+    corner_.insert(corner_.end(), face.corners.begin(), face.corners.end());
+    wall_.insert(wall_.end(), Dim, face.wall);
+  }
+}
+
+template <int Dim>
+ParticleFields<Dim> WallFields<Dim>::view() const {
+  return {.position = corner_, .fields = {{"wall", wall_}}, .corners = Dim};
+}
+
+template class FluidFields<2>;
+template class FluidFields<3>;
+template class WallFields<2>;
+template class WallFields<3>;
+
+}  // namespace tailwater

@@ -1,0 +1,176 @@
+#include "results/probe_table.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string_view>
+
+#include "io/write_file.h"
+
+namespace tailwater {
+namespace {
+
+/// Calls take(k, field) for the fields of a line.
+template <class Take>
+void for_each_cell(std::string_view line, const Take& take) {
+  for (std::size_t k = 0, begin = 0; begin <= line.size(); ++k) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    take(k, line.substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
+
+double parsed_number(std::string_view field) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(field.data(), field.data() + field.size(), value);
+  return value;
+}
+
+/// Calls take(time, second, value) for the lines of a table that have a time and a number in the first column whose
+/// name is wanted; `second` is the number in the second column. Returns the name of the column.
+template <class Take>
+std::string read_column(const std::filesystem::path& path, const std::function<bool(std::string_view name)>& is_wanted,
+                        const Take& take) {
+  std::ifstream file(path);
+  if (!file) throw_io_error("read", path, errno);
+  std::string line;
+  std::getline(file, line);
+  std::string found;
+  std::size_t place = 0;
+  for_each_cell(line, [&](std::size_t k, std::string_view name) {
+    if (k == 0 || place > 0 || !is_wanted(name)) return;
+    place = k;
+    found = name;
+  });
+  while (place > 0 && std::getline(file, line)) {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    double second = time;
+    double value = time;
+    for_each_cell(line, [&](std::size_t k, std::string_view field) {
+      if (k == 0) time = parsed_number(field);
+      if (k == 1) second = parsed_number(field);
+      if (k == place) value = parsed_number(field);
+    });
+    if (!std::isnan(time) && !std::isnan(value)) take(time, second, value);
+  }
+  return found;
+}
+
+}  // namespace
+
+void ColumnDigest::add(double time, double value, double half) {
+  const bool is_first = count++ == 0;
+  if (is_first || value < least) least = value;
+  if (is_first || value > largest) {
+    largest = value;
+    time_of_largest = time;
+  }
+  const bool is_same_time = !is_first && time == last_time;
+  if (!is_first && time > last_time) add_rate(time, (value - last) / (time - last_time));
+  least_of_last = is_same_time ? std::min(least_of_last, value) : value;
+  largest_of_last = is_same_time ? std::max(largest_of_last, value) : value;
+  if (time >= half && !has_begun_half_) {
+    has_begun_half_ = true;
+    half_begin_ = is_first ? time : std::max(half, last_time);
+    const double share = is_first || time == last_time ? 1.0 : (half_begin_ - last_time) / (time - last_time);
+    value_at_half_ = is_first ? value : last + share * (value - last);
+    integral_ += 0.5 * (value_at_half_ + value) * (time - half_begin_);
+  } else if (has_begun_half_) {
+    integral_ += 0.5 * (last + value) * (time - last_time);
+  }
+  last = value;
+  last_time = time;
+}
+
+void ColumnDigest::add_rate(double time, double rate) {
+  constexpr double low = 0.1;
+  while (!rates_.empty() && rates_.back().value >= rate) rates_.pop_back();
+  if (rate > largest_rate) {
+    largest_rate = rate;
+    time_of_largest_rate = time;
+    const auto above = std::ranges::partition_point(rates_, [&](const Rate& one) { return one.value < low * rate; });
+    rise = above == rates_.begin() ? 0.0 : time - std::prev(above)->time;
+  }
+  rates_.push_back({time, rate});
+}
+
+double ColumnDigest::mean_of_second_half() const {
+  return has_begun_half_ && last_time > half_begin_ ? integral_ / (last_time - half_begin_) : last;
+}
+
+double ColumnDigest::rate_in_second_half() const {
+  return has_begun_half_ && last_time > half_begin_ ? (last - value_at_half_) / (last_time - half_begin_) : 0.0;
+}
+
+ProbeColumn read_probe_column(const std::filesystem::path& path,
+                              const std::function<bool(std::string_view name)>& is_wanted) {
+  ProbeColumn column;
+  column.name = read_column(path, is_wanted, [&](double time, double, double value) {
+    if (!column.time.empty() && time <= column.time.back()) {
+      column.time.pop_back();
+      column.value.pop_back();
+    }
+    column.time.push_back(time);
+    column.value.push_back(value);
+  });
+  return column;
+}
+
+ProbeProfiles read_probe_profiles(const std::filesystem::path& path,
+                                  const std::function<bool(std::string_view name)>& is_wanted) {
+  ProbeProfiles profiles;
+  profiles.name = read_column(path, is_wanted, [&](double time, double x, double value) {
+    if (profiles.time.empty() || time > profiles.time.back()) {
+      profiles.time.push_back(time);
+      profiles.x.emplace_back();
+      profiles.value.emplace_back();
+    }
+    profiles.x.back().push_back(x);
+    profiles.value.back().push_back(value);
+  });
+  return profiles;
+}
+
+TableDigest digest_probe_table(const std::filesystem::path& path, double half) {
+  std::ifstream file(path);
+  if (!file) throw_io_error("read", path, errno);
+  TableDigest table;
+  std::string line;
+  std::getline(file, line);
+  std::vector<std::size_t> force;  // columns of its components
+  for_each_cell(line, [&](std::size_t k, std::string_view name) {
+    if (k == 0) return;
+    if (name.starts_with("force_")) force.push_back(k - 1);
+    table.names.emplace_back(name);
+  });
+  const std::size_t own = table.names.size();
+  if (!force.empty()) {
+    const std::string& first = table.names[force.front()];  // force_x_N_per_m
+    table.names.push_back(magnitude_of_force + first.substr(std::string_view("force_x_").size()));
+  }
+  table.columns.resize(table.names.size());
+  std::vector<double> row(own);
+  while (std::getline(file, line)) {
+    std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
+    double time = 0.0;
+    for_each_cell(line, [&](std::size_t k, std::string_view field) {
+      if (k == 0) time = parsed_number(field);
+      if (k > 0 && k <= own) row[k - 1] = parsed_number(field);
+    });
+    if (std::isnan(time)) continue;
+    table.last_time = time;
+    for (std::size_t k = 0; k < own; ++k) {
+      if (!std::isnan(row[k])) table.columns[k].add(time, row[k], half);
+    }
+    if (force.empty()) continue;
+    double squares = 0.0;
+    for (const std::size_t k : force) squares += row[k] * row[k];
+    if (!std::isnan(squares)) table.columns.back().add(time, std::sqrt(squares), half);
+  }
+  return table;
+}
+
+}  // namespace tailwater

@@ -1,0 +1,102 @@
+// What is told of the tables of probes at the end of a run.
+#include "results/probe_results.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "case/reader.h"
+#include "io/temporary_folder.h"
+#include "results/probe_table.h"
+
+namespace tailwater {
+namespace {
+
+TEST(ProbeTable, MeansAreOverTimeAndLinearBetweenReadings) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  // From t = 2 on: 1 s at 1, then a line up to 3 at t = 4, whose mean is 2. The reading at t = 1 is 5: at 2 it is 1.
+  std::ofstream(path) << "time_s,a_m,volume_m3\n0,9,0\n1,5,1\n2,1,2\n3,1,4\n4,3,8\n";
+  const TableDigest table = digest_probe_table(path, 2.0);
+  ASSERT_EQ(table.names, (std::vector<std::string>{"a_m", "volume_m3"}));
+  EXPECT_DOUBLE_EQ(table.columns[0].mean_of_second_half(), 0.5 * (1.0 + 2.0));
+  EXPECT_DOUBLE_EQ(table.columns[1].rate_in_second_half(), 3.0);
+  EXPECT_EQ(table.columns[0].least, 1.0);
+  EXPECT_EQ(table.columns[0].largest, 9.0);
+  EXPECT_EQ(table.columns[0].time_of_largest, 0.0);
+  // Where the half begins between two readings, the first is interpolated: 3 at t = 1.5.
+  EXPECT_DOUBLE_EQ(digest_probe_table(path, 1.5).columns[0].mean_of_second_half(), (0.5 * 2.0 + 1.0 + 2.0) / 2.5);
+}
+
+TEST(ProbeTable, OneReadingAndNumbersThatAreNone) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  std::ofstream(path) << "time_s,a_m,b_m\n0,2,nan\n";
+  const TableDigest table = digest_probe_table(path, 0.0);
+  EXPECT_EQ(table.columns[0].mean_of_second_half(), 2.0);
+  EXPECT_EQ(table.columns[1].count, 0u);
+  EXPECT_THROW(digest_probe_table(folder.path() / "no.csv", 0.0), IoError);
+}
+
+TEST(ProbeTable, HasTheMagnitudeOfAForceAndTheLinesOfTheLastTime) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  std::ofstream(path) << "time_s,force_x_N_per_m,force_y_N_per_m\n0,1,0\n1,3,4\n1,0,-2\n";
+  const TableDigest table = digest_probe_table(path, 0.5);
+  ASSERT_EQ(table.names.back(), "force_magnitude_N_per_m");
+  EXPECT_DOUBLE_EQ(table.columns.back().largest, 5.0);
+  EXPECT_EQ(table.columns[1].least_of_last, -2.0);
+  EXPECT_EQ(table.columns[1].largest_of_last, 4.0);
+}
+
+/// The words and units of a probe of the given type whose table has this text.
+class Results : public testing::Test {
+ protected:
+  std::string words(const std::string& type_and_keys, const std::string& table, double time, int dimension = 2) const {
+    const std::string zeros = dimension == 2 ? "[0, 0]" : "[0, 0, 0]", ones = dimension == 2 ? "[1, 1]" : "[1, 1, 1]";
+    const CaseSpec spec =
+        read_case_text("case.dimension = " + std::to_string(dimension) +
+                           "\nparticles.spacing = 0.1\ntime.end = 1\n[[fluid]]\nmin = " + zeros + "\nmax = " + ones +
+                           "\n[[probe]]\nname = \"p\"\ntype = " + type_and_keys + "\n",
+                       "case.toml");
+    const TemporaryFolder home;
+    const RunFolder folder = RunFolder::create(home.path() / "run", false);
+    std::ofstream(folder.probe("p")) << table;
+    const std::vector<ProbeResult> results = probe_results(spec, folder, time);
+    if (results.empty()) return "";
+    EXPECT_EQ(json_of(results)["p"]["words"], results[0].words());
+    EXPECT_EQ(json_of(results)["p"]["quantities"].size(), results[0].quantities.size());
+    return results[0].words();
+  }
+};
+
+TEST_F(Results, AreToldInWords) {
+  EXPECT_EQ(words("\"depth\"\nat = [0, 0]",
+                  "time_s,connected_m,highest_m,wet_m\n0,0.2,0.3,0.2\n1,0.289,0.289,0.2\n"
+                  "2,0.289,0.29,0.2\n",
+                  2.0),
+            "0.2890 m (mean of the second half), highest 0.3000 m (at 0 s)");
+  EXPECT_EQ(
+      words("\"force\"\nmoment_about = [0, 0]",
+            "time_s,force_x_N_per_m,force_y_N_per_m,pressure_x_N_per_m\n0,0,0,0\n1,380,-12,0\n2,380,-12,0\n", 2.0),
+      "x 380.0 N/m, y -12.00 N/m (mean of the second half), largest 380.2 N/m (at 1 s)");
+  EXPECT_EQ(
+      words("\"discharge\"\nfrom = [0, 0]\nto = [0, 1]",
+            "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n1,0.06,0.01\n2,0.04,0.06\n", 2.0),
+      "0.05000 m^3/s per m (mean of the second half), largest 0.06000 m^3/s per m (at 1 s, smoothed over 0.64 s)");
+  // From the impulse alone: what the pressure was at the lines themselves is not told.
+  EXPECT_EQ(
+      words("\"wall-pressure\"\nat = [0, 0, 0]",
+            "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,0,0\n1.5,99,50\n2,9000,6050\n3,7000,7050\n4,900,7950\n", 4.0, 3),
+      "950.0 Pa (mean of the second half), largest 12000 Pa (at 2 s), risen in 0.5000 s (from a tenth of it), "
+      "impulse 7950 Pa s (at 4 s)");
+  EXPECT_EQ(
+      words("\"wall-pressure\"\nat = [0, 0, 0]", "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,12,12\n2,9,21\n", 2.0, 3),
+      "9.000 Pa (mean of the second half), largest 12.00 Pa (at 1 s), impulse 21.00 Pa s (at 2 s)");
+  EXPECT_EQ(words("\"depth\"\nat = [0, 0]", "time_s,connected_m,highest_m,wet_m\n", 2.0), "");
+}
+
+}  // namespace
+}  // namespace tailwater

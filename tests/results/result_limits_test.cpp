@@ -1,0 +1,59 @@
+// When a run warns of its own results.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/json.h"
+#include "io/messages.h"
+#include "results/result_limits.h"
+#include "support/pond.h"
+
+namespace tailwater {
+namespace {
+
+/// Of a pond: rises in shares of m g L/2, and the warnings that they gave.
+class Limits {
+ public:
+  Limits() : flow_(make_flow<2>(pond_case<2>())), limits_(LimitsTable{}, flow_), before_(warnings().size()) {}
+
+  void rise_to(double share) {
+    const double mass = fluid_sums_of_rank(flow_).mass;
+    limits_.check(flow_.state.time, share * 0.5 * mass * flow_.setup.gravity.norm() * flow_.setup.length, {});
+  }
+  double rows() const { return flow_.setup.length / flow_.setup.spacing; }
+  ResultLimits& limits() { return limits_; }
+  std::size_t count() const { return warnings().size() - before_; }
+
+ private:
+  Flow<2> flow_;
+  ResultLimits limits_;
+  std::size_t before_;
+};
+
+// A lift of all water by dx/20 takes 0.1 dx/L of m g L/2.
+TEST(ResultLimits, IsSilentOfWhatTheLatticeDoesNotResolve) {
+  Limits run;
+  const double harmless = 0.1 / run.rows();
+  run.rise_to(0.99 * harmless);
+  EXPECT_EQ(run.count(), 0U);
+  run.rise_to(1.01 * harmless);
+  EXPECT_EQ(run.count(), 1U);
+}
+
+TEST(ResultLimits, TellsInTheEndWhatTheEnergyRoseTo) {
+  Limits run;
+  run.rise_to(0.2);
+  run.rise_to(33.0);
+  ASSERT_EQ(run.count(), 1U);
+  ResultLimits& limits = run.limits();
+  const Json saved = limits.saved();
+  limits.restore(saved);
+  limits.warn_of_largest();
+  ASSERT_EQ(run.count(), 2U);
+  EXPECT_NE(warnings().back().find("3.3e+03 %"), std::string::npos) << warnings().back();
+  limits.warn_of_largest();
+  EXPECT_EQ(run.count(), 2U);
+}
+
+}  // namespace
+}  // namespace tailwater
