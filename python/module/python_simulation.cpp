@@ -172,7 +172,8 @@ void PythonSimulation<Dim>::steer(const std::string& name, std::function<std::ve
         name, Dim == 2 ? "0, " : "0, 0, "));
   }
   const std::string label = wall_label(flow.walls.boundary, wall->wall);
-  if (wall->maker >= 0 && flow.setup.wave_plates[static_cast<std::size_t>(wall->maker)].absorbs) {
+  if (wall->maker >= 0 &&
+      spec_.wave_makers[static_cast<std::size_t>(wall->maker)].absorption == Absorption::active) {
     throw InputError(fmt::format("{}: the water moves it too; remedy: absorption = \"none\"", label));
   }
   GivenMotion<Dim> given{

@@ -62,8 +62,7 @@ template <int Dim>
 AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary) {
   if (spec.air.pockets == AirPockets::none) return {};
   Eigen::AlignedBox<double, Dim> box = box_around_case(boundary, setup.open_ends);
-  MotionState<Dim> start;
-  start.wave_makers.resize(setup.wave_plates.size());
+  const MotionState<Dim> start = initial_motion<Dim>(spec);
   for (const auto& moving : setup.wall_motion.moving()) {
     if (moving.body >= 0) continue;  // it stays where water is
     for (int k = 0; k <= looks_at_moving_walls; ++k) {
@@ -122,8 +121,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   drawing.fluid = {};
   decomposition.repartition(particles, neighbourhood.work(particles));
   state.wall_velocity.assign(walls.moving, Vec<Dim>::Zero());
-  state.motion.wave_makers.resize(setup.wave_plates.size());
-  for (const FloatingBody<Dim>& body : setup.bodies) state.motion.bodies.each.push_back(body.drawn);
+  state.motion = initial_motion<Dim>(spec);
   setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
   pressure_rows.set_constant_is_free(setup.is_closed);

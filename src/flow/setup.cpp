@@ -106,13 +106,6 @@ void require_wide_channel(const ViscosityLaw& law, const TimeStepRule& rule) {
 }
 
 template <int Dim>
-std::vector<WavePlate<Dim>> make_wave_plates(const CaseSpec& spec) {
-  std::vector<WavePlate<Dim>> plates;
-  for (const WaveMakerTable& maker : spec.wave_makers) plates.emplace_back(spec, maker);
-  return plates;
-}
-
-template <int Dim>
 std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
   std::vector<DampingZone<Dim>> zones;
   for (const DampingTable& table : spec.damping) zones.emplace_back(table);
@@ -158,7 +151,6 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       wall_traits(formulation.walls->traits()),
       wall_motion(std::move(drawing.wall_motion)),
       open_ends(make_ends<Dim>(spec)),
-      wave_plates(make_wave_plates<Dim>(spec)),
       bodies(make_bodies<Dim>(spec)),
       moorings(make_moorings<Dim>(spec)),
       body_of_wall(bodies_of_walls(bodies, drawing.walls.boundary.walls.size())),

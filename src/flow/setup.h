@@ -61,8 +61,7 @@ struct Setup {
   bool is_closed;            ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
-  std::vector<OpenEnd<Dim>> open_ends;      ///< one per inlet, then one per outlet
-  std::vector<WavePlate<Dim>> wave_plates;  ///< one per wave maker
+  std::vector<OpenEnd<Dim>> open_ends;  ///< one per inlet, then one per outlet
   std::vector<FloatingBody<Dim>> bodies;
   std::vector<Mooring<Dim>> moorings;
   std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1

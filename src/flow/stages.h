@@ -79,12 +79,6 @@ void watch_air(Flow<Dim>& flow);
 template <int Dim>
 void count_displacement_for_air(Flow<Dim>& flow, double dt);
 
-/// Finds the speed with which absorbing wave makers give way in this step to the waves that are not their own: the
-/// difference between the elevation in front of them and that of their own waves, times a gain (docs/theory/waves.md).
-/// Call once per step, at the positions where it starts.
-template <int Dim>
-void steer_wave_makers(Flow<Dim>& flow);
-
 /// Removes and counts the particles that have passed an open end outwards, and those that have fallen below all walls
 /// and would fall for ever. Returns whether this rank had any; if so, its indices have changed and its lists are gone.
 /// Call between steps only. Collective.

@@ -185,6 +185,14 @@ AffineMap<Dim> WallMotion<Dim>::MovingWall::mean_velocity(double from, double to
 }
 
 template <int Dim>
+MotionState<Dim> initial_motion(const CaseSpec& spec) {
+  MotionState<Dim> motion;
+  motion.wave_makers.resize(spec.wave_makers.size());
+  for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) motion.bodies.each.push_back(body.drawn);
+  return motion;
+}
+
+template <int Dim>
 WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const WallParticles<Dim>& particles) {
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (!boundary.walls[w].moves()) continue;
@@ -289,6 +297,7 @@ void WallMotion<Dim>::steer(std::size_t which, GivenMotion<Dim> given, double ti
 }
 
 TAILWATER_IN_2D_AND_3D(moved);
+TAILWATER_IN_2D_AND_3D(initial_motion);
 template class WrittenMotion<2>;
 template class WrittenMotion<3>;
 template class MotionOfFile<2>;

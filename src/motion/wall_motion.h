@@ -131,6 +131,10 @@ struct MotionState {
   BodyStates<Dim> bodies;
 };
 
+/// At the start: no wave maker has given way, and the bodies are where they are drawn.
+template <int Dim>
+MotionState<Dim> initial_motion(const CaseSpec& spec);
+
 /// All walls of a case that move, as they are drawn.
 template <int Dim>
 class WallMotion {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "parts/section_counters.h"
+#include "parts/wave_makers.h"
 #include "published/farmani2020.h"
 #include "published/farzin2014.h"
 #include "robust/formulation.h"
@@ -21,7 +22,10 @@ FlowFormulation<Dim> make_formulation(const CaseSpec& spec) {
 template <int Dim>
 Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   // All parts that a flow can have, in the order in which the stages call them.
-  static constexpr std::array<PartMaker<Dim>, 1> parts{make_section_counters<Dim>};
+  static constexpr std::array parts{
+      make_wave_makers<Dim>,
+      make_section_counters<Dim>,
+  };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }
 

@@ -9,7 +9,6 @@ StepStart<Dim> begin_step(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
   assign_roles(flow);
   update_open_ends(flow, dt);
-  steer_wave_makers(flow);
   watch_air(flow);
   for (const auto& part : flow.parts) part->begin_step(flow, dt);
   StepStart<Dim> start = save_step_start(flow);

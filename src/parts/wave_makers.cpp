@@ -1,7 +1,9 @@
+#include "parts/wave_makers.h"
+
 #include <cmath>
 
 #include "base/for_each.h"
-#include "flow/stages.h"
+#include "flow/flow.h"
 
 namespace tailwater {
 namespace {
@@ -25,10 +27,11 @@ double depth_before(const WavePlate<Dim>& plate, const Vec<Dim>& face, const Flo
 }  // namespace
 
 template <int Dim>
-void steer_wave_makers(Flow<Dim>& flow) {
+void WaveMakers<Dim>::begin_step(Flow<Dim>& flow, double dt) {
+  if (dt == 0.0) return;  // no plate moves
   const double time = flow.state.time;
-  for (std::size_t m = 0; m < flow.setup.wave_plates.size(); ++m) {
-    const WavePlate<Dim>& plate = flow.setup.wave_plates[m];
+  for (std::size_t m = 0; m < plates_.size(); ++m) {
+    const WavePlate<Dim>& plate = plates_[m];
     if (!plate.absorbs) continue;
     MakerState& maker = flow.state.motion.wave_makers[m];
     maker.correction = maker.at(time);
@@ -39,6 +42,17 @@ void steer_wave_makers(Flow<Dim>& flow) {
   }
 }
 
-TAILWATER_IN_2D_AND_3D(steer_wave_makers);
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_wave_makers(const CaseSpec& spec, const Setup<Dim>& /*setup*/,
+                                            const Boundary<Dim>& /*boundary*/) {
+  if (spec.wave_makers.empty()) return nullptr;
+  std::vector<WavePlate<Dim>> plates;
+  for (const WaveMakerTable& maker : spec.wave_makers) plates.emplace_back(spec, maker);
+  return std::make_unique<WaveMakers<Dim>>(std::move(plates));
+}
+
+template class WaveMakers<2>;
+template class WaveMakers<3>;
+TAILWATER_IN_2D_AND_3D(make_wave_makers);
 
 }  // namespace tailwater
