@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/for_each.h"
-#include "closures/wall_law.h"
 #include "neighbours/pair_lanes.h"
 #include "operators/laplacian_morris.h"
 
@@ -122,15 +121,6 @@ struct ViscousPairs {
 };
 
 }  // namespace
-
-double ViscosityLaw::side_wall_rate(double speed) const {
-  if (channel_width == 0.0) return 0.0;
-  const double laminar = 12.0 * molecular / channel_width / channel_width;
-  if (speed == 0.0) return laminar;
-  const WallLaw law{molecular, channel_roughness};
-  const double u_tau = law.turbulent_friction_velocity_of_mean(speed, 0.5 * channel_width);
-  return std::max(laminar, 2.0 * u_tau * u_tau / (channel_width * speed));
-}
 
 template <int Dim>
 void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velocity, std::span<double> viscosity) {

@@ -1,7 +1,6 @@
-// Effective viscosity, the viscous acceleration and the friction of side walls.
+// Effective viscosity and the viscous acceleration.
 //
-//   nu_eff = nu_0 + c_a |u| dx                               (F3)
-//   a = -2 tau_side(|u|)/(rho b) u/|u|                       side walls of a channel of width b, in 2D
+//   nu_eff = nu_0 + c_a |u| dx    (F3)
 //
 // (F3) vanishes at rest, and a jittered tank then boils (docs/theory/closures.md). It has nothing to do with a wall: as
 // its friction it gave a smooth wall the stress 0.034 rho u^2, twenty times that of water. What a wall has is in
@@ -16,17 +15,10 @@
 namespace tailwater {
 
 struct ViscosityLaw {
-  double molecular = 0.0;          ///< m^2/s; nu_0
-  double artificial = 0.0;         ///< m; c_a dx, times |u| gives nu_a
-  double channel_width = 0.0;      ///< m; b between two side walls; 0 if there are none
-  double channel_roughness = 0.0;  ///< m; k_s of these walls
+  double molecular = 0.0;   ///< m^2/s; nu_0
+  double artificial = 0.0;  ///< m; c_a dx, times |u| gives nu_a
 
   double at_speed(double speed) const { return molecular + artificial * speed; }
-
-  /// Rate [1/s] at which the two side walls slow water of this speed, averaged over the width: 2 tau/(rho b u). tau/rho
-  /// is the larger of two values: 6 nu u/b, laminar flow between plates, and u_tau^2 of the turbulent wall law, whose
-  /// mean over 0 .. b/2 is the speed. 0 without side walls.
-  double side_wall_rate(double speed) const;
 };
 
 /// Effective viscosity [m^2/s] of every particle, ghosts included.

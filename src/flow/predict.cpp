@@ -40,21 +40,13 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   for (const auto& part : flow.parts) part->follow_friction(flow, walls, predicted.velocity_gradient, dt);
 }
 
-/// Slows the water between a 2D channel's side walls and in damping zones: with the rate s the step ends with
-/// (u + dt a)/(1 + s dt), which is stable for any s.
+/// Slows the water down at the rates of the parts. The step ends with (u + dt a)/(1 + rate dt).
 template <int Dim>
 void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& acceleration) {
-  const ViscosityLaw& law = flow.setup.viscosity_law;
-  std::vector<double> of_parts;
-  for (const auto& part : flow.parts) part->add_damping_rate(flow, start, of_parts);
-  if (of_parts.empty() && flow.setup.damping.empty() && law.channel_width == 0.0) return;
-  const Particles<Dim>& particles = flow.state.particles;
-  for_each(particles.owned, [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return;
-    double rate = law.side_wall_rate(start.velocity[i].norm());
-    for (const DampingZone<Dim>& zone : flow.setup.damping) rate += zone.rate_at(start.position[i]);
-    if (!of_parts.empty()) rate += of_parts[i];
-    if (rate > 0.0) acceleration[i] = (acceleration[i] - rate * start.velocity[i]) / (1.0 + rate * dt);
+  std::vector<double> rate;
+  for (const auto& part : flow.parts) part->add_damping_rate(flow, start, rate);
+  for_each(rate.size(), [&](std::size_t i) {
+    if (rate[i] > 0.0) acceleration[i] = (acceleration[i] - rate[i] * start.velocity[i]) / (1.0 + rate[i] * dt);
   });
 }
 

@@ -93,25 +93,6 @@ double depth_scale(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const
   return depth;
 }
 
-/// Throws InputError where the side walls are so near to each other that water comes to rest within a step.
-void require_wide_channel(const ViscosityLaw& law, const TimeStepRule& rule) {
-  if (law.channel_width == 0.0 || rule.reference_speed == 0.0) return;
-  const double step = rule.largest(0.0, 0.0);
-  const double least = std::sqrt(12.0 * law.molecular * step);  // 12 nu/b^2 dt = 1
-  if (law.channel_width >= least) return;
-  throw InputError(
-      "physics.channel_width = {:.6g} m: between side walls so near to each other water comes to rest within a time "
-      "step of {:.3g} s: give at least {:.3g} m, or 0 for none",
-      law.channel_width, step, least);
-}
-
-template <int Dim>
-std::vector<DampingZone<Dim>> make_damping(const CaseSpec& spec) {
-  std::vector<DampingZone<Dim>> zones;
-  for (const DampingTable& table : spec.damping) zones.emplace_back(table);
-  return zones;
-}
-
 template <int Dim>
 std::vector<VentPlace<Dim>> make_vents(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   std::vector<VentPlace<Dim>> vents;
@@ -156,7 +137,6 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       body_of_wall(bodies_of_walls(bodies, drawing.walls.boundary.walls.size())),
       contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
       vents(make_vents(spec, drawing.walls.boundary)),
-      damping(make_damping<Dim>(spec)),
       kernel(formulation.kernel),
       lattice(lattice_sums(kernel, spacing)),
       kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {
@@ -169,10 +149,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
     }
   }
   const double g = gravity.norm();
-  viscosity_law = {.molecular = spec.physics.viscosity,
-                   .artificial = formulation.artificial_viscosity * spacing,
-                   .channel_width = spec.physics.channel_width,
-                   .channel_roughness = spec.physics.channel_roughness};
+  viscosity_law = {.molecular = spec.physics.viscosity, .artificial = formulation.artificial_viscosity * spacing};
   const bool has_friction =
       std::ranges::any_of(drawing.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction > 0.0; });
   has_boundary_layers = formulation.has_eddy_viscosity && has_friction;
@@ -186,7 +163,6 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                     .reference_speed = reference_speed,
                     .viscous_share = formulation.viscous_share};
   if (reference_speed > 0.0) time_step_rule.fastest = formulation.fastest_over_reference * reference_speed;
-  require_wide_channel(viscosity_law, time_step_rule);
 }
 
 template struct Drawing<2>;

@@ -5,7 +5,6 @@
 
 #include "closures/time_step.h"
 #include "closures/viscosity.h"
-#include "flow/damping.h"
 #include "flow/formulation.h"
 #include "flow/open_end.h"
 #include "motion/body_contact.h"
@@ -67,7 +66,6 @@ struct Setup {
   std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
   ContactSurfaces<Dim> contact;   ///< of the bodies
   std::vector<VentPlace<Dim>> vents;
-  std::vector<DampingZone<Dim>> damping;
   Kernel<Dim> kernel;
   LatticeSums lattice;
   KernelValues kernel_values;

@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include "parts/damping_zones.h"
 #include "parts/section_counters.h"
+#include "parts/side_walls.h"
 #include "parts/wave_makers.h"
 #include "published/farmani2020.h"
 #include "published/farzin2014.h"
@@ -24,6 +26,8 @@ Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   // All parts that a flow can have, in the order in which the stages call them.
   static constexpr std::array parts{
       make_wave_makers<Dim>,
+      make_side_walls<Dim>,
+      make_damping_zones<Dim>,
       make_section_counters<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);

@@ -1,6 +1,7 @@
 // Cases built in code, and the loop of a run.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,12 @@
 namespace tailwater {
 
 constexpr double g = 9.81;
+
+template <class P, int Dim>
+bool has_part(const Flow<Dim>& flow) {
+  return std::ranges::any_of(flow.parts,
+                             [](const auto& part) { return dynamic_cast<const P*>(part.get()) != nullptr; });
+}
 
 /// No walls, no gravity, no numerical viscosity.
 inline CaseSpec free_case(double spacing) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "case/driven_walls.h"
+#include "parts/damping_zones.h"
 #include "parts/wave_makers.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"

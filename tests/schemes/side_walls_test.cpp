@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "base/error.h"
+#include "closures/wall_law.h"
+#include "parts/side_walls.h"
 #include "schemes/cases.h"
 
 namespace tailwater {
@@ -19,18 +21,43 @@ CaseSpec uniform_flow(double speed, double channel_width) {
   return spec;
 }
 
+TEST(SideWalls, StressIsTheMeanOfTheLogarithmicLawOverHalfTheWidth) {
+  const double nu = 1e-6;
+  const double b = 0.3;
+  for (const double roughness : {0.0, 0.002}) {
+    const SideWallLaw law{.viscosity = nu, .width = b, .roughness = roughness};
+    for (const double u_tau : {0.01, 0.1}) {
+      // The mean of u_tau/kappa ln(1 + y/y_0) over y = 0 .. b/2, by the trapezoidal rule.
+      const double y_0 = 0.11 * nu / u_tau + roughness / 30.0;
+      const int pieces = 200000;
+      double mean = 0.0;
+      for (int k = 0; k < pieces; ++k) {
+        mean += u_tau / von_karman * std::log1p((k + 0.5) / pieces * 0.5 * b / y_0) / pieces;
+      }
+      EXPECT_NEAR(law.rate(mean) * mean, 2.0 * u_tau * u_tau / b, 1e-4 * u_tau * u_tau / b);
+    }
+  }
+  // Slow water: the two walls of plane Poiseuille flow, whose pressure gradient is 12 nu u/b^2.
+  EXPECT_DOUBLE_EQ((SideWallLaw{.viscosity = nu, .width = b}.rate(1e-9)), 12.0 * nu / (b * b));
+}
+
 TEST(SideWalls, SlowTheWaterAgainstItsVelocityAndNeverTurnItRound) {
   constexpr double round_off = std::numeric_limits<float>::epsilon();  // pairs are added in single precision
   for (const double width : {0.3, 1e-3, 1e-4, 1e-9}) {                 // the last two bring it to rest within a step
     Flow<2> flow = make_flow<2>(uniform_flow(1.0, width));
     const double dt = next_time_step(flow);
     step(flow);
-    const double expected = 1.0 / (1.0 + dt * flow.setup.viscosity_law.side_wall_rate(1.0));
+    const double expected = 1.0 / (1.0 + dt * flow.part<SideWalls<2>>().law().rate(1.0));
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
       EXPECT_NEAR(flow.state.particles.velocity[i][0], expected, round_off) << width;
       EXPECT_NEAR(flow.state.particles.velocity[i][1], 0.0, round_off) << width;
     }
   }
+}
+
+TEST(SideWalls, AreNoPartOfAFlowWithoutThem) {
+  EXPECT_FALSE(has_part<SideWalls<2>>(make_flow<2>(uniform_flow(1.0, 0.0))));
+  EXPECT_TRUE(has_part<SideWalls<2>>(make_flow<2>(uniform_flow(1.0, 0.3))));
 }
 
 TEST(SideWalls, ThatBringAllWaterToRestWithinAStepAreRefused) {

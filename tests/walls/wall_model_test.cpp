@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "closures/viscosity.h"
+#include "closures/wall_law.h"
 #include "support/dimensions.h"
 #include "support/rounding.h"
 #include "support/wetted_wall.h"
@@ -187,27 +187,6 @@ TYPED_TEST(WallTest, WallsFeelTheOppositeOfTheirFriction) {
     EXPECT_GT(size, 0.0);
     EXPECT_LT(sum.norm(), 100.0 * eps * size);
   }
-}
-
-TEST(SideWalls, StressIsTheMeanOfTheLogarithmicLawOverHalfTheWidth) {
-  const double nu = 1e-6;
-  const double b = 0.3;
-  for (const double roughness : {0.0, 0.002}) {
-    const ViscosityLaw law{.molecular = nu, .channel_width = b, .channel_roughness = roughness};
-    for (const double u_tau : {0.01, 0.1}) {
-      // The mean of u_tau/kappa ln(1 + y/y_0) over y = 0 .. b/2, by the trapezoidal rule.
-      const double y_0 = 0.11 * nu / u_tau + roughness / 30.0;
-      const int pieces = 200000;
-      double mean = 0.0;
-      for (int k = 0; k < pieces; ++k) {
-        mean += u_tau / von_karman * std::log1p((k + 0.5) / pieces * 0.5 * b / y_0) / pieces;
-      }
-      EXPECT_NEAR(law.side_wall_rate(mean) * mean, 2.0 * u_tau * u_tau / b, 1e-4 * u_tau * u_tau / b);
-    }
-  }
-  // Slow water: the two walls of plane Poiseuille flow, whose pressure gradient is 12 nu u/b^2.
-  EXPECT_DOUBLE_EQ((ViscosityLaw{.molecular = nu, .channel_width = b}.side_wall_rate(1e-9)), 12.0 * nu / (b * b));
-  EXPECT_EQ((ViscosityLaw{.molecular = nu}.side_wall_rate(3.0)), 0.0);
 }
 
 }  // namespace wall_model_test
