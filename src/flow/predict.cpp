@@ -7,23 +7,18 @@
 namespace tailwater {
 namespace {
 
-/// Adds the friction of the case's walls, and finds the layers that it makes.
+/// Adds the friction of the case's walls.
 template <int Dim>
 void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   const bool is_slippery =
       std::ranges::all_of(flow.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction == 0.0; });
-  const bool adds_friction = !setup.formulation.friction_is_viscous && !is_slippery;
-  if (!adds_friction && !setup.has_boundary_layers) return;
+  if (setup.formulation.friction_is_viscous || is_slippery) return;
 
   const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
   const std::vector<FrictionWall<Dim>> walls =
       find_friction_walls<Dim>(flow.wall_scene(), setup.friction_law, V, particles.velocity);
-  if (setup.has_boundary_layers) {
-    predicted.layers = next_boundary_layers<Dim>(flow, walls, predicted.velocity_gradient, dt);
-  }
-  if (!adds_friction) return;
   std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
   flow.wall_model().find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
   flow.halo().exchange(no_slip);

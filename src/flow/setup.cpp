@@ -150,13 +150,10 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
   }
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity, .artificial = formulation.artificial_viscosity * spacing};
-  const bool has_friction =
-      std::ranges::any_of(drawing.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction > 0.0; });
-  has_boundary_layers = formulation.has_eddy_viscosity && has_friction;
   friction_law = {.viscosity = spec.physics.viscosity,
                   .spacing = spacing,
                   .exchange_length = 1.0 / lattice.across_plane,
-                  .knows_layers = has_boundary_layers};
+                  .knows_layers = formulation.has_eddy_viscosity};
   const double reference_speed = std::sqrt(2.0 * g * length);
   time_step_rule = {.courant = formulation.courant,
                     .spacing = spacing,

@@ -71,7 +71,6 @@ struct Setup {
   KernelValues kernel_values;
   ViscosityLaw viscosity_law;
   FrictionLaw friction_law;
-  bool has_boundary_layers;  ///< whether particles carry an eddy viscosity
   TimeStepRule time_step_rule;
 
   /// Whether missing neighbours count as air, so that nothing pulls near the surface.

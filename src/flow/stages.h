@@ -120,16 +120,6 @@ void drift(Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& 
 template <int Dim>
 std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// The boundary layers after dt (closures/spalart_allmaras.h), of owned particles; that of ghosts is 0. `walls` are
-/// those with friction on each particle.
-template <int Dim>
-BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const FrictionWall<Dim>> walls,
-                                    std::span<const Mat<Dim>> velocity_gradient, double dt);
-
-/// Takes over the boundary layers that `predict` has found. Call once per step, before particles move.
-template <int Dim>
-void grow_boundary_layers(Flow<Dim>& flow, Prediction<Dim>& predicted);
-
 /// (F28)-(F32), or after Lind et al. (2012). Needs `locate` at the present positions.
 template <int Dim>
 Interventions shift(Flow<Dim>& flow, double dt);

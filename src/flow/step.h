@@ -28,19 +28,12 @@ struct WallDrive {
   std::vector<Vec<Dim>> acceleration;  ///< m/s^2; that leads there, in the directions that the wall blocks
 };
 
-/// What particles know of boundary layers; ghosts too.
-struct BoundaryLayers {
-  std::vector<double> viscosity;      ///< m^2/s; nu~
-  std::vector<double> wall_distance;  ///< m
-};
-
 /// What `predict` finds.
 template <int Dim>
 struct Prediction {
   std::vector<Vec<Dim>> velocity;           ///< m/s; u_star, walls and ghosts too
   std::vector<Vec<Dim>> acceleration;       ///< m/s^2; of viscosity and friction, owned
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; of u^n; empty where no term needs it
-  BoundaryLayers layers;                    ///< at the end of the step; empty where there are none
 };
 
 /// Things a step did that the equations do not ask for. A sound run needs few.

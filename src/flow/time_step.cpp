@@ -20,14 +20,6 @@ constexpr double largest_approach_in_step = 0.9;
 /// [1 over the frequency of a line with what hangs on it]; the force of a line is that at the start of the step.
 constexpr double longest_step_of_moorings = 0.5;
 
-template <int Dim>
-double largest_layer_diffusivity(const Flow<Dim>& flow) {
-  const Particles<Dim>& particles = flow.state.particles;
-  const double largest =
-      largest_over(particles.owned, 0.0, [&](std::size_t i) { return particles.layer_viscosity[i]; });
-  return spalart_allmaras::diffusivity(flow.setup.ranks.largest(largest));
-}
-
 /// The largest distance [m] that a corner of a wall is from where it was, within `dt` [s] from now on.
 template <int Dim>
 double largest_displacement_within(const Flow<Dim>& flow, double dt) {
@@ -102,8 +94,7 @@ double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
     if (end.is_driven()) speed = std::max(speed, end.largest_speed(flow.state.time, setup.spacing));
   }
   speed = std::max(speed, limits.speed);
-  double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed) + limits.viscosity;
-  if (setup.has_boundary_layers) viscosity += largest_layer_diffusivity(flow);
+  const double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed) + limits.viscosity;
   const double dt = setup.time_step_rule.largest(speed, viscosity);
   // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.
   const double approach = std::min(flow.state.approach, 2.0 * setup.time_step_rule.limiting_speed(speed));

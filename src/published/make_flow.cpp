@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "parts/boundary_layers.h"
 #include "parts/damping_zones.h"
 #include "parts/section_counters.h"
 #include "parts/side_walls.h"
@@ -25,10 +26,8 @@ template <int Dim>
 Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   // All parts that a flow can have, in the order in which the stages call them.
   static constexpr std::array parts{
-      make_wave_makers<Dim>,
-      make_side_walls<Dim>,
-      make_damping_zones<Dim>,
-      make_section_counters<Dim>,
+      make_wave_makers<Dim>,     make_side_walls<Dim>,       make_damping_zones<Dim>,
+      make_boundary_layers<Dim>, make_section_counters<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

@@ -59,7 +59,6 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
     const SurfaceMarks marks = report.passes < passes_with_new_marks ? SurfaceMarks::found : SurfaceMarks::kept;
     locate(flow, marks);                                          // derivatives at the positions of iterate k
     Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F21)
-    if (report.passes == 0) grow_boundary_layers(flow, predicted);
     const PosedEquation equation = assemble(flow, predicted, no_target, drive, dt);  // (F22)
     report.add(solve(flow, equation, drive));
     correct(flow, predicted, drive, dt);  // (F24)

@@ -1,4 +1,3 @@
-#include "base/for_each.h"
 #include "flow/measure.h"
 #include "robust/discretisation.h"
 
@@ -14,11 +13,6 @@ void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::sp
   const double noise_viscosity = damps_noise ? setup.noise_viscosity(largest_speed(flow)) : 0.0;
   effective_viscosity<Dim>(setup.viscosity_law, particles.velocity, viscosity);
   for (const auto& part : flow.parts) part->add_viscosity(flow, viscosity);
-  if (setup.has_boundary_layers) {
-    for_each(viscosity.size(), [&](std::size_t i) {
-      viscosity[i] += spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], setup.viscosity_law.molecular);
-    });
-  }
   add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.spacing, flow.surroundings.pair_vectors, viscosity,
                                noise_viscosity, particles.velocity, velocity_gradient, acceleration);
 }

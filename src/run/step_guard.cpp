@@ -114,10 +114,8 @@ void StepGuard<Dim>::attempt(const StepStart<Dim>& start, const std::function<vo
   good_.emplace(Good{.start = start, .time = flow_.state.time, .count = particles.owned});
   good_->pressure = kept(particles.pressure);
   if (flow_.setup.formulation.has_second_projection) good_->second_pressure = kept(particles.second_pressure);
-  if (flow_.setup.has_boundary_layers) {
-    good_->layer_viscosity = kept(particles.layer_viscosity);
-    good_->wall_distance = kept(particles.wall_distance);
-  }
+  good_->layer_viscosity = kept(particles.layer_viscosity);
+  good_->wall_distance = kept(particles.wall_distance);
   std::string failure;
   try {
     work();

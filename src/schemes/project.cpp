@@ -20,7 +20,6 @@ StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   locate(flow);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
   set_wall_velocities_at_mid_step(flow, start, dt, predicted.velocity);
-  grow_boundary_layers(flow, predicted);
   const PosedEquation equation = assemble(
       flow, predicted, target_divergence(flow, std::move(predicted.velocity_gradient), dt), drive, dt);  // (F15)
   report.add(solve_with_bodies(flow, start, equation, dt, drive));

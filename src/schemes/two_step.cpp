@@ -10,10 +10,9 @@ PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& s
   PredictedPressure<Dim> found;
   locate(flow);                                       // rho (B6, B10)
   found.predicted = predict(flow, start, drive, dt);  // (B11), (B12)
-  grow_boundary_layers(flow, found.predicted);
-  drift(flow, start, found.predicted, dt);         // (B13)
-  locate(flow);                                    // rho_star (B14), surface (B21)
-  flow.halo().exchange(found.predicted.velocity);  // other ghosts than before the drift
+  drift(flow, start, found.predicted, dt);            // (B13)
+  locate(flow);                                       // rho_star (B14), surface (B21)
+  flow.halo().exchange(found.predicted.velocity);     // other ghosts than before the drift
   const std::vector<double> no_target(flow.state.particles.owned, 0.0);
   found.equation = assemble(flow, found.predicted, no_target, drive, dt);  // (B17)
   found.solved = solve(flow, found.equation, drive);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cases.h"
+#include "parts/boundary_layers.h"
 #include "published/make_flow.h"
 #include "support/dimensions.h"
 
@@ -77,7 +78,7 @@ TYPED_TEST(BoundaryLayerTest, IsNotThereWithoutFrictionNorInLaminarFlow) {
     CaseSpec spec = gliding_water<Dim>(is_laminar ? Slip::no_slip : Slip::free);
     if (is_laminar) spec.physics.viscosity = 1e-3;  // 1 m/s in dx/2: u y/nu = 5
     Flow<Dim> flow = make_flow<Dim>(spec);
-    EXPECT_EQ(flow.setup.has_boundary_layers, is_laminar);
+    EXPECT_EQ(has_part<BoundaryLayers<Dim>>(flow), is_laminar);
     for (int n = 0; n < 5; ++n) step(flow);
     for (const double layer : flow.state.particles.layer_viscosity) EXPECT_EQ(layer, 0.0);
   }

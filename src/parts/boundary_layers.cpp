@@ -1,7 +1,11 @@
+#include "parts/boundary_layers.h"
+
 #include <algorithm>
 
 #include "base/for_each.h"
-#include "flow/stages.h"
+#include "closures/spalart_allmaras.h"
+#include "flow/flow.h"
+#include "walls/wall_friction.h"
 
 namespace tailwater {
 namespace {
@@ -60,35 +64,63 @@ double next_layer_viscosity(const Flow<Dim>& flow, const FrictionWall<Dim>& wall
 }  // namespace
 
 template <int Dim>
-BoundaryLayers next_boundary_layers(const Flow<Dim>& flow, std::span<const FrictionWall<Dim>> walls,
-                                    std::span<const Mat<Dim>> velocity_gradient, double dt) {
+StepLimits BoundaryLayers<Dim>::step_limits(const Flow<Dim>& flow) const {
   const Particles<Dim>& particles = flow.state.particles;
-  BoundaryLayers next;
-  next.viscosity.assign(particles.size(), 0.0);
-  next.wall_distance.assign(particles.size(), far_from_walls);
+  const double largest =
+      largest_over(particles.owned, 0.0, [&](std::size_t i) { return particles.layer_viscosity[i]; });
+  return {.viscosity = spalart_allmaras::diffusivity(flow.setup.ranks.largest(largest))};
+}
+
+template <int Dim>
+void BoundaryLayers<Dim>::add_viscosity(const Flow<Dim>& flow, std::span<double> viscosity) const {
+  const std::vector<double>& layer = flow.state.particles.layer_viscosity;
+  const double molecular = flow.setup.viscosity_law.molecular;
+  for_each(viscosity.size(),
+           [&](std::size_t i) { viscosity[i] += spalart_allmaras::eddy_viscosity(layer[i], molecular); });
+}
+
+template <int Dim>
+void BoundaryLayers<Dim>::follow_friction(Flow<Dim>& flow, std::span<const FrictionWall<Dim>> walls,
+                                          std::span<const Mat<Dim>> velocity_gradient, double dt) {
+  Particles<Dim>& particles = flow.state.particles;
+  viscosity_.assign(particles.size(), 0.0);
+  wall_distance_.assign(particles.size(), far_from_walls);
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     const FrictionWall<Dim>& wall = walls[i];
     const bool is_beside_wall = wall.weight > 0.0;
     if (!is_beside_wall && !is_reached(flow.pairs(), particles.layer_viscosity, i)) return;
     // As if a rough wall stood 0.03 k_s farther back (Aupoix & Spalart 2003).
-    next.wall_distance[i] =
+    wall_distance_[i] =
         is_beside_wall ? wall.distance + 0.03 * wall.roughness : distance_by_neighbours(flow.pairs(), particles, i);
-    next.viscosity[i] = next_layer_viscosity(flow, wall, velocity_gradient[i], next.wall_distance[i], dt, i);
+    viscosity_[i] = next_layer_viscosity(flow, wall, velocity_gradient[i], wall_distance_[i], dt, i);
   });
-  return next;
-}
-
-template <int Dim>
-void grow_boundary_layers(Flow<Dim>& flow, Prediction<Dim>& predicted) {
-  if (!flow.setup.has_boundary_layers) return;
-  Particles<Dim>& particles = flow.state.particles;
-  particles.layer_viscosity = std::move(predicted.layers.viscosity);
-  particles.wall_distance = std::move(predicted.layers.wall_distance);
+  swap_with(particles);
   flow.halo().exchange(particles.layer_viscosity, particles.wall_distance);
 }
 
-TAILWATER_IN_2D_AND_3D(next_boundary_layers);
-TAILWATER_IN_2D_AND_3D(grow_boundary_layers);
+template <int Dim>
+void BoundaryLayers<Dim>::stay(Flow<Dim>& flow) {
+  swap_with(flow.state.particles);
+}
+
+template <int Dim>
+void BoundaryLayers<Dim>::swap_with(Particles<Dim>& particles) {
+  particles.layer_viscosity.swap(viscosity_);
+  particles.wall_distance.swap(wall_distance_);
+}
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_boundary_layers(const CaseSpec& /*spec*/, const Setup<Dim>& setup,
+                                                const Boundary<Dim>& boundary) {
+  const bool has_friction =
+      std::ranges::any_of(boundary.walls, [](const WallProperties& wall) { return wall.friction > 0.0; });
+  if (!setup.formulation.has_eddy_viscosity || !has_friction) return nullptr;
+  return std::make_unique<BoundaryLayers<Dim>>();
+}
+
+template class BoundaryLayers<2>;
+template class BoundaryLayers<3>;
+TAILWATER_IN_2D_AND_3D(make_boundary_layers);
 
 }  // namespace tailwater
