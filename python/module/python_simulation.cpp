@@ -9,6 +9,7 @@
 
 #include "io/messages.h"
 #include "linear/session.h"
+#include "parts/script_loads.h"
 #include "run/estimate.h"
 #include "run/run_case.h"
 
@@ -44,7 +45,7 @@ PythonSimulation<Dim>::Lenders::Lenders(Flow<Dim>& flow)
       volume(flow.state.particles.volume),
       id(flow.state.particles.id),
       kind(flow.state.particles.kind),
-      acceleration(flow.loads.acceleration) {}
+      acceleration(script_loads(flow).acceleration) {}
 
 template <int Dim>
 void PythonSimulation<Dim>::Lenders::settle() {
@@ -76,7 +77,7 @@ void PythonSimulation<Dim>::start() {
   lend().settle();
   const pybind11::gil_scoped_release others_go_on;
   simulation().start();
-  simulation().flow().loads = {};
+  script_loads(simulation().flow()).clear();
 }
 
 template <int Dim>
@@ -130,7 +131,7 @@ void PythonSimulation<Dim>::finish(const std::string& failure) {
 template <int Dim>
 pybind11::array PythonSimulation<Dim>::acceleration() {
   tell_of_script();
-  std::vector<Vec<Dim>>& acceleration = simulation().flow().loads.acceleration;
+  std::vector<Vec<Dim>>& acceleration = script_loads(simulation().flow()).acceleration;
   if (acceleration.empty()) acceleration.assign(owned(), Vec<Dim>::Zero());
   return lend().acceleration.template view<double>(acceleration.size(), Dim, true);
 }
@@ -138,7 +139,7 @@ pybind11::array PythonSimulation<Dim>::acceleration() {
 template <int Dim>
 void PythonSimulation<Dim>::push(std::size_t b, const Twist<Dim>& push) {
   tell_of_script();
-  std::vector<Twist<Dim>>& pushes = simulation().flow().loads.on_bodies;
+  std::vector<Twist<Dim>>& pushes = script_loads(simulation().flow()).on_bodies;
   if (pushes.empty()) pushes.assign(bodies().size(), Twist<Dim>::Zero());
   pushes.at(b) += push;
 }
@@ -172,8 +173,7 @@ void PythonSimulation<Dim>::steer(const std::string& name, std::function<std::ve
         name, Dim == 2 ? "0, " : "0, 0, "));
   }
   const std::string label = wall_label(flow.walls.boundary, wall->wall);
-  if (wall->maker >= 0 &&
-      spec_.wave_makers[static_cast<std::size_t>(wall->maker)].absorption == Absorption::active) {
+  if (wall->maker >= 0 && spec_.wave_makers[static_cast<std::size_t>(wall->maker)].absorption == Absorption::active) {
     throw InputError(fmt::format("{}: the water moves it too; remedy: absorption = \"none\"", label));
   }
   GivenMotion<Dim> given{

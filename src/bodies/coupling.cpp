@@ -10,6 +10,7 @@
 #include "bodies/contacts.h"
 #include "bodies/moorings.h"
 #include "bodies/stages.h"
+#include "parts/script_loads.h"
 #include "pressure/full_water.h"
 #include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
@@ -68,8 +69,8 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
   for (std::size_t b = 0; b < before.size(); ++b) {
     before[b].velocity = start.body_velocity[b];
     loads_.push_back(bodies[b].load(before[b], flow.setup.gravity) + frictions[b] + before[b].carried_over / dt);
-    if (!flow.loads.on_bodies.empty()) loads_[b] += flow.loads.on_bodies[b];
   }
+  flow.template part<ScriptLoads<Dim>>().add_to_bodies(loads_);
   one_sided_ = find_contacts<Dim>(flow, before, dt, freedoms_);
   std::ranges::move(find_moorings<Dim>(flow.setup, before, freedoms_), std::back_inserter(one_sided_));
   gaps_.hold_water(flow);

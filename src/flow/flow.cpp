@@ -134,7 +134,9 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
 template <int Dim>
 SavedFlow<Dim> Flow<Dim>::saved() const {
   SavedFlow<Dim> saved{state, Json::object()};
-  for (const auto& part : parts) saved.parts[std::string(part->name())] = part->save();
+  for (const auto& part : parts) {
+    if (Json of_part = part->save(); !of_part.is_null()) saved.parts[std::string(part->name())] = std::move(of_part);
+  }
   return saved;
 }
 
@@ -142,7 +144,7 @@ template <int Dim>
 bool Flow<Dim>::restore(SavedFlow<Dim> saved) {
   try {
     for (const auto& part : parts) {
-      if (!part->restore(saved.parts.at(std::string(part->name())))) return false;
+      if (!part->restore(saved.parts.value(std::string(part->name()), Json()))) return false;
     }
   } catch (const Json::exception&) {
     return false;

@@ -13,7 +13,6 @@
 
 #include "air/air_watch.h"
 #include "closures/surroundings.h"
-#include "flow/loads.h"
 #include "flow/part.h"
 #include "flow/role.h"
 #include "flow/setup.h"
@@ -57,7 +56,6 @@ struct Flow {
   WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
   std::vector<Role> role;            ///< of owned particles in this step
   std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
-  Loads<Dim> loads;                  ///< of a program, in the next step
   std::vector<Vec<Dim>>
       wall_turn_acceleration;  ///< m/s^2; of water along walls that turn, for owned particles; or empty
   double driven_change = 0.0;  ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step

@@ -45,12 +45,6 @@ void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::ve
   });
 }
 
-/// Walls that were gathered after the loads were given stand behind all others, and feel none.
-template <int Dim>
-void add_loads(const Loads<Dim>& loads, std::vector<Vec<Dim>>& acceleration) {
-  for_each(loads.acceleration.size(), [&](std::size_t i) { acceleration[i] += loads.acceleration[i]; });
-}
-
 /// grad u of fluid particles, ghosts too. In reach of a wall with friction it is that of the water alone, since dummies
 /// show none of the shear.
 template <int Dim>
@@ -86,7 +80,6 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   add_friction(flow, dt, predicted);
 
   damp(flow, start, dt, acceleration);
-  add_loads<Dim>(flow.loads, acceleration);
   for (const auto& part : flow.parts) part->add_acceleration(flow, acceleration);
 
   const bool with_gravity = setup.formulation.gravity_in_prediction;

@@ -65,7 +65,6 @@ StepReport Simulation<Dim>::step() {
     report = advance(flow_, start, dt_);
   });
   dt_ = 0.0;
-  flow_.loads = {};
   if (observer_ != nullptr) observer_->stepped(flow_, report);
   return report;
 }

@@ -6,7 +6,8 @@
 //     // read simulation.flow()
 //   }
 //
-// A program that adds forces does so between `prepare` and `step`, when particles have the indices of the coming step.
+// A program that adds forces (parts/script_loads.h) does so between `prepare` and `step`, when particles have the indices
+// of the coming step.
 #pragma once
 
 #include "case/spec.h"
@@ -46,8 +47,8 @@ class Simulation {
   /// size.
   double shorten();
 
-  /// Takes a step, with flow().loads, which are then gone. Makes it ready first if need be. Throws SolverError when the
-  /// step fails; the flow is then as it was before it.
+  /// Takes a step, with the loads of a script, which are then gone. Makes it ready first if need be. Throws SolverError
+  /// when the step fails; the flow is then as it was before it.
   StepReport step();
 
   /// Goes on from a saved flow, with the `reference_step` [s] of then. `cuts` are those of its space, if particles are

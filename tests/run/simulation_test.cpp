@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/temporary_folder.h"
+#include "parts/script_loads.h"
 #include "support/dimensions.h"
 #include "support/pond.h"
 
@@ -61,9 +62,9 @@ TYPED_TEST(SimulationTest, LoadsActInOneStep) {
   Simulation<Dim> simulation(this->spec);
   simulation.start();
   const double dt = simulation.prepare();
-  simulation.flow().loads.acceleration.assign(simulation.flow().state.particles.owned, Vec<Dim>::Unit(0));
+  script_loads(simulation.flow()).acceleration.assign(simulation.flow().state.particles.owned, Vec<Dim>::Unit(0));
   simulation.step();
-  EXPECT_TRUE(simulation.flow().loads.acceleration.empty());
+  EXPECT_TRUE(script_loads(simulation.flow()).acceleration.empty());
   simulation.step();
   for (const Vec<Dim>& velocity : simulation.flow().state.particles.velocity) EXPECT_NEAR(velocity[0], dt, 1e-13 * dt);
 }
@@ -73,8 +74,9 @@ TYPED_TEST(SimulationTest, FailsWithoutAFolderToo) {
   Simulation<Dim> simulation(this->spec);
   simulation.start();
   simulation.prepare();
-  simulation.flow().loads.acceleration.assign(simulation.flow().state.particles.owned,
-                                              Vec<Dim>::Constant(std::numeric_limits<double>::quiet_NaN()));
+  script_loads(simulation.flow())
+      .acceleration.assign(simulation.flow().state.particles.owned,
+                           Vec<Dim>::Constant(std::numeric_limits<double>::quiet_NaN()));
   const std::string message = message_of<SolverError>([&] { simulation.step(); });
   EXPECT_TRUE(message.starts_with("step 0 from t = 0 s failed: ")) << message;
   EXPECT_EQ(message.find("report"), std::string::npos) << message;
