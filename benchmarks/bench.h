@@ -62,7 +62,7 @@ struct Stage {
     assign_roles(flow);
     update_open_ends(flow, dt);
     begin = save_step_start(flow);
-    drive = drive_walls(flow, begin, dt);
+    drive = drive_walls(flow, begin.wall_velocity, dt);
     locate(flow);
     predicted = predict(flow, begin, drive, dt);
     target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bodies/floating_bodies.h"
 #include "lender.h"
 #include "run/folder_output.h"
 #include "run/simulation.h"
@@ -48,7 +49,7 @@ class PythonSimulation {
   /// m/s^2, of each particle in the coming step; to be written into. Zero at first.
   pybind11::array acceleration();
 
-  const std::vector<FloatingBody<Dim>>& bodies() const { return flow().setup.bodies; }
+  const std::vector<FloatingBody<Dim>>& bodies() const { return bodies_of(flow()).bodies; }
   const BodyState<Dim>& body(std::size_t b) const { return state().motion.bodies.each.at(b); }
   /// Adds a force and a moment about the centre of mass in the coming step.
   void push(std::size_t b, const Twist<Dim>& push);

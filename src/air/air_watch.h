@@ -56,7 +56,7 @@ struct AirResponse {
 
 /// The pockets in one step: where water looks into them, and what they do.
 template <int Dim>
-struct PocketSides {
+struct PocketStep {
   std::vector<PocketSide<Dim>> water;
   std::vector<PocketWall<Dim>> walls;                              ///< the same on all ranks
   std::vector<PocketPairs<Dim>> wall_pair_forces;                  ///< the same on all ranks
@@ -66,10 +66,10 @@ struct PocketSides {
   std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
   std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
   std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
-  std::vector<double>
-      response_deficit;  ///< Pa; of all particles: by how much the pressure that the air alone makes there
-                         ///< is off that of the air beside them, either way; at the start of the step
-  int iterations = 0;    ///< of the solves for the responses
+  /// Pa; of owned particles: by how much the pressure that the air alone makes there is off that of the air beside them,
+  /// either way, at the start of the step.
+  std::vector<double> response_deficit;
+  int iterations = 0;  ///< of the solves for the responses
   double work = 0.0;     ///< J; that the gas has done
 
   /// Pa; of the air beside water.

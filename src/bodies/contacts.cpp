@@ -16,18 +16,17 @@ struct SurfaceMotion {
 template <int Dim>
 class ContactFinder {
  public:
-  ContactFinder(const Flow<Dim>& flow, const std::vector<BodyState<Dim>>& bodies, double dt,
-                std::span<const Freedom> freedoms)
-      : flow_(flow), bodies_(bodies), dt_(dt), freedoms_(freedoms) {}
+  ContactFinder(const Flow<Dim>& flow, const ContactSurfaces<Dim>& surfaces,
+                const std::vector<BodyState<Dim>>& bodies, double dt, std::span<const Freedom> freedoms)
+      : flow_(flow), surfaces_(surfaces), bodies_(bodies), dt_(dt), freedoms_(freedoms) {}
 
   std::vector<OneSidedForce> find() const {
     std::vector<OneSidedForce> contacts;
-    const ContactSurfaces<Dim>& surfaces = flow_.setup.contact;
-    for (const ContactSurface<Dim>& surface : surfaces.each) {
+    for (const ContactSurface<Dim>& surface : surfaces_.each) {
       const SurfaceMotion<Dim> motion = motion_of(surface);
-      for (int b = 0; b < static_cast<int>(surfaces.points.size()); ++b) {
+      for (int b = 0; b < static_cast<int>(surfaces_.points.size()); ++b) {
         if (b == surface.body) continue;
-        for (const Vec<Dim>& point : surfaces.points[b]) add(b, bodies_[b].placement(point), surface, motion, contacts);
+        for (const Vec<Dim>& point : surfaces_.points[b]) add(b, bodies_[b].placement(point), surface, motion, contacts);
       }
     }
     return contacts;
@@ -65,6 +64,7 @@ class ContactFinder {
   }
 
   const Flow<Dim>& flow_;
+  const ContactSurfaces<Dim>& surfaces_;
   const std::vector<BodyState<Dim>>& bodies_;
   double dt_;
   std::span<const Freedom> freedoms_;
@@ -73,9 +73,10 @@ class ContactFinder {
 }  // namespace
 
 template <int Dim>
-std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const std::vector<BodyState<Dim>>& bodies, double dt,
+std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const ContactSurfaces<Dim>& surfaces,
+                                         const std::vector<BodyState<Dim>>& bodies, double dt,
                                          std::span<const Freedom> freedoms) {
-  return ContactFinder<Dim>(flow, bodies, dt, freedoms).find();
+  return ContactFinder<Dim>(flow, surfaces, bodies, dt, freedoms).find();
 }
 
 TAILWATER_IN_2D_AND_3D(find_contacts);

@@ -8,13 +8,15 @@
 #pragma once
 
 #include "bodies/one_sided_force.h"
+#include "motion/body_contact.h"
 
 namespace tailwater {
 
 /// Of all points of bodies that are near a wall or another body; `bodies` are as they are at the start of the step of
 /// dt.
 template <int Dim>
-std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const std::vector<BodyState<Dim>>& bodies, double dt,
+std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const ContactSurfaces<Dim>& surfaces,
+                                         const std::vector<BodyState<Dim>>& bodies, double dt,
                                          std::span<const Freedom> freedoms);
 
 }  // namespace tailwater

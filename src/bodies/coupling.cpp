@@ -6,15 +6,15 @@
 #include <cmath>
 #include <iterator>
 
+#include "air/pocket_pressure.h"
 #include "base/error.h"
 #include "bodies/contacts.h"
 #include "bodies/moorings.h"
-#include "bodies/stages.h"
 #include "parts/script_loads.h"
 #include "pressure/full_water.h"
-#include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
 #include "pressure/stages.h"
+#include "pressure/tension.h"
 
 namespace tailwater {
 namespace {
@@ -45,35 +45,41 @@ constexpr double least_share_of_mass = 0.5;
 }  // namespace
 
 template <int Dim>
-BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double fullness, double dt,
+BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, const PosedEquation& equation,
                                 WallDrive<Dim>& drive)
     : flow_(flow),
-      start_(start),
-      fullness_(fullness),
-      dt_(dt),
+      bodies_(bodies),
+      enclosed_air_(air_of(flow)),
+      fullness_(equation.fullness),
+      dt_(equation.dt),
       drive_(drive),
-      forces_(flow, flow.state.time),
-      covered_(find_covered(flow, flow.state.time)),
-      gaps_(flow, flow.state.time) {
-  const std::vector<FloatingBody<Dim>>& bodies = flow.setup.bodies;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    for (const int entry : bodies[b].free) freedoms_.push_back({b, entry});
+      forces_(flow, bodies, flow.state.time),
+      covered_(find_covered(flow, bodies, flow.state.time)),
+      gaps_(flow, bodies, flow.state.time) {
+  for (std::size_t b = 0; b < bodies.bodies.size(); ++b) {
+    for (const int entry : bodies.bodies[b].free) freedoms_.push_back({b, entry});
   }
   scale_.resize(static_cast<Eigen::Index>(freedoms_.size()));
   for (std::size_t w = 0; w < freedoms_.size(); ++w) {
-    scale_[static_cast<Eigen::Index>(w)] = bodies[freedoms_[w].body].scale()[freedoms_[w].entry];
+    scale_[static_cast<Eigen::Index>(w)] = bodies.bodies[freedoms_[w].body].scale()[freedoms_[w].entry];
   }
   push_ = Eigen::VectorXd::Zero(scale_.size());
+  air_ = Eigen::MatrixXd::Zero(scale_.size(), scale_.size());
   std::vector<BodyState<Dim>> before = flow.state.motion.bodies.each;
   const std::vector<Twist<Dim>> frictions = forces_.of_friction();
   for (std::size_t b = 0; b < before.size(); ++b) {
-    before[b].velocity = start.body_velocity[b];
-    loads_.push_back(bodies[b].load(before[b], flow.setup.gravity) + frictions[b] + before[b].carried_over / dt);
+    before[b].velocity = bodies.start_velocity[b];
+    loads_.push_back(bodies.bodies[b].load(before[b], flow.setup.gravity) + frictions[b] + before[b].carried_over / dt_);
   }
   flow.template part<ScriptLoads<Dim>>().add_to_bodies(loads_);
-  one_sided_ = find_contacts<Dim>(flow, before, dt, freedoms_);
-  std::ranges::move(find_moorings<Dim>(flow.setup, before, freedoms_), std::back_inserter(one_sided_));
-  gaps_.hold_water(flow);
+  one_sided_ = find_contacts<Dim>(flow, bodies.contact, before, dt_, freedoms_);
+  std::ranges::move(find_moorings<Dim>(bodies.moorings, before, freedoms_), std::back_inserter(one_sided_));
+}
+
+template <int Dim>
+void BodyCoupling<Dim>::begin() {
+  bodies_.stagnant = gaps_.hold_water(flow_);
+  allowed_tension_ = allowed_tension(flow_);
   add_air_stiffness();
 }
 
@@ -82,16 +88,16 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, do
 /// pieces, in the shares in which the body looks into each.
 template <int Dim>
 void BodyCoupling<Dim>::remove_net_air_force() {
-  const std::vector<double> all_air(flow_.state.air.pockets.size(), 1.0);
+  const std::vector<double> all_air(enclosed_air_.state.pockets.size(), 1.0);
   const std::vector<double> everywhere(flow_.state.particles.size(), 1.0);
   const std::vector<Twist<Dim>> wrong = forces_of(everywhere, all_air);
-  std::vector<PocketWall<Dim>>& pieces = flow_.sides.walls;
+  std::vector<PocketWall<Dim>>& pieces = enclosed_air_.step.walls;
   const std::vector<PocketWall<Dim>> surface = pieces;
   for (std::size_t b = 0; b < wrong.size(); ++b) {
     std::vector<double> seen(all_air.size(), 0.0);
     double all = 0.0;
     for (const PocketWall<Dim>& piece : surface) {
-      if (flow_.setup.body_of_wall[piece.wall] != static_cast<int>(b)) continue;
+      if (bodies_.body_of_wall[piece.wall] != static_cast<int>(b)) continue;
       for (const PocketShare& share : piece.shares) {
         seen[share.pocket] += share.share * piece.area.norm();
         all += share.share * piece.area.norm();
@@ -101,7 +107,7 @@ void BodyCoupling<Dim>::remove_net_air_force() {
     std::vector<PocketShare> shares;
     for (std::size_t k = 0; k < seen.size(); ++k) shares.push_back({static_cast<int>(k), seen[k] / all});
     const Vec<Dim> centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time);
-    const int wall = flow_.setup.bodies[b].walls.front();
+    const int wall = bodies_.bodies[b].walls.front();
     const auto add = [&](const Vec<Dim>& x, const Vec<Dim>& area) { pieces.push_back({wall, x, area, shares}); };
     add(centre, -wrong[b].template head<Dim>());
     for (int axis = 0; axis < turns<Dim>; ++axis) {  // a couple, with an arm of 1 m
@@ -117,15 +123,14 @@ void BodyCoupling<Dim>::remove_net_air_force() {
 /// pocket grow: the gas adds dt^2/2 G S G^T to the inertia, with its stiffness S.
 template <int Dim>
 void BodyCoupling<Dim>::add_air_stiffness() {
-  air_ = Eigen::MatrixXd::Zero(scale_.size(), scale_.size());
-  const auto pockets = static_cast<Eigen::Index>(flow_.state.air.pockets.size());
+  const auto pockets = static_cast<Eigen::Index>(enclosed_air_.state.pockets.size());
   if (pockets == 0) return;
   remove_net_air_force();
   Eigen::MatrixXd G(scale_.size(), pockets);
   for (Eigen::Index k = 0; k < pockets; ++k) {
     std::vector<double> unit(static_cast<std::size_t>(pockets), 0.0);
     unit[static_cast<std::size_t>(k)] = 1.0;
-    const AirResponse<Dim>& response = flow_.air.response(flow_.state.air.pockets[k].number);
+    const AirResponse<Dim>& response = enclosed_air_.watch.response(enclosed_air_.state.pockets[k].number);
     G.col(k) = on_freedoms(forces_of(response.pressure, unit));
   }
   const bool is_known = !flow_.state.motion.bodies.inertia.empty();
@@ -134,9 +139,9 @@ void BodyCoupling<Dim>::add_air_stiffness() {
   for (Eigen::Index k = 0; k < pockets; ++k) {
     const Eigen::VectorXd force = G.col(k);
     const Eigen::VectorXd answer = factors.solve(force);
-    flow_.sides.mobility.push_back(std::max(0.0, dt_ * force.dot(answer)));
+    enclosed_air_.step.mobility.push_back(std::max(0.0, dt_ * force.dot(answer)));
   }
-  const Eigen::MatrixXd of_pockets = G.lazyProduct(stiffness_of_air(flow_, dt_));
+  const Eigen::MatrixXd of_pockets = G.lazyProduct(stiffness_of_air(enclosed_air_, dt_));
   air_ = 0.5 * dt_ * dt_ * of_pockets.lazyProduct(G.transpose());
 }
 
@@ -153,7 +158,7 @@ Eigen::VectorXd BodyCoupling<Dim>::on_freedoms(const std::vector<Twist<Dim>>& fo
 template <int Dim>
 std::vector<Twist<Dim>> BodyCoupling<Dim>::forces_of(std::vector<double> pressure,
                                                      const std::vector<double>& air) const {
-  if (!air.empty()) subtract_seen<Dim>(flow_, air, pressure);
+  if (!air.empty()) subtract_seen_air<Dim>(flow_, enclosed_air_, air, pressure);
   std::vector<Twist<Dim>> forces = forces_.of_pressure(pressure, covered_);
   const std::vector<Twist<Dim>> in_gaps = forces_.of_gaps(pressure, gaps_);
   for (std::size_t b = 0; b < forces.size(); ++b) forces[b] += in_gaps[b];
@@ -179,8 +184,8 @@ void BodyCoupling<Dim>::accelerate(const Eigen::VectorXd& A) {
     const auto [body, entry] = freedoms_[w];
     flow_.state.motion.bodies.each[body].acceleration[entry] = A[static_cast<Eigen::Index>(w)];
   }
-  steer_bodies(flow_, start_, dt_);
-  drive_ = drive_walls(flow_, start_, dt_);
+  bodies_.steer(flow_, dt_);
+  drive_ = drive_walls(flow_, flow_.state.wall_velocity, dt_);
   flow_.wall_model().set_sources(flow_.wall_scene(), flow_.wall_force(drive_.acceleration), flow_.pressure_rows);
 }
 
@@ -194,11 +199,11 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
   // The water feels the pressure that walls have in the end, and later solves begin with the one they had.
   const std::vector<double> solved = flow_.state.particles.pressure;
   shift_minimum_to_zero<Dim>(flow_, fullness_, {}, flow_.state.particles.pressure);
-  finish_pressure(flow_, drive_);
+  finish_pressure(flow_, drive_, allowed_tension_);
   std::vector<double> air;
-  if (!flow_.state.air.pockets.empty()) {
-    air = find_air_pressures(flow_, dt_);
-    add_air_of(flow_, air, flow_.state.particles.pressure);
+  if (!enclosed_air_.state.pockets.empty()) {
+    air = find_air_pressures(flow_, enclosed_air_, dt_);
+    add_air_of<Dim>(enclosed_air_, air, flow_.state.particles.pressure);
   }
   const std::vector<Twist<Dim>> pressures = forces_of(flow_.state.particles.pressure, air);
   flow_.state.particles.pressure = solved;
@@ -206,7 +211,7 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
   Eigen::VectorXd forces(scale_.size());
   for (std::size_t w = 0; w < freedoms_.size(); ++w) {
     const auto [b, entry] = freedoms_[w];
-    const FloatingBody<Dim>& body = flow_.setup.bodies[b];
+    const FloatingBody<Dim>& body = bodies_.bodies[b];
     const BodyState<Dim>& state = flow_.state.motion.bodies.each[b];
     const auto k = static_cast<Eigen::Index>(w);
     forces[k] = std::max({std::abs(loads_[b][entry]), std::abs(pressures[b][entry]), std::abs(push_[k])});
@@ -236,7 +241,7 @@ void BodyCoupling<Dim>::measure_inertia(const Eigen::VectorXd& g, double toleran
   const double probing = gravity > 0.0 ? probing_share * gravity : probing_share;
   for (std::size_t w = 0; w < freedoms_.size(); ++w) {
     const auto k = static_cast<Eigen::Index>(w);
-    const double mass = flow_.setup.bodies[freedoms_[w].body].mass;
+    const double mass = bodies_.bodies[freedoms_[w].body].mass;
     const double step = probing * std::sqrt(mass / scale_[k]);  // over the radius of inertia, for a turn
     Eigen::VectorXd other = A;
     other[k] += step;
@@ -320,7 +325,7 @@ void BodyCoupling<Dim>::fail(int passes) const {
   throw SolverError(
       "the motion of body '{}' and the pressure of the water do not agree after {} passes; remedy: a finer spacing, a "
       "smaller scheme.courant, or softer moorings",
-      flow_.setup.bodies.front().name, passes);
+      bodies_.bodies.front().name, passes);
 }
 
 template <int Dim>
@@ -331,9 +336,10 @@ void BodyCoupling<Dim>::go_back_to(const Iterate& iterate) {
 }
 
 template <int Dim>
-void BodyCoupling<Dim>::carry_over() {
-  const std::vector<double> pressure = flow_.state.particles.pressure;
-  subtract_air(flow_);
+void BodyCoupling<Dim>::finish() {
+  Particles<Dim>& particles = flow_.state.particles;
+  const std::vector<double> pressure = particles.pressure;
+  enclosed_air_.subtract_pressure(std::span(particles.pressure).first(particles.owned));
   const Eigen::VectorXd g = residual();
   flow_.state.particles.pressure = pressure;
   std::vector<BodyState<Dim>>& bodies = flow_.state.motion.bodies.each;

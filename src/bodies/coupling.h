@@ -15,6 +15,7 @@
 #include <limits>
 #include <vector>
 
+#include "air/enclosed_air.h"
 #include "bodies/forces.h"
 #include "bodies/one_sided_force.h"
 #include "flow/flow.h"
@@ -24,19 +25,18 @@ namespace tailwater {
 
 /// The bodies and the pressure of one step.
 template <int Dim>
-class BodyCoupling {
+class BodyCoupling final : public CoupledUnknowns {
  public:
-  /// `fullness` is that of the equation (pressure/full_water.h). Holds the water in narrow gaps.
-  BodyCoupling(Flow<Dim>& flow, const StepStart<Dim>& start, double fullness, double dt, WallDrive<Dim>& drive);
+  /// Of an equation that stands in the flow's rows. Changes nothing.
+  BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, const PosedEquation& equation, WallDrive<Dim>& drive);
 
+  /// Makes the water in narrow gaps stagnant, and tells the pockets of air how bodies give way to them. Call first.
+  void begin();
   /// Solves the pressure equation to `tolerance`, and corrects the motion once. `drive` follows.
-  SolveReport solve_roughly(double tolerance);
-  /// The same until pressure and motion agree.
-  SolveReport solve(double tolerance);
-
-  /// What the pressure has not moved yet is carried over to the next step, so that no momentum is lost. Call when the
-  /// pressure is final.
-  void carry_over();
+  SolveReport solve_roughly(double tolerance) override;
+  SolveReport solve(double tolerance) override;
+  /// What the pressure has not moved yet is carried over to the next step, so that no momentum is lost.
+  void finish() override;
 
  private:
   /// A motion, what was found with it, and how far they agree.
@@ -65,8 +65,9 @@ class BodyCoupling {
   void remove_net_air_force();
 
   Flow<Dim>& flow_;
-  const StepStart<Dim>& start_;
-  double fullness_;
+  FloatingBodies<Dim>& bodies_;
+  EnclosedAir<Dim>& enclosed_air_;
+  double fullness_;  ///< that of the equation (pressure/full_water.h)
   double dt_;
   WallDrive<Dim>& drive_;
   ForcesOnBodies<Dim> forces_;
@@ -76,6 +77,7 @@ class BodyCoupling {
   Eigen::VectorXd scale_;          ///< mass or moment of inertia of each degree of freedom
   std::vector<Twist<Dim>> loads_;  ///< on each body: all but pressure, contacts and lines; the same in all passes
   std::vector<OneSidedForce> one_sided_;  ///< contacts and lines
+  std::vector<double> allowed_tension_;   ///< Pa; of all particles (pressure/tension.h)
   Eigen::VectorXd push_;                  ///< their sum, on each degree of freedom
   Eigen::MatrixXd air_;                   ///< force per acceleration that the air of pockets adds to the inertia
   double largest_force_ = 0.0;            ///< size of the largest force in the last residual

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "flow/flow.h"
+#include "bodies/floating_bodies.h"
 
 namespace tailwater {
 
@@ -24,6 +24,6 @@ struct CoveredParticle {
 
 /// With the walls where they are, at `time` [s].
 template <int Dim>
-std::vector<CoveredParticle<Dim>> find_covered(const Flow<Dim>& flow, double time);
+std::vector<CoveredParticle<Dim>> find_covered(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time);
 
 }  // namespace tailwater

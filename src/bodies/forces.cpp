@@ -1,7 +1,7 @@
 #include "bodies/forces.h"
 
 #include "pressure/operators.h"
-#include "pressure/pockets.h"
+#include "air/pocket_pressure.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -12,7 +12,7 @@ template <int Dim>
 class ForceSums {
  public:
   /// With the centres where they are at `time`.
-  ForceSums(const Flow<Dim>& flow, double time) : flow_(flow), sums_(size * flow.setup.bodies.size(), 0.0) {
+  ForceSums(const Flow<Dim>& flow, double time) : flow_(flow), sums_(size * flow.state.motion.bodies.each.size(), 0.0) {
     for (const BodyState<Dim>& body : flow.state.motion.bodies.each) centres_.push_back(body.centre_at(time));
   }
 
@@ -43,20 +43,21 @@ class ForceSums {
 
 /// The owned wall particles of bodies.
 template <int Dim>
-std::vector<std::size_t> walls_of_bodies(const Flow<Dim>& flow) {
+std::vector<std::size_t> walls_of_bodies(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies) {
   const Particles<Dim>& particles = flow.state.particles;
   return indices_where(particles.owned, [&](std::size_t i) {
-    return !particles.is_fluid(i) && flow.setup.body_of_wall[flow.walls.particles.wall[particles.wall_row[i]]] >= 0;
+    return !particles.is_fluid(i) && bodies.body_of_wall[flow.walls.particles.wall[particles.wall_row[i]]] >= 0;
   });
 }
 
 /// Adds force(n) on each of these wall particles of bodies to its body.
 template <int Dim, class Force>
-void add_on_bodies(const Flow<Dim>& flow, const std::vector<std::size_t>& walls, ForceSums<Dim>& sums, Force&& force) {
+void add_on_bodies(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, const std::vector<std::size_t>& walls,
+                   ForceSums<Dim>& sums, Force&& force) {
   const WallParticles<Dim>& table = flow.walls.particles;
   for (std::size_t n = 0; n < walls.size(); ++n) {  // in order: all add to the same few sums
     const auto row = flow.state.particles.wall_row[walls[n]];
-    sums.add(flow.setup.body_of_wall[table.wall[row]], table.position[row], force(n));
+    sums.add(bodies.body_of_wall[table.wall[row]], table.position[row], force(n));
   }
 }
 
@@ -66,23 +67,23 @@ template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure,
                                                          const std::vector<CoveredParticle<Dim>>& covered) const {
   const Particles<Dim>& particles = flow_.state.particles;
-  const std::vector<std::size_t> of_bodies = walls_of_bodies(flow_);
+  const std::vector<std::size_t> of_bodies = walls_of_bodies(flow_, bodies_);
   std::vector<std::size_t> walls = of_bodies;
   for (const CoveredParticle<Dim>& one : covered) walls.push_back(one.i);
   const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow_, walls, pressure);
   const auto force = [&](std::size_t n) { return Vec<Dim>(-particles.volume[walls[n]] * pushes[n]); };
   ForceSums<Dim> sums(flow_, time_);
-  add_on_bodies(flow_, of_bodies, sums, force);
+  add_on_bodies(flow_, bodies_, of_bodies, sums, force);
   for (std::size_t k = 0; k < covered.size(); ++k) {  // in order: all add to the same few sums
     const auto& [i, body, normal, share] = covered[k];
     const Vec<Dim> whole = force(of_bodies.size() + k);
     const Vec<Dim> along = whole - whole.dot(normal) * normal;
     sums.add(body, flow_.walls.particles.position[particles.wall_row[i]], share * along);
   }
-  visit_forces_of_held_water(flow_, pressure, [&](std::size_t j, const Vec<Dim>& of_held) {
+  visit_forces_of_stagnant_water(flow_, bodies_, pressure, [&](std::size_t j, const Vec<Dim>& force_of_water) {
     if (particles.is_fluid(j)) return;
     const auto row = particles.wall_row[j];
-    sums.add(flow_.setup.body_of_wall[flow_.walls.particles.wall[row]], flow_.walls.particles.position[row], -of_held);
+    sums.add(bodies_.body_of_wall[flow_.walls.particles.wall[row]], flow_.walls.particles.position[row], -force_of_water);
   });
   return sums.gather();
 }
@@ -101,18 +102,18 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_gaps(const std::vector<double>& 
 template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_air(std::span<const double> pressures) const {
   ForceSums<Dim> sums(flow_, time_);
-  for (const PocketWall<Dim>& wall : flow_.sides.walls) {
+  for (const PocketWall<Dim>& wall : air_of(flow_).step.walls) {
     if (!flow_.setup.ranks.is_root()) break;
-    sums.add(flow_.setup.body_of_wall[wall.wall], wall.x, pressure_at<Dim>(wall, pressures) * wall.area);
+    sums.add(bodies_.body_of_wall[wall.wall], wall.x, pressure_at<Dim>(wall, pressures) * wall.area);
   }
   return sums.gather();
 }
 
 template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_friction() const {
-  const std::vector<std::size_t> walls = walls_of_bodies(flow_);
+  const std::vector<std::size_t> walls = walls_of_bodies(flow_, bodies_);
   ForceSums<Dim> sums(flow_, time_);
-  add_on_bodies(flow_, walls, sums, [&](std::size_t n) { return flow_.wall_forces.friction[walls[n]]; });
+  add_on_bodies(flow_, bodies_, walls, sums, [&](std::size_t n) { return flow_.wall_forces.friction[walls[n]]; });
   return sums.gather();
 }
 
@@ -126,7 +127,7 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_guard() const {
     if (!particles.is_fluid(i) || force.isZero(0.0)) continue;
     const NearestWall<Dim> nearest = boundary.nearest(particles.position[i], search_distance * flow_.setup.spacing);
     if (nearest.face < 0) continue;
-    sums.add(flow_.setup.body_of_wall[boundary.faces[nearest.face].wall], nearest.point, force);
+    sums.add(bodies_.body_of_wall[boundary.faces[nearest.face].wall], nearest.point, force);
   }
   return sums.gather();
 }

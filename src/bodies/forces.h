@@ -13,7 +13,8 @@ namespace tailwater {
 template <int Dim>
 class ForcesOnBodies {
  public:
-  ForcesOnBodies(const Flow<Dim>& flow, double time) : flow_(flow), time_(time) {}
+  ForcesOnBodies(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time)
+      : flow_(flow), bodies_(bodies), time_(time) {}
 
   /// By a pressure field [Pa] that is up to date on ghosts, on the bodies' particles and those that they cover.
   /// Collective.
@@ -30,6 +31,7 @@ class ForcesOnBodies {
 
  private:
   const Flow<Dim>& flow_;
+  const FloatingBodies<Dim>& bodies_;
   double time_;
 };
 

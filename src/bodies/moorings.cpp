@@ -3,10 +3,10 @@
 namespace tailwater {
 
 template <int Dim>
-std::vector<OneSidedForce> find_moorings(const Setup<Dim>& setup, const std::vector<BodyState<Dim>>& bodies,
+std::vector<OneSidedForce> find_moorings(const std::vector<Mooring<Dim>>& moorings, const std::vector<BodyState<Dim>>& bodies,
                                          std::span<const Freedom> freedoms) {
   std::vector<OneSidedForce> lines;
-  for (const Mooring<Dim>& mooring : setup.moorings) {
+  for (const Mooring<Dim>& mooring : moorings) {
     const BodyState<Dim>& body = bodies[mooring.body];
     const Vec<Dim> at = body.placement(mooring.at);
     const bool is_tied = mooring.to_body >= 0;

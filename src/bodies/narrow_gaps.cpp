@@ -36,7 +36,8 @@ constexpr double least_lopsidedness = 0.5;
 }  // namespace
 
 template <int Dim>
-NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, double time) : flow_(flow) {
+NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time)
+    : flow_(flow), bodies_(bodies) {
   find_pieces(time);
   if (pieces_.empty()) return;
   find_rim(time);
@@ -48,13 +49,13 @@ template <int Dim>
 void NarrowGaps<Dim>::find_pieces(double time) {
   const WallParticles<Dim>& table = flow_.walls.particles;
   const double dx = flow_.setup.spacing;
-  const ContactSurfaces<Dim>& contact = flow_.setup.contact;
+  const ContactSurfaces<Dim>& contact = bodies_.contact;
   const Boundary<Dim>& resting = contact.each.front().boundary;
   for (const ContactSurface<Dim>& hull : contact.each) {
     if (hull.body < 0) continue;
     const AffineMap<Dim> placement = flow_.state.motion.bodies.each[hull.body].at(time);
     for (std::int32_t row = 0; row < static_cast<std::int32_t>(flow_.walls.moving); ++row) {
-      if (flow_.setup.body_of_wall[table.wall[row]] != hull.body) continue;
+      if (bodies_.body_of_wall[table.wall[row]] != hull.body) continue;
       const Vec<Dim>& x = table.position[row];
       const NearestWall<Dim> wall = resting.nearest(x, (1.0 + widest_gap) * dx);
       if (wall.face < 0 || wall.signed_distance <= 0.0) continue;
@@ -73,7 +74,7 @@ void NarrowGaps<Dim>::find_pieces(double time) {
 template <int Dim>
 void NarrowGaps<Dim>::find_rim(double time) {
   const double dx = flow_.setup.spacing;
-  const ContactSurfaces<Dim>& contact = flow_.setup.contact;
+  const ContactSurfaces<Dim>& contact = bodies_.contact;
   std::vector<Vec<Dim>> places;
   for (const Piece& piece : pieces_) places.push_back(piece.x);
   const CellGrid<Dim> grid(places, reach_of_neighbours * dx);
@@ -173,20 +174,25 @@ std::int32_t NarrowGaps<Dim>::piece_at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
-  if (pieces_.empty()) return;
-  flow.halo().exchange(flow.state.particles.pressure);
-  const Eigen::VectorXd p = find_pressure(flow.state.particles.pressure);
-  LinearSystem& rows = flow.pressure_rows;
-  for_each(flow.state.particles.owned, [&](std::size_t i) {
-    if (flow.role[i] != Role::water) return;
-    const std::int32_t n = piece_at(flow.state.particles.position[i]);
-    if (n < 0 || !holds_water(pieces_[n])) return;
+std::vector<std::size_t> NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
+  if (pieces_.empty()) return {};
+  Particles<Dim>& particles = flow.state.particles;
+  flow.halo().exchange(particles.pressure);
+  const Eigen::VectorXd p = find_pressure(particles.pressure);
+  const auto piece_that_holds = [&](std::size_t i) {
+    const std::int32_t n = flow.role[i] == Role::water ? piece_at(particles.position[i]) : -1;
+    return n >= 0 && holds_water(pieces_[n]) ? n : -1;
+  };
+  const std::vector<std::size_t> stagnant =
+      indices_where(particles.owned, [&](std::size_t i) { return piece_that_holds(i) >= 0; });
+  for (const std::size_t i : stagnant) {
+    const std::int32_t n = piece_that_holds(i);
     flow.role[i] = Role::stagnant;
-    flow.state.particles.velocity[i].setZero();
-    rows.divide_diagonal(i, 0.0);
-    rows.rhs()[i] = p[n];
-  });
+    particles.velocity[i].setZero();
+    flow.pressure_rows.divide_diagonal(i, 0.0);
+    flow.pressure_rows.rhs()[i] = p[n];
+  }
+  return stagnant;
 }
 
 template <int Dim>

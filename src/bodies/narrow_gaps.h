@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "flow/flow.h"
+#include "bodies/floating_bodies.h"
 #include "neighbours/cell_grid.h"
 
 namespace tailwater {
@@ -20,11 +20,11 @@ template <int Dim>
 class NarrowGaps {
  public:
   /// With the walls and the water where they are, at `time` [s]. Collective.
-  NarrowGaps(const Flow<Dim>& flow, double time);
+  NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time);
 
-  /// Water in gaps that are narrower than 0.75 dx is held: it rests, with the pressure that the gap had last. Changes
-  /// the flow's rows. Collective.
-  void hold_water(Flow<Dim>& flow) const;
+  /// Makes water in gaps that are narrower than 0.75 dx stagnant: it rests, with the pressure that the gap had last.
+  /// Changes the flow's rows. Returns these particles. Collective.
+  std::vector<std::size_t> hold_water(Flow<Dim>& flow) const;
 
   /// Calls push(body, x, force) for what a piece of a gap does to a body in `pressure` [Pa], which is up to date. All
   /// ranks make the same calls. Collective.
@@ -64,6 +64,7 @@ class NarrowGaps {
   double weight_of(const Vec<Dim>& x) const { return flow_.setup.density * flow_.setup.gravity.dot(x); }
 
   const Flow<Dim>& flow_;
+  const FloatingBodies<Dim>& bodies_;
   std::vector<Piece> pieces_;      ///< the same on all ranks, but for the water; the rim's come first
   std::size_t rim_ = 0;            ///< pieces of the rim
   Eigen::MatrixXd shares_;         ///< of each piece of the rim in the head of each piece

@@ -55,26 +55,6 @@ Eigen::AlignedBox<double, Dim> box_around_case(const Boundary<Dim>& boundary, co
   return box;
 }
 
-/// Looks at the walls in a run, for the box around all places where they are.
-constexpr int looks_at_moving_walls = 1000;
-
-template <int Dim>
-AirWatch<Dim> make_air_watch(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary) {
-  if (spec.air.pockets == AirPockets::none) return {};
-  Eigen::AlignedBox<double, Dim> box = box_around_case(boundary, setup.open_ends);
-  const MotionState<Dim> start = initial_motion<Dim>(spec);
-  for (const auto& moving : setup.wall_motion.moving()) {
-    if (moving.body >= 0) continue;  // it stays where water is
-    for (int k = 0; k <= looks_at_moving_walls; ++k) {
-      const AffineMap<Dim> placement = moving.at(spec.time.end * k / looks_at_moving_walls, start);
-      for (const WallFace<Dim>& face : boundary.faces) {
-        if (face.wall == moving.wall) box.extend(moved(placement, face).box());
-      }
-    }
-  }
-  return AirWatch<Dim>(spec, box, setup.domain);
-}
-
 template <int Dim>
 std::vector<std::unique_ptr<Part<Dim>>> make_parts(const CaseSpec& spec, const Setup<Dim>& setup,
                                                    const Boundary<Dim>& boundary,
@@ -84,14 +64,6 @@ std::vector<std::unique_ptr<Part<Dim>>> make_parts(const CaseSpec& spec, const S
     if (std::unique_ptr<Part<Dim>> part = make(spec, setup, boundary)) parts.push_back(std::move(part));
   }
   return parts;
-}
-
-/// Throws InputError where the case gives air a pressure and there is none; before a run writes anything. Collective.
-template <int Dim>
-void require_start_pockets(Flow<Dim>& flow) {
-  AirState none;
-  flow.air.look(flow.walls, {}, flow.state.particles, flow.setup.ranks, none);
-  flow.air.forget();
 }
 
 }  // namespace
@@ -112,7 +84,6 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
       pressure_rows(ranks),
       pressure_solver(spec.pressure_solver,
                       {.rows_deep = setup.rows_deep, .dimension = Dim, .solves = keeps_matrix() ? 3 : 2}),
-      air(make_air_watch(spec, setup, drawing.walls.boundary)),
       walls(std::move(drawing.walls)),
       shared_rows(std::move(drawing.shared_rows)),
       near_walls(ranks, walls, setup.domain, reach_of_walls(setup)) {
@@ -125,19 +96,19 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
   state.open_ends.resize(setup.open_ends.size());
   pressure_rows.set_constant_is_free(setup.is_closed);
+  for (const auto& part : parts) setup.finds_wall_forces = setup.finds_wall_forces || part->needs_wall_forces();
   regather_walls(*this);
   assign_roles(*this);
-  if (!spec.pockets.empty()) require_start_pockets(*this);
   for (const auto& part : parts) part->begin(*this);
 }
 
 template <int Dim>
-SavedFlow<Dim> Flow<Dim>::saved() const {
-  SavedFlow<Dim> saved{state, Json::object()};
+void Flow<Dim>::save(SavedFlow<Dim>& saved) const {
+  saved.state = state;
+  saved.parts = Json::object();
   for (const auto& part : parts) {
     if (Json of_part = part->save(); !of_part.is_null()) saved.parts[std::string(part->name())] = std::move(of_part);
   }
-  return saved;
 }
 
 template <int Dim>

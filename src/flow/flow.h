@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "air/air_watch.h"
 #include "closures/surroundings.h"
 #include "flow/part.h"
 #include "flow/role.h"
@@ -43,14 +42,12 @@ struct Flow {
   Neighbourhood<Dim> neighbourhood;
   LinearSystem pressure_rows;
   LinearSolver pressure_solver;
-  AirWatch<Dim> air;
 
   // Now.
   Walls<Dim> walls;                  ///< at their present positions
   SharedRows<Dim> shared_rows;       ///< where other rows are, if there are other ranks
   NearWalls<Dim> near_walls;         ///< which rows are among the particles
   Surroundings<Dim> surroundings;    ///< as `locate` found them
-  PocketSides<Dim> sides;            ///< where the rows of the pressure look into pockets of air
   bool is_located = false;           ///< whether no particle has moved since
   bool has_matrix = false;           ///< whether a second projection has left the matrix of these positions
   WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
@@ -92,8 +89,8 @@ struct Flow {
     pressure_rows.forget_weights();
   }
 
-  /// The state with that of the parts, from which `restore` goes on.
-  SavedFlow<Dim> saved() const;
+  /// Saves the state and that of the parts, from which `restore` goes on. Uses the memory of what was saved before.
+  void save(SavedFlow<Dim>& saved) const;
   /// Continues from a saved flow of the same case. Returns false if its parts are of another one. Collective.
   bool restore(SavedFlow<Dim> saved);
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/for_each.h"
-#include "flow/air_pressure.h"
 
 namespace tailwater {
 namespace {
@@ -59,22 +58,6 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-AirMeasures measure_air(const Flow<Dim>& flow) {
-  const std::vector<AirPocket>& pockets = flow.state.air.pockets;
-  AirMeasures air{.pockets = pockets.size()};
-  double largest = 0.0;
-  for (const AirPocket& pocket : pockets) {
-    air.volume += pocket.volume;
-    air.gas += pocket.gas;
-    air.energy += flow.air.law().energy(pocket.gas, pocket.volume);
-    if (pocket.volume <= largest) continue;
-    largest = pocket.volume;
-    air.pressure = pressure_of(flow, pocket);
-  }
-  return air;
-}
-
-template <int Dim>
 double largest_speed(const Flow<Dim>& flow) {
   return flow.setup.ranks.largest(largest_speed_of_rank(flow));
 }
@@ -112,12 +95,13 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     measures.departed += end.departed;
     measures.arrived += end.arrived;
   }
-  measures.air = measure_air(flow);
+  for (const auto& part : flow.parts) {
+    for (const StepColumn& column : part->step_columns()) measures.of_parts.push_back(column);
+  }
   return measures;
 }
 
 TAILWATER_IN_2D_AND_3D(fluid_sums_of_rank);
-TAILWATER_IN_2D_AND_3D(measure_air);
 TAILWATER_IN_2D_AND_3D(largest_speed);
 TAILWATER_IN_2D_AND_3D(measure);
 

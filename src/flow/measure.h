@@ -21,15 +21,6 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
 template <int Dim>
 double largest_speed(const Flow<Dim>& flow);
 
-/// What is in pockets of enclosed air.
-struct AirMeasures {
-  std::size_t pockets = 0;
-  double volume = 0.0;    ///< m^Dim; of all
-  double gas = 0.0;       ///< m^Dim; of all, at the pressure of the atmosphere
-  double pressure = 0.0;  ///< Pa; above the atmosphere's, of the largest
-  double energy = 0.0;    ///< J; of all the gas (air/gas_law.h)
-};
-
 /// The measures at the end of a step.
 struct FlowMeasures {
   double largest_speed = 0.0;       ///< m/s
@@ -40,13 +31,10 @@ struct FlowMeasures {
   double density_error_largest = 0.0;
   WaterAmount departed;  ///< through all open ends, and below all walls, since the start
   WaterAmount arrived;
-  AirMeasures air;
+  std::vector<StepColumn> of_parts;
 
   double energy() const { return kinetic_energy + potential_energy; }
 };
-
-template <int Dim>
-AirMeasures measure_air(const Flow<Dim>& flow);
 
 /// Collective.
 template <int Dim>

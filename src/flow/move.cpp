@@ -8,13 +8,10 @@ StepStart<Dim> save_step_start(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
   flow.neighbourhood.wrap(particles);
   const auto owned = static_cast<std::ptrdiff_t>(particles.owned);
-  std::vector<Twist<Dim>> body_velocity;
-  for (const BodyState<Dim>& body : flow.state.motion.bodies.each) body_velocity.push_back(body.velocity);
   return {{particles.position.begin(), particles.position.begin() + owned},
           {particles.velocity.begin(), particles.velocity.begin() + owned},
           flow.state.wall_velocity,
-          fluid_sums_of_rank(flow).energy,
-          std::move(body_velocity)};
+          fluid_sums_of_rank(flow).energy};
 }
 
 template <int Dim>

@@ -60,7 +60,6 @@ bool remove_outflow(Flow<Dim>& flow) {
       indices_where(particles.owned, [&](std::size_t i) { return leaves_by[i] == stays && leaves[i] == 0; });
   const bool some_left = kept.size() != particles.owned;
   if (!flow.setup.ranks.any(some_left)) return false;
-  flow.air.forget_responses();
   for (const auto& part : flow.parts) part->reordered(Reordering::removed);
   for (std::size_t w = 0; w <= falls; ++w) {
     WaterAmount passed = sum_over(particles.owned, WaterAmount{}, [&](std::size_t i) -> WaterAmount {

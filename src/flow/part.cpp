@@ -84,7 +84,9 @@ template <int Dim>
 void Part<Dim>::finish_solve(Flow<Dim>& /*flow*/, double /*dt*/) {}
 
 template <int Dim>
-void Part<Dim>::add_pressure(std::span<double> /*pressure*/) const {}
+bool Part<Dim>::add_pressure(std::span<double> /*pressure*/) const {
+  return false;
+}
 
 template <int Dim>
 void Part<Dim>::subtract_pressure(std::span<double> /*pressure*/) const {}
@@ -107,6 +109,14 @@ void Part<Dim>::stay(Flow<Dim>& /*flow*/) {}
 
 template <int Dim>
 void Part<Dim>::finish_step(Flow<Dim>& /*flow*/, const StepStart<Dim>& /*start*/, double /*dt*/) {}
+
+template <int Dim>
+std::vector<StepColumn> Part<Dim>::step_columns() const {
+  return {};
+}
+
+template <int Dim>
+void Part<Dim>::add_to_summary(const Flow<Dim>& /*flow*/, Json& /*summary*/) const {}
 
 template class Part<2>;
 template class Part<3>;

@@ -46,6 +46,12 @@ enum class Reordering {
   removed  ///< some particles were taken out, the others keep their order
 };
 
+/// A number of one step, for a column of steps.csv.
+struct StepColumn {
+  const char* name;
+  double value;
+};
+
 /// Unknowns that are solved for together with the pressure.
 class CoupledUnknowns {
  public:
@@ -124,8 +130,9 @@ class Part {
                                                   WallDrive<Dim>& drive);
   /// Called when the rows have been solved.
   virtual void finish_solve(Flow<Dim>& flow, double dt);
-  /// Adds to the pressure [Pa] of owned particles what the part made of it in the last solve, beside the rows.
-  virtual void add_pressure(std::span<double> pressure) const;
+  /// Adds to the pressure [Pa] of owned particles what the part made of it in the last solve, beside the rows. Returns
+  /// whether there was anything, on all ranks alike.
+  virtual bool add_pressure(std::span<double> pressure) const;
   /// Takes that out.
   virtual void subtract_pressure(std::span<double> pressure) const;
 
@@ -144,6 +151,13 @@ class Part {
   virtual void stay(Flow<Dim>& flow);
   /// Called when particles and walls have arrived, before the time advances.
   virtual void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
+
+  // Results, the same on all ranks.
+
+  /// Its columns of steps.csv, which are always the same, with their values in the last step.
+  virtual std::vector<StepColumn> step_columns() const;
+  /// Adds its blocks to summary.json.
+  virtual void add_to_summary(const Flow<Dim>& flow, Json& summary) const;
 };
 
 /// Makes a part of a case; null if the case has nothing of it. Throws InputError.

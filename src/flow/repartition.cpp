@@ -6,7 +6,6 @@ template <int Dim>
 void sort_particles(Flow<Dim>& flow) {
   flow.neighbourhood.reorder(flow.state.particles,
                              flow.pressure_solver.needs_cells() ? ParticleOrder::z_curve : ParticleOrder::slabs);
-  flow.air.forget();
   for (const auto& part : flow.parts) part->reordered(Reordering::sorted);
 }
 

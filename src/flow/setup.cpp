@@ -93,17 +93,6 @@ double depth_scale(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const
   return depth;
 }
 
-template <int Dim>
-std::vector<VentPlace<Dim>> make_vents(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  std::vector<VentPlace<Dim>> vents;
-  for (const VentTable& vent : spec.vents) {
-    const Vec<Dim> at = to_vec<Dim>(vent.at, "vent '" + vent.name + "'", "at");
-    const NearestWall<Dim> wall = boundary.nearest(at, 0.5 * spec.particles.spacing);
-    vents.push_back({at, wall.face < 0 ? -1 : boundary.faces[wall.face].wall});
-  }
-  return vents;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -126,17 +115,12 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       rows_deep(depth_scale(spec, drawing.fluid, gravity) / spacing),
       domain(periodic_domain<Dim>(spec.domain)),
       gravity_across(across<Dim>(domain, gravity)),
-      finds_wall_forces(!spec.bodies.empty() || has_force_probe(spec)),
+      finds_wall_forces(has_force_probe(spec)),
       finds_wall_pressure(has_force_probe(spec)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_traits(formulation.walls->traits()),
       wall_motion(std::move(drawing.wall_motion)),
       open_ends(make_ends<Dim>(spec)),
-      bodies(make_bodies<Dim>(spec)),
-      moorings(make_moorings<Dim>(spec)),
-      body_of_wall(bodies_of_walls(bodies, drawing.walls.boundary.walls.size())),
-      contact(make_contact_surfaces(drawing.walls.boundary, bodies, spacing)),
-      vents(make_vents(spec, drawing.walls.boundary)),
       kernel(formulation.kernel),
       lattice(lattice_sums(kernel, spacing)),
       kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {

@@ -7,7 +7,6 @@
 #include "closures/viscosity.h"
 #include "flow/formulation.h"
 #include "flow/open_end.h"
-#include "motion/body_contact.h"
 #include "motion/wall_motion.h"
 #include "neighbours/halo.h"
 #include "operators/concentration.h"
@@ -33,13 +32,6 @@ struct Drawing {
   FluidParticles<Dim> fluid;
 };
 
-/// Where a vent is drawn, and with which wall it goes.
-template <int Dim>
-struct VentPlace {
-  Vec<Dim> at;    ///< m
-  int wall = -1;  ///< index into Boundary::walls of one within dx/2; -1: there is none
-};
-
 template <int Dim>
 struct Setup {
   /// Takes the motion of the walls out of `drawing`.
@@ -61,11 +53,6 @@ struct Setup {
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
   std::vector<OpenEnd<Dim>> open_ends;  ///< one per inlet, then one per outlet
-  std::vector<FloatingBody<Dim>> bodies;
-  std::vector<Mooring<Dim>> moorings;
-  std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
-  ContactSurfaces<Dim> contact;   ///< of the bodies
-  std::vector<VentPlace<Dim>> vents;
   Kernel<Dim> kernel;
   LatticeSums lattice;
   KernelValues kernel_values;

@@ -30,14 +30,14 @@ void gather_walls(Flow<Dim>& flow);
 template <int Dim>
 void regather_walls(Flow<Dim>& flow);
 
-/// How moving walls are driven in a step of dt from `start`: to their mean velocity over the step, so that the water
-/// leaves exactly the space they sweep. With `displacement = "mean-velocity"`: to their velocity at its end.
+/// How moving walls are driven in a step of dt from a velocity [m/s] of each row: to their mean velocity over the step,
+/// so that the water leaves exactly the space they sweep. With `displacement = "mean-velocity"`: to their velocity at its end.
 template <int Dim>
-WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
+WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, double dt);
 
 /// The same, to the velocity at the end of the step.
 template <int Dim>
-WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
+WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, double dt);
 
 /// Moves the faces and particles of moving walls to their places at `time`.
 template <int Dim>
@@ -69,15 +69,6 @@ void assign_roles(Flow<Dim>& flow);
 template <int Dim>
 void update_open_ends(Flow<Dim>& flow, double dt);
 
-/// Looks for pockets of air, if water may have gone far since the last look. Call once per step, at the positions where
-/// it starts. Collective.
-template <int Dim>
-void watch_air(Flow<Dim>& flow);
-
-/// Counts how far water and walls go in a step of dt with their present velocity: what is beside pockets in full,
-/// anything else by a quarter, since new pockets are looked for when it may have gone four times as far. Collective.
-template <int Dim>
-void count_displacement_for_air(Flow<Dim>& flow, double dt);
 
 /// Removes and counts the particles that have passed an open end outwards, and those that have fallen below all walls
 /// and would fall for ever. Returns whether this rank had any; if so, its indices have changed and its lists are gone.

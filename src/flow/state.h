@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "air/pockets.h"
 #include "base/json.h"
 #include "flow/open_end.h"
 #include "motion/wall_motion.h"
@@ -27,7 +26,6 @@ struct State {
   double approach = 0.0;                ///< m/s; the largest in the last step, whose neighbours are forgotten
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
   double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
-  AirState air;                         ///< pockets of it
   WaterAmount fallen;                   ///< water that fell below all walls, and is no longer computed
 };
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "motion/floating_body.h"
 
 namespace tailwater {
 
@@ -18,7 +17,6 @@ struct StepStart {
   std::vector<Vec<Dim>> velocity;       ///< m/s; u^n
   std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of walls that move
   double energy = 0.0;                  ///< J; of this rank's fluid
-  std::vector<Twist<Dim>> body_velocity = {};
 };
 
 /// Where the walls are driven in a step, by row of walls that move.

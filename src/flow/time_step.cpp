@@ -17,8 +17,6 @@ constexpr double time_between_looks = 0.01;
 /// (docs/theory/robustness.md).
 constexpr double largest_approach_in_step = 0.9;
 
-/// [1 over the frequency of a line with what hangs on it]; the force of a line is that at the start of the step.
-constexpr double longest_step_of_moorings = 0.5;
 
 /// The largest distance [m] that a corner of a wall is from where it was, within `dt` [s] from now on.
 template <int Dim>
@@ -31,27 +29,6 @@ double largest_displacement_within(const Flow<Dim>& flow, double dt) {
     farthest = std::max(farthest, flow.setup.wall_motion.largest_displacement(time, to, flow.state.motion));
   }
   return farthest;
-}
-
-/// Speed that a unit impulse gives the place x of a body as drawn, at most [1/kg].
-template <int Dim>
-double mobility_at(const FloatingBody<Dim>& body, const Vec<Dim>& x) {
-  const auto is_turn = [](int entry) { return entry >= Dim; };
-  const bool turns_at_all = std::ranges::any_of(body.free, is_turn);
-  const bool goes = !std::ranges::all_of(body.free, is_turn);
-  return (goes ? 1.0 / body.mass : 0.0) +
-         (turns_at_all ? (x - body.drawn.centre).squaredNorm() / body.inertia.minCoeff() : 0.0);
-}
-
-template <int Dim>
-double step_of_moorings(const Setup<Dim>& setup) {
-  double dt = std::numeric_limits<double>::infinity();
-  for (const Mooring<Dim>& mooring : setup.moorings) {
-    double mobility = mobility_at<Dim>(setup.bodies[mooring.body], mooring.at);
-    if (mooring.to_body >= 0) mobility += mobility_at<Dim>(setup.bodies[mooring.to_body], mooring.anchor);
-    if (mobility > 0.0) dt = std::min(dt, longest_step_of_moorings / std::sqrt(mooring.stiffness * mobility));
-  }
-  return dt;
 }
 
 }  // namespace
@@ -107,7 +84,6 @@ double next_time_step(const Flow<Dim>& flow) {
   const StepLimits limits = step_limits(flow);
   double dt = std::min(step_of_water(flow, limits), limits.step);
   if (setup.wall_motion.moving().empty()) return dt;
-  dt = std::min(dt, step_of_moorings(setup));
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
   // because a gate may start within the step.

@@ -7,11 +7,12 @@ namespace {
 
 /// Adds the acceleration that takes the walls from their velocity at the start of the step to `velocity` after dt.
 template <int Dim>
-WallDrive<Dim> drive_to(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<Vec<Dim>> velocity, double dt) {
+WallDrive<Dim> drive_to(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, std::vector<Vec<Dim>> velocity,
+                        double dt) {
   WallDrive<Dim> drive{std::move(velocity), {}};
   drive.acceleration.resize(drive.velocity.size());
   for_each(drive.velocity.size(), [&](std::size_t row) {
-    drive.acceleration[row] = flow.walls.particles.blocked[row] * (drive.velocity[row] - start.wall_velocity[row]) / dt;
+    drive.acceleration[row] = flow.walls.particles.blocked[row] * (drive.velocity[row] - from[row]) / dt;
   });
   return drive;
 }
@@ -19,19 +20,19 @@ WallDrive<Dim> drive_to(const Flow<Dim>& flow, const StepStart<Dim>& start, std:
 }  // namespace
 
 template <int Dim>
-WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  if (flow.setup.formulation.moves_with_mean_velocity) return drive_walls_to_end(flow, start, dt);
-  std::vector<Vec<Dim>> velocity = start.wall_velocity;
+WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, double dt) {
+  if (flow.setup.formulation.moves_with_mean_velocity) return drive_walls_to_end(flow, from, dt);
+  std::vector<Vec<Dim>> velocity = from;
   const double time = flow.state.time;
   flow.setup.wall_motion.get_mean_velocity(time, time + dt, flow.state.motion, velocity);
-  return drive_to(flow, start, std::move(velocity), dt);
+  return drive_to(flow, from, std::move(velocity), dt);
 }
 
 template <int Dim>
-WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  std::vector<Vec<Dim>> velocity = start.wall_velocity;
+WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, double dt) {
+  std::vector<Vec<Dim>> velocity = from;
   flow.setup.wall_motion.get_velocity(flow.state.time + dt, flow.state.motion, velocity);
-  return drive_to(flow, start, std::move(velocity), dt);
+  return drive_to(flow, from, std::move(velocity), dt);
 }
 
 template <int Dim>

@@ -51,6 +51,16 @@ void SectionCounters<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& st
 }
 
 template <int Dim>
+void SectionCounters<Dim>::add_to_summary(const Flow<Dim>& flow, Json& summary) const {
+  const double time = flow.state.time;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    summary["discharge"].push_back({{"name", sections_[s].name},
+                                    {"volume_m3", volumes_[s]},
+                                    {"mean_m3_per_s", time > 0.0 ? volumes_[s] / time : 0.0}});
+  }
+}
+
+template <int Dim>
 std::unique_ptr<Part<Dim>> make_section_counters(const CaseSpec& spec, const Setup<Dim>& /*setup*/,
                                                  const Boundary<Dim>& /*boundary*/) {
   std::vector<Opening<Dim>> sections;

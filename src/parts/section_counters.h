@@ -22,6 +22,7 @@ class SectionCounters final : public Part<Dim> {
   std::string_view name() const override { return "sections"; }
   Json save() const override;
   bool restore(const Json& saved) override;
+  void add_to_summary(const Flow<Dim>& flow, Json& summary) const override;
   void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
 
  private:

@@ -1,6 +1,5 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
-#include "pressure/pockets.h"
 #include "pressure/stages.h"
 
 namespace tailwater {
@@ -17,8 +16,6 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
     particles.velocity[i] = predicted.velocity[i] + dt * (gravity - gradient[i] / setup.density);
   });
   for (const auto& part : flow.parts) part->correct(flow, dt);
-  push_by_pockets(flow, dt);
-  count_displacement_for_air(flow, dt);
   flow.state.wall_velocity = drive.velocity;
   add_wall_forces(flow, particles.pressure);
 }

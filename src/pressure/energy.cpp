@@ -5,7 +5,6 @@
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
 #include "pressure/operators.h"
-#include "pressure/pockets.h"
 #include "pressure/stages.h"
 
 namespace tailwater {
@@ -59,33 +58,34 @@ double density_work(const Flow<Dim>& flow, const PosedEquation& equation, double
   });
 }
 
-}  // namespace
-
+/// Work [J] of the pressure of moving walls on this rank's water.
 template <int Dim>
-double wall_work(const Flow<Dim>& flow, double dt) {
-  if (flow.setup.wall_motion.moving().empty()) return 0.0;
+double wall_work(const Flow<Dim>& flow, const std::vector<double>& pressure, double dt) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<std::size_t> walls = indices_where(
       particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.surroundings.is_wet[i]; });
-  const std::vector<double>& air = flow.sides.pressure;
-  std::vector<double> from_air;  // pressure over that of the air beside
-  if (!air.empty()) subtract_seen<Dim>(flow, air, from_air = particles.pressure);
-  const std::vector<double>& pressure = air.empty() ? particles.pressure : from_air;
   const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, walls, pressure);
-  double work = sum_over(walls.size(), 0.0, [&](std::size_t n) {
+  return sum_over(walls.size(), 0.0, [&](std::size_t n) {
     const std::size_t i = walls[n];
     const Vec<Dim> V = entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[i]);
     return dt * particles.volume[i] * pushes[n].dot(V);  // its force on the fluid, times its velocity
   });
-  // Water that is held rests, and takes no work from walls. To other water it is a wall with a pressure of its own.
-  visit_forces_of_held_water(flow, pressure, [&](std::size_t j, const Vec<Dim>& force) {
-    work += dt * force.dot(particles.is_fluid(j) ? particles.velocity[j]
-                                                 : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
-  });
-  if (!flow.setup.ranks.is_root() || air.empty()) return work;
-  const std::vector<double> growth = growth_at_walls(flow, dt);
-  for (std::size_t k = 0; k < air.size(); ++k) work -= dt * air[k] * growth[k];
-  return work;
+}
+
+}  // namespace
+
+template <int Dim>
+Works work_of_boundaries(const Flow<Dim>& flow, double dt) {
+  Works works;
+  std::vector<double> on_walls;
+  if (!flow.setup.wall_motion.moving().empty()) {
+    on_walls = flow.state.particles.pressure;
+    for (const auto& part : flow.parts) part->subtract_from_walls(flow, on_walls);
+    works.walls = wall_work(flow, on_walls, dt);
+  }
+  works.ends = end_work(flow, dt);
+  for (const auto& part : flow.parts) part->add_work(flow, on_walls, dt, works);
+  return works;
 }
 
 template <int Dim>
@@ -116,8 +116,10 @@ double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
 template <int Dim>
 Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
                    const PosedEquation& equation, double dt) {
-  return {density_work(flow, equation, dt), wall_work(flow, dt), end_work(flow, dt),
-          viscous_work(flow, start, predicted, dt), flow.setup.ranks.is_root() ? flow.sides.work : 0.0};
+  Works works = work_of_boundaries(flow, dt);
+  works.density = density_work(flow, equation, dt);
+  works.viscous = viscous_work(flow, start, predicted, dt);
+  return works;
 }
 
 template <int Dim>
@@ -145,7 +147,7 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   report.density_share = state.density_share;
 }
 
-TAILWATER_IN_2D_AND_3D(wall_work);
+TAILWATER_IN_2D_AND_3D(work_of_boundaries);
 TAILWATER_IN_2D_AND_3D(end_work);
 TAILWATER_IN_2D_AND_3D(work_of_step);
 TAILWATER_IN_2D_AND_3D(balance_energy);

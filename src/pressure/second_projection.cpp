@@ -6,25 +6,24 @@
 #include "base/for_each.h"
 #include "pressure/full_water.h"
 #include "pressure/operators.h"
-#include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
 #include "pressure/stages.h"
-#include "pressure/suction.h"
+#include "pressure/tension.h"
 #include "pressure/tolerance.h"
 
 namespace tailwater {
 namespace {
 
-/// Limits `correction` so that the corrected pressure keeps only the share of a suction that suction.h allows. Near the
-/// surface nothing holds the particles together, and suction would do work (docs/theory/robustness.md).
+/// Limits `correction` so that the corrected pressure keeps only the tension that tension.h allows. Near the surface
+/// nothing holds the particles together, and tension would do work (docs/theory/robustness.md).
 template <int Dim>
-void limit_tension(const Flow<Dim>& flow, std::vector<double>& correction) {
+void limit_correction(const Flow<Dim>& flow, const std::vector<double>& allowed, std::vector<double>& correction) {
   if (!flow.setup.has_air()) return;
   const std::vector<double>& pressure = flow.state.particles.pressure;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     const double sum = pressure[i] + correction[i];
-    const double share = suction_share(flow, i);
-    const double least = -allowed_tension(flow, i);
+    const double share = tension_share(flow, i);
+    const double least = -tension_at(allowed, i);
     if (sum < least && share < 1.0) correction[i] = std::lerp(least, sum, share) - pressure[i];
   });
 }
@@ -52,9 +51,12 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
   if (!flow.has_matrix) flow.forget_matrix();
   std::vector<double>& correction = second.correction;
   correction = particles.second_pressure;
-  subtract_air(flow);
+  const std::vector<double> allowed = allowed_tension(flow);
+  for (const auto& part : flow.parts) {
+    part->subtract_pressure(std::span(particles.pressure).first(particles.owned));
+  }
   shift_minimum_to_zero<Dim>(flow, fullness, particles.pressure, correction);
-  limit_tension(flow, correction);
+  limit_correction(flow, allowed, correction);
   flow.halo().exchange(correction);
   std::vector<Vec<Dim>> gradient(particles.owned);
   flow.discretisation().find_gradient(flow, correction, gradient);
@@ -64,8 +66,8 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
     particles.pressure[i] += correction[i];
   });
   add_wall_forces(flow, correction);
-  finish_pressure(flow, drive);
-  restore_air(flow);
+  finish_pressure(flow, drive, allowed);
+  add_pressure_of_parts(flow);
   return second;
 }
 

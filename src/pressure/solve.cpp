@@ -2,90 +2,111 @@
 
 #include "base/for_each.h"
 #include "pressure/full_water.h"
-#include "pressure/pockets.h"
 #include "pressure/solve_rows.h"
 #include "pressure/stages.h"
-#include "pressure/suction.h"
+#include "pressure/tension.h"
 #include "pressure/tolerance.h"
 
 namespace tailwater {
 namespace {
 
-/// Whether particle i pulls and may not with all of it.
+/// The pressure rows where nothing else is solved for.
 template <int Dim>
-bool pulls(const Flow<Dim>& flow, std::size_t i) {
-  return flow.state.particles.pressure[i] < -allowed_tension(flow, i) && suction_share(flow, i) < 1.0;
+class RowsAlone final : public CoupledUnknowns {
+ public:
+  explicit RowsAlone(Flow<Dim>& flow) : flow_(flow) {}
+  SolveReport solve_roughly(double tolerance) override { return solve(tolerance); }
+  SolveReport solve(double tolerance) override { return solve_rows(flow_, flow_.state.particles.pressure, tolerance); }
+
+ private:
+  Flow<Dim>& flow_;
+};
+
+template <int Dim>
+std::unique_ptr<CoupledUnknowns> couple(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<Dim>& drive) {
+  for (const auto& part : flow.parts) {
+    if (std::unique_ptr<CoupledUnknowns> unknowns = part->couple(flow, equation, drive)) return unknowns;
+  }
+  return std::make_unique<RowsAlone<Dim>>(flow);
 }
 
-/// Limits suction in the equation where the present pressure asks for it.
+/// The pressure that this projection found last, without what parts and a second projection added to it.
 template <int Dim>
-void hold_suction(Flow<Dim>& flow) {
-  Particles<Dim>& particles = flow.state.particles;
-  for_each(particles.owned, [&](std::size_t i) {
-    if (!pulls(flow, i)) return;
-    const double share = suction_share(flow, i);
-    const double least = -allowed_tension(flow, i);
+std::vector<double> guess(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> pressure = particles.pressure;
+  for (const auto& part : flow.parts) part->subtract_pressure(std::span(pressure).first(particles.owned));
+  for_each(particles.owned, [&](std::size_t i) { pressure[i] -= particles.second_pressure[i]; });
+  return pressure;
+}
+
+/// Limits tension in the equation where a rough pressure has more than it may keep. Returns the guess of what the
+/// equation then gives.
+template <int Dim>
+std::vector<double> limit_tension(Flow<Dim>& flow, const std::vector<double>& allowed, std::vector<double> rough) {
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    const double share = tension_share(flow, i);
+    const double least = -tension_at(allowed, i);
+    if (rough[i] >= least || share >= 1.0) return;
     flow.pressure_rows.divide_diagonal(i, share, least);
-    particles.pressure[i] = std::lerp(least, particles.pressure[i], share);
+    rough[i] = std::lerp(least, rough[i], share);
   });
+  return rough;
 }
 
 }  // namespace
 
 template <int Dim>
-void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
+void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive, const std::vector<double>& allowed) {
   std::vector<double>& pressure = flow.state.particles.pressure;
   flow.halo().exchange(pressure);
   if (!flow.setup.has_air()) return;
-  const std::vector<double>& drop = flow.sides.response_deficit;  // walls may pull by as much, too
-  for_each(drop.size(), [&](std::size_t i) { pressure[i] += drop[i]; });
+  for_each(allowed.size(), [&](std::size_t i) { pressure[i] += allowed[i]; });  // walls may keep as much tension, too
   const bool has_followed =
       flow.wall_model().follow_pressure(flow.wall_scene(), flow.wall_force(drive.acceleration), pressure);
-  for_each(drop.size(), [&](std::size_t i) { pressure[i] -= drop[i]; });
+  for_each(allowed.size(), [&](std::size_t i) { pressure[i] -= allowed[i]; });
   if (has_followed) flow.halo().exchange(pressure);
 }
 
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive,
-                     const RowSolver& rows) {
-  const double tolerance = flow.pressure_solver.tolerance();
-  Particles<Dim>& particles = flow.state.particles;
-  // The guess is what this projection found last.
-  subtract_air(flow);
-  for_each(particles.owned, [&](std::size_t i) { particles.pressure[i] -= particles.second_pressure[i]; });
-  PressureReport report;
-  if (flow.setup.has_air()) {
-    // Only to tell where water near the surface would pull; and it is the guess of the second solve.
-    const PressureReport rough = report_of(rows.solve_roughly(rough_tolerance(tolerance)));
-    shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
-    hold_suction(flow);
-    report = report_of(rows.solve(tolerance));
-    shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, particles.pressure);
-    report.iterations += rough.iterations;
-    report.interventions += rough.interventions;
-  } else {
-    report = report_of(rows.solve(tolerance));
+void add_pressure_of_parts(Flow<Dim>& flow) {
+  std::vector<double>& pressure = flow.state.particles.pressure;
+  bool some_added = false;
+  for (const auto& part : flow.parts) {
+    some_added = part->add_pressure(std::span(pressure).first(flow.state.particles.owned)) || some_added;
   }
-  flow.forget_matrix();
-  report.interventions.fallback_rows = equation.fallback_rows;
-  report.iterations += flow.sides.iterations;
-  finish_pressure(flow, drive);
-  add_air(flow, equation.dt);
-  return report;
+  if (some_added) flow.halo().exchange(pressure);
 }
 
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive) {
-  const auto rows = [&](double tolerance) { return solve_rows(flow, flow.state.particles.pressure, tolerance); };
-  return solve(flow, equation, drive, RowSolver{rows, rows});
+PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<Dim>& drive) {
+  const double tolerance = flow.pressure_solver.tolerance();
+  std::vector<double>& pressure = flow.state.particles.pressure;
+  const std::unique_ptr<CoupledUnknowns> unknowns = couple(flow, equation, drive);
+  const std::vector<double> allowed = allowed_tension(flow);
+  PressureReport rough;
+  pressure = guess(flow);
+  if (flow.setup.has_air()) {
+    // Only to find where water near the surface would pull; and it is the guess of the second solve.
+    rough = report_of(unknowns->solve_roughly(rough_tolerance(tolerance)));
+    shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, pressure);
+    pressure = limit_tension(flow, allowed, std::move(pressure));
+  }
+  PressureReport report = report_of(unknowns->solve(tolerance));
+  if (flow.setup.has_air()) shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, pressure);
+  report.iterations += rough.iterations + equation.iterations;
+  report.interventions += rough.interventions;
+  report.interventions.fallback_rows = equation.fallback_rows;
+  flow.forget_matrix();
+  finish_pressure(flow, drive, allowed);
+  for (const auto& part : flow.parts) part->finish_solve(flow, equation.dt);
+  add_pressure_of_parts(flow);
+  unknowns->finish();
+  return report;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                               \
-  template void finish_pressure<Dim>(Flow<Dim>&, const WallDrive<Dim>&);                                         \
-  template PressureReport solve<Dim>(Flow<Dim>&, const PosedEquation&, const WallDrive<Dim>&, const RowSolver&); \
-  template PressureReport solve<Dim>(Flow<Dim>&, const PosedEquation&, const WallDrive<Dim>&);
-TAILWATER_INSTANTIATE(2)
-TAILWATER_INSTANTIATE(3)
-#undef TAILWATER_INSTANTIATE
+TAILWATER_IN_2D_AND_3D(finish_pressure);
+TAILWATER_IN_2D_AND_3D(add_pressure_of_parts);
+TAILWATER_IN_2D_AND_3D(solve);
 
 }  // namespace tailwater

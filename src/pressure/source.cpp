@@ -3,7 +3,6 @@
 
 #include "base/for_each.h"
 #include "pressure/full_water.h"
-#include "pressure/pockets.h"
 #include "pressure/stages.h"
 
 namespace tailwater {
@@ -35,7 +34,6 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
     if (!is_solved_for(flow.role[i])) return;
     flow.pressure_rows.set_rhs(i, source.rows[i] + (beside.empty() ? 0.0 : beside[i]));
   });
-  pose_pockets<Dim>(flow, predicted.velocity, dt);
   for (const auto& part : flow.parts) equation.iterations += part->pose(flow, predicted.velocity, dt);
   return equation;
 }

@@ -2,7 +2,6 @@
 // signatures tell the order: aim, assemble, solve, correct, balance; a second projection where the particles arrived.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "flow/stages.h"
@@ -28,28 +27,22 @@ template <int Dim>
 PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::span<const double> target,
                        const WallDrive<Dim>& drive, double dt);
 
-/// Solves for the pressure, starting from the last one. Near the surface nothing holds the particles together, so
-/// p_i >= 0 there is part of the equation: where a rough solution pulls, the diagonal of row i is divided by `interior`
-/// (0 in the outermost rows, 1 inside; that of a wall by 0), and the system is solved again. With an
-/// M-matrix this can only raise pressures, so no new row begins to pull (docs/theory/robustness.md). The matrix is gone
-/// then.
+/// Solves for the pressure, starting from the last one, together with the unknowns of parts, which `drive` may follow.
+/// Near the surface nothing holds the particles together, so p_i >= 0 there is part of the equation: where a rough
+/// solution pulls, the diagonal of row i is divided by `interior` (0 in the outermost rows, 1 inside; that of a wall by
+/// 0), and the system is solved again. With an M-matrix this can only raise pressures, so no new row begins to pull
+/// (docs/theory/robustness.md). The matrix is gone then.
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive);
+PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<Dim>& drive);
 
-/// How the flow's rows are solved to a tolerance, by whoever has more to find with the pressure than the pressure.
-struct RowSolver {
-  std::function<SolveReport(double tolerance)> solve_roughly;  ///< for a guess
-  std::function<SolveReport(double tolerance)> solve;
-};
-
-/// The same with `rows`, which may change `drive`.
+/// After a change of the water's pressure: brings walls and ghosts up to date. `allowed` is the tension [Pa] that
+/// particles keep in full (tension.h).
 template <int Dim>
-PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, const WallDrive<Dim>& drive,
-                     const RowSolver& rows);
+void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive, const std::vector<double>& allowed);
 
-/// After a change of the fluid's pressure: brings walls and ghosts up to date.
+/// Adds the pressure that parts make beside the rows, and brings ghosts up to date.
 template <int Dim>
-void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive);
+void add_pressure_of_parts(Flow<Dim>& flow);
 
 /// (F16), (F24), (B16), (B18): u = u_star + dt (g - grad p/rho). The walls move as they are driven.
 template <int Dim>
@@ -74,10 +67,10 @@ template <int Dim>
 Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
                    const PosedEquation& equation, double dt);
 
-/// Work [J] of the pressure of moving walls on this rank's water in a step of dt. Needs the pressure of this step and
-/// the walls' velocity that `correct` left.
+/// Works [J] on this rank's water, in a step of dt, of the pressure of moving walls and of the parts; the others are 0.
+/// Needs the pressure of this step and the walls' velocity that `correct` left.
 template <int Dim>
-double wall_work(const Flow<Dim>& flow, double dt);
+Works work_of_boundaries(const Flow<Dim>& flow, double dt);
 
 /// Work [J] of what is prescribed at open ends on this rank's water in a step of dt; likewise.
 template <int Dim>

@@ -57,7 +57,6 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   flow.wall_model().assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (is_in_end_stretch(flow.role[i])) assemble_end_row(flow, i);
-    if (flow.role[i] == Role::stagnant) flow.pressure_rows.row(i).finish_as_zero();  // later passes correct no pressure
   });
   for (const auto& part : flow.parts) part->write_rows(flow);
   return flow.discretisation().write_rows(flow);

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "air/enclosed_air.h"
+#include "bodies/floating_bodies.h"
 #include "parts/boundary_layers.h"
 #include "parts/damping_zones.h"
 #include "parts/section_counters.h"
@@ -26,8 +28,8 @@ template <int Dim>
 Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   // All parts that a flow can have, in the order in which the stages call them.
   static constexpr std::array parts{
-      make_wave_makers<Dim>,     make_side_walls<Dim>,       make_damping_zones<Dim>,
-      make_boundary_layers<Dim>, make_section_counters<Dim>,
+      make_wave_makers<Dim>,     make_side_walls<Dim>,      make_damping_zones<Dim>, make_boundary_layers<Dim>,
+      make_floating_bodies<Dim>, make_enclosed_air<Dim>, make_section_counters<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

@@ -48,7 +48,7 @@ template <int Dim>
 StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   Particles<Dim>& particles = flow.state.particles;
   StepReport report;
-  WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls(flow, start.wall_velocity, dt);
   const std::vector<double> no_target(particles.owned, 0.0);  // (F19)
   std::optional<std::vector<double>> divergence_old;
   for (bool settled = false; !settled && report.passes < most_passes;) {

@@ -6,7 +6,7 @@
 #include "base/json.h"
 #include "flow/measure.h"
 #include "flow/step.h"
-#include "results/saved.h"
+#include "base/saved.h"
 
 namespace tailwater {
 

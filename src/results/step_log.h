@@ -13,14 +13,14 @@ namespace tailwater {
 
 class StepLog {
  public:
-  /// `with_air`: whether enclosed air is a gas, of which it then tells. `kept`: bytes of the file of an earlier run to
-  /// go on with (io/csv_writer.h).
-  explicit StepLog(const std::filesystem::path& path, bool with_air, std::optional<std::int64_t> kept = {});
+  /// With columns for the measures' `of_parts`. `kept`: bytes of the file of an earlier run to go on with
+  /// (io/csv_writer.h).
+  explicit StepLog(const std::filesystem::path& path, const FlowMeasures& measures,
+                   std::optional<std::int64_t> kept = {});
   void write(double time, std::int64_t step, const StepReport& report, const FlowMeasures& measures);
   const CsvWriter& csv() const { return csv_; }
 
  private:
-  bool with_air_;
   CsvWriter csv_;
 };
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/error.h"
 #include "case/reader.h"
 #include "io/hdf5_image.h"
 #include "parallel/together.h"

@@ -44,7 +44,7 @@ void CheckpointKeeper<Dim>::go_on_from(std::int64_t step) {
 template <int Dim>
 void CheckpointKeeper<Dim>::remember(const Flow<Dim>& flow, const RunOutput<Dim>& output, double reference_step) {
   if (!last_) last_.emplace();
-  last_->flow = flow.saved();
+  flow.save(last_->flow);
   last_->output = output.saved();
   last_->probe_memory = output.probe_memory();
   last_->reference_step = reference_step;

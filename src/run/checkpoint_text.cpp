@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "results/saved.h"
+#include "base/saved.h"
 
 namespace tailwater {
 
@@ -16,19 +16,12 @@ void require_fit(bool condition, const char* part) {
   if (!condition) throw IoError("its '{}' does not fit", part);
 }
 
-// There may be many.
-inline void to_json(Json& json, const CellRun& run) { json = {run.row, run.begin, run.end}; }
-inline void from_json(const Json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
-
 TAILWATER_SAVED(inline, WaterAmount, particles, volume, energy)
 TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
 TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate,
                 entry_speed, depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived,
                 short_steps)
 TAILWATER_SAVED(inline, MakerState, correction, rate, time)
-TAILWATER_SAVED(inline, AirPocket, number, gas, volume, torn, cells)
-TAILWATER_SAVED(inline, AirState, pockets, begun, ended, displacement, gas_found, gas_lost, gas_vented, energy_lost,
-                energy_vented, energy_set)
 
 namespace {
 
@@ -76,14 +69,13 @@ BodyState<Dim> body_of(const Json& json) {
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, motion, approach, energy_rise, density_share, air,
-               fallen] = checkpoint.flow.state;
+  const auto& [time, step, particles, wall_velocity, open_ends, motion, approach, energy_rise, density_share, fallen] =
+      checkpoint.flow.state;
   Json json{{"time", time},
             {"step", step},
             {"approach", approach},
             {"energy_rise", energy_rise},
             {"density_share", density_share},
-            {"air", air},
             {"fallen", fallen},
             {"reference_step", checkpoint.reference_step},
             {"open_ends", open_ends},
@@ -105,9 +97,6 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.approach = json.at("approach");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
-  state.air = json.at("air");
-  require_fit(std::ranges::all_of(state.air.pockets, [](const AirPocket& p) { return p.gas >= 0.0 && p.volume > 0.0; }),
-              "air");
   state.fallen = json.at("fallen");
   checkpoint.reference_step = json.at("reference_step");
   json.at("open_ends").get_to(state.open_ends);

@@ -6,14 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "air/enclosed_air.h"
 #include "base/free_memory.h"
 #include "case/writer.h"
-#include "flow/air_pressure.h"
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
 #include "parts/section_counters.h"
-#include "results/air_balance.h"
 #include "results/field_output.h"
 #include "results/probe_results.h"
 #include "results/provenance.h"
@@ -60,19 +59,16 @@ std::vector<ProbeMark> marks_of(const Json& kept) {
   return marks;
 }
 
-/// What has passed the sections of discharge probes since the start.
+/// Of all pockets of air.
 template <int Dim>
-Json discharges_of(const Flow<Dim>& flow) {
-  Json discharges = Json::array();
-  const double time = flow.state.time;
-  const auto& counters = flow.template part<SectionCounters<Dim>>();
-  for (std::size_t s = 0; s < counters.sections().size(); ++s) {
-    const double volume = counters.volumes()[s];
-    discharges.push_back({{"name", counters.sections()[s].name},
-                          {"volume_m3", volume},
-                          {"mean_m3_per_s", time > 0.0 ? volume / time : 0.0}});
-  }
-  return discharges;
+PocketTotals pocket_totals(const EnclosedAir<Dim>& air) {
+  const AirMeasures all = air.measures();
+  return {.pressure = all.pressure,
+          .volume = all.volume,
+          .gas = all.gas,
+          .vented = air.state.gas_vented,
+          .energy = all.energy,
+          .pockets = static_cast<double>(all.pockets)};
 }
 
 }  // namespace
@@ -97,7 +93,8 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       fields_schedule_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval
                                                          : spec.time.end / default_field_files),
       cpu_start_(cpu_seconds_of_process()) {
-  do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), flow.air.is_on(), kept_bytes(kept, "steps")); });
+  const FlowMeasures at_start = measure(flow);
+  do_on_root(ranks_, [&] { step_log_.emplace(folder_.steps(), at_start, kept_bytes(kept, "steps")); });
   if (kept != nullptr) restore(*kept);
 }
 
@@ -221,14 +218,14 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .volume_out = measures.departed.volume,
                              .volume_in = measures.arrived.volume,
                              .section_volumes = flow.template part<SectionCounters<Dim>>().volumes(),
-                             .air = pocket_totals(flow)},
+                             .air = pocket_totals(air_of(flow))},
                   .ranks = ranks_,
                   .plate_of = plate_of,
                   .domain = flow.setup.domain,
                   .dt = dt,
                   .wall_forces = &flow.wall_forces,
                   .bodies = flow.state.motion.bodies.each,
-                  .air_pressure = air_pressure_of(flow)});
+                  .air_pressure = air_of(flow).pressure_field()});
 }
 
 template <int Dim>
@@ -327,9 +324,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
                   {"ranks", rank_log_.json()}};
   summary.update(statistics_.json(fluid, static_cast<std::size_t>(water_at_start_.particles)));
   summary["water_balance"] = water_balance(water_at_start_, flow);
-  if (flow.air.is_on()) summary["pockets"] = pockets_of(flow);
-  Json discharges = discharges_of(flow);
-  if (!discharges.empty()) summary["discharge"] = std::move(discharges);
+  for (const auto& part : flow.parts) part->add_to_summary(flow, summary);
   for (const auto& [probe, lines] : probes_.summaries()) {
     for (const auto& [name, value] : lines) summary["probes"][probe][name] = value;
   }

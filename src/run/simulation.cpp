@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/for_each.h"
+#include "bodies/floating_bodies.h"
 #include "flow/stages.h"
 #include "published/make_flow.h"
 #include "schemes/advance.h"
@@ -92,11 +93,11 @@ bool Simulation<Dim>::fits(State<Dim>& state) {
     const std::int64_t number = state.particles.id[i] - flow_.setup.first_wall_id;
     return !state.particles.is_fluid(i) && (number < 0 || number >= flow_.walls.particles.numbers);
   });
-  std::size_t degrees = 0;
-  for (const FloatingBody<Dim>& body : flow_.setup.bodies) degrees += body.free.size();
+  const FloatingBodies<Dim>& bodies = bodies_of(flow_);
+  const std::size_t degrees = bodies.freedom_count();
   const MotionState<Dim>& motion = state.motion;
   const bool moves_alike = motion.wave_makers.size() == flow_.state.motion.wave_makers.size() &&
-                           motion.bodies.each.size() == flow_.setup.bodies.size() &&
+                           motion.bodies.each.size() == bodies.bodies.size() &&
                            (motion.bodies.inertia.empty() || motion.bodies.inertia.size() == degrees * degrees);
   const bool is_alike = misplaced == 0 && moves_alike &&
                         state.wall_velocity.size() == flow_.state.wall_velocity.size() &&

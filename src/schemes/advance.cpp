@@ -1,7 +1,5 @@
 #include "schemes/advance.h"
 
-#include "bodies/stages.h"
-
 namespace tailwater {
 
 template <int Dim>
@@ -9,11 +7,8 @@ StepStart<Dim> begin_step(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
   assign_roles(flow);
   update_open_ends(flow, dt);
-  watch_air(flow);
   for (const auto& part : flow.parts) part->begin_step(flow, dt);
-  StepStart<Dim> start = save_step_start(flow);
-  steer_bodies(flow, start, dt);
-  return start;
+  return save_step_start(flow);
 }
 
 template <int Dim>
@@ -26,9 +21,7 @@ StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.stopped_at_walls, counts.capped_shifts, counts.fallback_rows);
   balance_energy(flow, start, report);
-  carry_over_guard(flow, dt);
   flow.state.time += dt;
-  for (BodyState<Dim>& body : flow.state.motion.bodies.each) body.go_on(flow.state.time);
   ++flow.state.step;
   return report;
 }

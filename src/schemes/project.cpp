@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "base/for_each.h"
-#include "bodies/stages.h"
 #include "pressure/operators.h"
 
 namespace tailwater {
@@ -16,13 +15,13 @@ constexpr std::int64_t steps_between_reports = 10;
 template <int Dim>
 StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report;
-  WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls(flow, start.wall_velocity, dt);
   locate(flow);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);  // (F14)
   set_wall_velocities_at_mid_step(flow, start, dt, predicted.velocity);
   const PosedEquation equation = assemble(
       flow, predicted, target_divergence(flow, std::move(predicted.velocity_gradient), dt), drive, dt);  // (F15)
-  report.add(solve_with_bodies(flow, start, equation, dt, drive));
+  report.add(solve(flow, equation, drive));
   correct(flow, predicted, drive, dt);  // (F16)
   report.work = work_of_step(flow, start, predicted, equation, dt);
   return report;

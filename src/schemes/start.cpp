@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bodies/stages.h"
 #include "schemes/advance.h"
 #include "schemes/two_step.h"
 
@@ -12,7 +11,7 @@ namespace tailwater {
 
 template <int Dim>
 void predict_pressure_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls_to_end(flow, start.wall_velocity, dt);
   predict_pressure(flow, start, drive, dt);
   add_wall_forces(flow, flow.state.particles.pressure);
   std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
@@ -23,14 +22,10 @@ void predict_pressure_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, dou
 
 template <int Dim>
 void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls_to_end(flow, start.wall_velocity, dt);
   Prediction<Dim> predicted = predict(flow, start, drive, dt);
   const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
-  solve_with_bodies(flow, start, assemble(flow, predicted, target, drive, dt), dt, drive);
-  for (std::size_t b = 0; b < start.body_velocity.size(); ++b) {  // nothing has moved yet
-    flow.state.motion.bodies.each[b].velocity = start.body_velocity[b];
-    flow.state.motion.bodies.each[b].carried_over.setZero();
-  }
+  solve(flow, assemble(flow, predicted, target, drive, dt), drive);
   for (const auto& part : flow.parts) part->stay(flow);
   add_wall_forces(flow, flow.state.particles.pressure);
 }
@@ -40,7 +35,6 @@ void start(Flow<Dim>& flow) {
   const double dt = next_time_step(flow);
   assign_roles(flow);
   update_open_ends(flow, 0.0);
-  watch_air(flow);
   for (const auto& part : flow.parts) part->begin_step(flow, 0.0);
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);

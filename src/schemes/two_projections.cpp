@@ -1,4 +1,3 @@
-#include "bodies/stages.h"
 #include "schemes/project.h"
 #include "schemes/projection.h"
 
@@ -10,16 +9,16 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   report.interventions.stopped_at_walls += move(flow, start, dt);
   report.interventions += shift(flow, dt);
   locate(flow);
-  const WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
+  const WallDrive<Dim> drive = drive_walls_to_end(flow, start.wall_velocity, dt);
   flow.state.wall_velocity = drive.velocity;
   const SecondProjection second = reproject(flow, drive, dt);
   for (const auto& part : flow.parts) part->project_again(flow, second.correction, dt);
-  carry_over_second_pressure(flow, second.correction, dt);
   ++report.passes;
   report.iterations += second.report.iterations;  // the residual stays that of the first solve, to the tolerance
   report.interventions += second.report.interventions;
-  report.work.walls = wall_work(flow, dt);  // by the pressure of both projections
-  report.work.ends = end_work(flow, dt);
+  const Works boundaries = work_of_boundaries(flow, dt);  // by the pressure of both projections
+  report.work.walls = boundaries.walls;
+  report.work.ends = boundaries.ends;
   report.divergence = report_of_divergence(flow, divergence_to_report(flow));  // the last solve was where it ends
   return report;
 }

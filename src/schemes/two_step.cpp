@@ -22,7 +22,7 @@ PredictedPressure<Dim> predict_pressure(Flow<Dim>& flow, const StepStart<Dim>& s
 template <int Dim>
 StepReport two_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report;
-  WallDrive<Dim> drive = drive_walls(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls(flow, start.wall_velocity, dt);
   const PredictedPressure<Dim> found = predict_pressure(flow, start, drive, dt);
   report.add(found.solved);
   correct(flow, found.predicted, drive, dt);  // (B16), (B18)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "air/enclosed_air.h"
 #include "flow/stages.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
@@ -44,15 +45,15 @@ TYPED_TEST(PocketVolume, IsWhatALatticeLeavesOfTheTank) {
   for (const double depth : {0.3, 0.33}) {  // a whole number of dx, and not
     CaseSpec spec = closed_tank<Dim>(0.6, depth);
     Flow<Dim> flow = make_flow<Dim>(spec);
-    watch_air(flow);
-    ASSERT_EQ(flow.state.air.pockets.size(), 1u);
+    air_of(flow).begin_step(flow, 0.0);
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
     const double tank = std::pow(0.6, Dim - 1) * 2.0 * depth;
     const double water = sum_over(flow.state.particles.owned, 0.0, [&](std::size_t i) {
       return flow.state.particles.is_fluid(i) ? flow.state.particles.volume[i] : 0.0;
     });
     const double rows = std::round(depth / dx);
     const double bound = std::abs(depth / rows - dx) * std::pow(0.6, Dim - 1) + 1e-9;
-    EXPECT_NEAR(flow.state.air.pockets[0].volume, tank - water, bound) << depth;
+    EXPECT_NEAR(air_of(flow).state.pockets[0].volume, tank - water, bound) << depth;
   }
 }
 
@@ -64,10 +65,10 @@ TYPED_TEST(PocketVolume, OfABubbleIsThatOfTheWaterThatIsMissing) {
   const std::size_t all = count_fluid(flow);
   const Vec<Dim> centre = Vec<Dim>::Constant(0.39);
   keep_water(flow, [&](const Vec<Dim>& x) { return (x - centre).norm() > 0.16; });
-  watch_air(flow);
-  ASSERT_EQ(flow.state.air.pockets.size(), 1u);
+  air_of(flow).begin_step(flow, 0.0);
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
   const double missing = static_cast<double>(all - count_fluid(flow)) * std::pow(dx, Dim);
-  EXPECT_NEAR(flow.state.air.pockets[0].volume, missing, 1e-9);
+  EXPECT_NEAR(air_of(flow).state.pockets[0].volume, missing, 1e-9);
 }
 
 // Where water is not a lattice, the row in which the volume cuts it matters: one in twelve particles at random, by a
@@ -85,10 +86,10 @@ TYPED_TEST(PocketVolume, IsRightInTheMeanBesideDisorderedWater) {
     Flow<Dim> flow = make_flow<Dim>(spec);
     const std::size_t all = count_fluid(flow);
     keep_water(flow, [](const Vec<Dim>& x) { return (x - Vec<Dim>::Constant(0.39)).norm() > 0.16; });
-    watch_air(flow);
-    ASSERT_EQ(flow.state.air.pockets.size(), 1u);
+    air_of(flow).begin_step(flow, 0.0);
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
     const double missing = static_cast<double>(all - count_fluid(flow)) * std::pow(dx, Dim);
-    const double off = flow.state.air.pockets[0].volume / missing - 1.0;
+    const double off = air_of(flow).state.pockets[0].volume / missing - 1.0;
     error += off / trials;
     squares += off * off / trials;
   }
@@ -101,8 +102,8 @@ TYPED_TEST(PocketVolume, OpenTankHasNone) {
   CaseSpec spec = tank_case<Dim>(dx, 0.6, 0.3);
   spec.air.pockets = AirPockets::adiabatic;
   Flow<Dim> flow = make_flow<Dim>(spec);
-  watch_air(flow);
-  EXPECT_TRUE(flow.state.air.pockets.empty());
+  air_of(flow).begin_step(flow, 0.0);
+  EXPECT_TRUE(air_of(flow).state.pockets.empty());
 }
 
 // The hollow of a block that stands in the water is no air.
@@ -116,8 +117,8 @@ TEST(PocketVolumeOfBlock, InsideOfABlockIsNone) {
   block.fluid_side = FluidSide::outside;
   spec.walls.push_back(block);
   Flow<2> flow = make_flow<2>(spec);
-  watch_air(flow);
-  EXPECT_TRUE(flow.state.air.pockets.empty());
+  air_of(flow).begin_step(flow, 0.0);
+  EXPECT_TRUE(air_of(flow).state.pockets.empty());
 }
 
 // Of its cube nothing is in front of the wall, and the cells beside it are the pocket's.
@@ -125,14 +126,14 @@ TEST(PocketVolumeOfBlock, WaterBehindAWallTakesNothing) {
   CaseSpec spec = closed_tank<2>(0.75, 0.375);
   spec.particles.spacing = 0.0625;  // edges of cells are whole numbers
   Flow<2> flow = make_flow<2>(spec);
-  watch_air(flow);
-  ASSERT_EQ(flow.state.air.pockets.size(), 1u);
-  const double volume = flow.state.air.pockets[0].volume;
+  air_of(flow).begin_step(flow, 0.0);
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
+  const double volume = air_of(flow).state.pockets[0].volume;
   Flow<2> leaky = make_flow<2>(spec);
   leaky.state.particles.position[0] = Vec<2>(-0.03125, 0.5625);
-  watch_air(leaky);
-  ASSERT_EQ(leaky.state.air.pockets.size(), 1u);
-  EXPECT_NEAR(leaky.state.air.pockets[0].volume, volume, 1e-12);
+  air_of(leaky).begin_step(leaky, 0.0);
+  ASSERT_EQ(air_of(leaky).state.pockets.size(), 1u);
+  EXPECT_NEAR(air_of(leaky).state.pockets[0].volume, volume, 1e-12);
 }
 
 // A plate is no way for air: of a closed tank it makes two pockets.
@@ -143,9 +144,9 @@ TEST(PocketVolumeOfPlate, PlateParts) {
   plate.points = {{0.5, 0.2}, {0.5, 0.8}};
   spec.walls.push_back(plate);
   Flow<2> flow = make_flow<2>(spec);
-  watch_air(flow);
-  ASSERT_EQ(flow.state.air.pockets.size(), 2u);
-  for (const AirPocket& pocket : flow.state.air.pockets) EXPECT_NEAR(pocket.volume, 0.2, 1e-6);
+  air_of(flow).begin_step(flow, 0.0);
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 2u);
+  for (const AirPocket& pocket : air_of(flow).state.pockets) EXPECT_NEAR(pocket.volume, 0.2, 1e-6);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ struct Shifted {
     }
     const bool is_lind = kind == ShiftingKind::lind;
     const ShiftingLaw law{.strength = is_lind ? 2.0 : 0.1, .cap = cap, .spacing = dx};
-    beyond_bound = is_lind ? compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, here, shift)
-                           : find_published_shifts<Dim>(law, dt, set.pairs(), set.particles, here, shift);
+    beyond_bound = is_lind ? compute_shift<Dim>(law, dt, speed, set.pairs(), set.particles, surroundings, shift)
+                           : find_published_shifts<Dim>(law, dt, set.pairs(), set.particles, surroundings, shift);
   }
 
   static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "air/enclosed_air.h"
 #include "flow/measure.h"
 #include "flow/stages.h"
 #include "schemes/cases.h"
@@ -125,8 +126,8 @@ template <int Dim>
 double energy_of_all(const Flow<Dim>& flow, double dt) {
   const double ahead = flow.setup.formulation.moves_with_mean_velocity ? 0.0 : 0.5 * dt * mean_velocity(flow);
   const double weight = -fluid_sums_of_rank(flow).mass * flow.setup.gravity[Dim - 1];
-  const AirState& air = flow.state.air;
-  return measure(flow).energy() - weight * ahead + measure_air(flow).energy + air.energy_vented - air.energy_set;
+  const AirState& air = air_of(flow).state;
+  return measure(flow).energy() - weight * ahead + air_of(flow).measures().energy + air.energy_vented - air.energy_set;
 }
 
 /// Moves the column for a number of small oscillations, in steps of a fraction of one.
@@ -145,7 +146,7 @@ Motion move_column(const CaseSpec& spec, double periods, int steps_per_period, d
     const double energy = energy_of_all(flow, dt);
     found.energy_rise = std::max(found.energy_rise, (energy - least_energy) / first_energy);
     least_energy = std::min(least_energy, energy);
-    const double pressure = measure_air(flow).pressure;
+    const double pressure = air_of(flow).measures().pressure;
     found.largest_pressure = std::max(found.largest_pressure, pressure);
     if (oscillation.turns() < 2 && pressure > half_pressure) found.impulse_time += dt;
     oscillation.add(flow.state.time, dt, mean_velocity(flow));
@@ -281,13 +282,13 @@ TEST(VentedColumn, SinksAsTheDifferentialEquationSays) {
       largest_velocity = std::max(largest_velocity, std::abs(exact.velocity));
       largest_pressure = std::max(largest_pressure, exact.pressure());
       error_of_velocity = std::max(error_of_velocity, std::abs(mean_velocity(flow) - exact.velocity));
-      error_of_pressure = std::max(error_of_pressure, std::abs(measure_air(flow).pressure - exact.pressure()));
+      error_of_pressure = std::max(error_of_pressure, std::abs(air_of(flow).measures().pressure - exact.pressure()));
     }
     const std::string which = fmt::format("{} {}", name_of(order.name), name_of(order.integrator));
     EXPECT_LT(error_of_velocity, 0.02 * largest_velocity) << which;
     EXPECT_LT(error_of_pressure, 0.02 * largest_pressure) << which;
-    const double lost = energy - measure(flow).energy() - measure_air(flow).energy;
-    EXPECT_NEAR(flow.state.air.energy_vented / lost, 1.0, 0.02) << which;
+    const double lost = energy - measure(flow).energy() - air_of(flow).measures().energy;
+    EXPECT_NEAR(air_of(flow).state.energy_vented / lost, 1.0, 0.02) << which;
     EXPECT_LT(energy_rise, 1e-4 * 0.5 * density * width * water_height * g * water_height) << which;
     record_error("vented_column_energy_rise", 2, 0.025, energy_rise / (0.5 * density * width * g * 0.25));
     record_error("vented_column_velocity", 2, 0.025, error_of_velocity / largest_velocity);
@@ -309,8 +310,8 @@ TYPED_TEST(AirColumn, RestsAboveWaterAtRest) {
     apply_formulation(spec.scheme);
     Flow<Dim> flow = make_flow<Dim>(spec);
     start(flow);
-    ASSERT_EQ(flow.state.air.pockets.size(), 1u);
-    const double volume = flow.state.air.pockets[0].volume;
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
+    const double volume = air_of(flow).state.pockets[0].volume;
     spec.air.pockets = AirPockets::none;
     Flow<Dim> without = make_flow<Dim>(spec);
     start(without);
@@ -319,10 +320,10 @@ TYPED_TEST(AirColumn, RestsAboveWaterAtRest) {
       work += step(flow).work.air;
       step(without);
     }
-    ASSERT_EQ(flow.state.air.pockets.size(), 1u);
-    EXPECT_EQ(flow.state.air.pockets[0].number, 0);
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
+    EXPECT_EQ(air_of(flow).state.pockets[0].number, 0);
     const double lift = 0.1 * 0.05;
-    EXPECT_NEAR(flow.state.air.pockets[0].volume, volume, lift * std::pow(0.5, Dim - 1));
+    EXPECT_NEAR(air_of(flow).state.pockets[0].volume, volume, lift * std::pow(0.5, Dim - 1));
     const double energy = measure(without).energy();
     EXPECT_LE(measure(flow).energy() - work, energy + lift * g * density * 0.3 * std::pow(0.5, Dim - 1));
   }
@@ -353,11 +354,11 @@ TEST(ClosedLeg, KeepsItsVolumeAtRest) {
   const double air = 0.3 * 0.3;
   while (flow.state.time < 1.0) {
     step(flow);
-    ASSERT_EQ(flow.state.air.pockets.size(), 1u);
-    EXPECT_NEAR(flow.state.air.pockets[0].volume, air, 0.01 * air);
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
+    EXPECT_NEAR(air_of(flow).state.pockets[0].volume, air, 0.01 * air);
   }
-  EXPECT_EQ(flow.state.air.pockets[0].number, 0);
-  EXPECT_EQ(flow.state.air.gas_lost, 0.0);
+  EXPECT_EQ(air_of(flow).state.pockets[0].number, 0);
+  EXPECT_EQ(air_of(flow).state.gas_lost, 0.0);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "air/enclosed_air.h"
+#include "bodies/floating_bodies.h"
 #include "flow/measure.h"
 #include "flow/stages.h"
 #include "schemes/cases.h"
@@ -123,7 +125,7 @@ TYPED_TEST(BodyBelowAir, StaysAtItsDraught) {
     start_pocket(spec, at, 5e3 * scale);
     Flow<Dim> flow = make_flow<Dim>(spec);
     start(flow);
-    const Vec<Dim> drawn = flow.setup.bodies[0].drawn.centre;
+    const Vec<Dim> drawn = bodies_of(flow).bodies[0].drawn.centre;
     double worst = 0.0;
     while (flow.state.time < (Dim == 2 ? 0.5 : 0.1)) {
       step(flow);
@@ -180,12 +182,12 @@ TEST(Bell, StaysAtItsDraught) {
     spec.scheme.integrator = integrator;
     Flow<2> flow = make_flow<2>(spec);
     start(flow);
-    const Vec<2> drawn = flow.setup.bodies[0].drawn.centre;
+    const Vec<2> drawn = bodies_of(flow).bodies[0].drawn.centre;
     const auto energy = [&] {
       const BodyState<2>& body = body_of(flow);
       const double of_body =
-          flow.setup.bodies[0].mass * (0.5 * body.linear_velocity().squaredNorm() + g * body.centre[1]);
-      return measure(flow).energy() + of_body + measure_air(flow).energy - flow.state.air.energy_set;
+          bodies_of(flow).bodies[0].mass * (0.5 * body.linear_velocity().squaredNorm() + g * body.centre[1]);
+      return measure(flow).energy() + of_body + air_of(flow).measures().energy - air_of(flow).state.energy_set;
     };
     const double at_start = energy();
     double worst = 0.0;
@@ -197,7 +199,7 @@ TEST(Bell, StaysAtItsDraught) {
     }
     record_error("bell_moves", 2, bell.dx, worst / bell.dx);
     EXPECT_LT(worst, 0.1 * bell.dx);
-    EXPECT_NEAR(measure_air(flow).pressure, bell.overpressure(), 0.03 * bell.overpressure());
+    EXPECT_NEAR(air_of(flow).measures().pressure, bell.overpressure(), 0.03 * bell.overpressure());
     EXPECT_LT(rise, 1e-4 * at_start);
   }
 }
@@ -214,11 +216,11 @@ TEST(Bell, SinksWithAVentInItsRoof) {
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
   const double drawn = body_of(flow).centre[1];
-  const double gas = measure_air(flow).gas;
+  const double gas = air_of(flow).measures().gas;
   while (flow.state.time < 0.3) step(flow);
   EXPECT_LT(body_of(flow).centre[1], drawn - bell.dx);
-  const AirState& air = flow.state.air;
-  EXPECT_NEAR(measure_air(flow).gas + air.gas_vented + air.gas_lost, gas, 1e-12 * gas);
+  const AirState& air = air_of(flow).state;
+  EXPECT_NEAR(air_of(flow).measures().gas + air.gas_vented + air.gas_lost, gas, 1e-12 * gas);
   EXPECT_GT(air.gas_vented, 0.2 * gas);
 }
 
@@ -242,11 +244,11 @@ TEST(Piston, PressesTheAirBesideTheWaterItDrives) {
     spec.air.pockets = AirPockets::adiabatic;
     Flow<2> flow = make_flow<2>(spec);
     start(flow);
-    ASSERT_EQ(flow.state.air.pockets.size(), 1U);
-    const double volume = measure_air(flow).volume;
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1U);
+    const double volume = air_of(flow).measures().volume;
     while (flow.state.time < 0.2) step(flow);
     const double taken = speed * flow.state.time * (height - 2.0 * gap);
-    const double change = volume - measure_air(flow).volume;
+    const double change = volume - air_of(flow).measures().volume;
     EXPECT_NEAR(change / taken, 1.0, 0.03);
   }
 }

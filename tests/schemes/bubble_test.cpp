@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "air/enclosed_air.h"
 #include "flow/measure.h"
 #include "flow/stages.h"
 #include "schemes/cases.h"
@@ -61,14 +62,14 @@ double exact_frequency(double volume, double depth) {
 double error_of_frequency(const CaseSpec& spec, double depth) {
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
-  const AirPocket& pocket = flow.state.air.pockets.at(0);
+  const AirPocket& pocket = air_of(flow).state.pockets.at(0);
   const double period = 2.0 * pi / exact_frequency(pocket.gas, depth);
   const double dt = period / 40.0;
-  Oscillation oscillation(measure_air(flow).pressure);
+  Oscillation oscillation(air_of(flow).measures().pressure);
   while (oscillation.turns() < 2 && flow.state.step < 150) {
     if (flow.state.step % 10 == 0) sort_particles(flow);
     advance(flow, dt);
-    oscillation.add(flow.state.time, dt, measure_air(flow).pressure);
+    oscillation.add(flow.state.time, dt, air_of(flow).measures().pressure);
   }
   return oscillation.turns() == 2 ? period / oscillation.period() - 1.0 : -1.0;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bodies/floating_bodies.h"
 #include "schemes/open_ends.h"
 #include "support/circle.h"
 #include "support/dimensions.h"
@@ -89,7 +90,7 @@ TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
         if (particles.is_fluid(i)) sum += flow.setup.density * particles.volume[i] * particles.velocity[i];
       }
       const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
-      return Vec<Dim>(sum + flow.setup.bodies[0].mass * body.linear_velocity() +
+      return Vec<Dim>(sum + bodies_of(flow).bodies[0].mass * body.linear_velocity() +
                       body.carried_over.template head<Dim>());
     };
     const Vec<Dim> before = momentum();
@@ -113,7 +114,7 @@ TEST(FloatingBody, StaysAtItsDraught) {
       add_box(spec, {0.35, 0.3}, {0.65, 0.3 + height}, lightness * 1000.0);
       Flow<2> flow = make_flow<2>(spec);
       start(flow);
-      const Vec<2> drawn = flow.setup.bodies[0].drawn.centre;
+      const Vec<2> drawn = bodies_of(flow).bodies[0].drawn.centre;
       while (flow.state.time < 0.5) {
         step(flow);
         const BodyState<2>& body = flow.state.motion.bodies.each[0];
@@ -133,7 +134,7 @@ TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
   spec.bodies[0].free = {"z"};
   Flow<3> flow = make_flow<3>(spec);
   start(flow);
-  const double drawn = flow.setup.bodies[0].drawn.centre[2];
+  const double drawn = bodies_of(flow).bodies[0].drawn.centre[2];
   while (flow.state.time < 0.3) {
     step(flow);
     ASSERT_NEAR(flow.state.motion.bodies.each[0].centre[2], drawn, 0.1 * dx) << "t = " << flow.state.time;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "flow/air_pressure.h"
+#include "air/enclosed_air.h"
 #include "probes/wall_force.h"
 #include "schemes/cases.h"
 
@@ -41,7 +41,7 @@ class Reader {
                .domain = flow_.setup.domain,
                .dt = dt,
                .wall_forces = &flow_.wall_forces,
-               .air_pressure = air_pressure_of(flow_)})
+               .air_pressure = air_of(flow_).pressure_field()})
         .at(0);
   }
   Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>(row(dt).data()); }

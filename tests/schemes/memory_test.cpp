@@ -31,7 +31,7 @@ TYPED_TEST(MemoryTest, OfArraysByPairAMatrixKeepsTheNeighboursAndTheWeights) {
 
   const double dt = next_time_step(flow);
   const StepStart<Dim> begin = begin_step(flow, dt);
-  const WallDrive<Dim> drive = drive_walls(flow, begin, dt);
+  const WallDrive<Dim> drive = drive_walls(flow, begin.wall_velocity, dt);
   locate(flow);
   Prediction<Dim> predicted = predict(flow, begin, drive, dt);
   const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);

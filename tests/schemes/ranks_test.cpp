@@ -15,7 +15,8 @@
 #include <numbers>
 #include <vector>
 
-#include "pressure/pockets.h"
+#include "air/pocket_pressure.h"
+#include "air/pocket_pressure.h"
 #include "schemes/force_reader.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
@@ -353,12 +354,14 @@ TYPED_TEST(RanksTest, APocketOfAirAcrossTheCuts) {
   spec.particles.jitter = 0.1;
   Flow<Dim> flow = make_flow<Dim>(spec, Communicator::world());
   start(flow);
-  ASSERT_EQ(flow.state.air.pockets.size(), 1u);
-  std::vector<double> response = flow.air.response(flow.state.air.pockets[0].number).pressure;
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
+  std::vector<double> response = air_of(flow).watch.response(air_of(flow).state.pockets[0].number).pressure;
   flow.halo().exchange(response);
-  EXPECT_EQ(response, flow.air.response(flow.state.air.pockets[0].number).pressure) << "ghosts, which water feels too";
+  EXPECT_EQ(response, air_of(flow).watch.response(air_of(flow).state.pockets[0].number).pressure)
+      << "ghosts, which water feels too";
   for (int n = 0; n < steps; ++n) pass_and_step(flow);
-  EXPECT_GT(std::abs(measure_air(flow).pressure), 500.0) << "the gas is pressed together, or has thrown the water back";
+  EXPECT_GT(std::abs(air_of(flow).measures().pressure), 500.0)
+      << "the gas is pressed together, or has thrown the water back";
   spec.vents.resize(1);
   spec.vents[0].at = Coordinates(Dim, 0.2);
   spec.vents[0].area = 1e-3;
@@ -507,7 +510,7 @@ TYPED_TEST(RanksTest, BodyFloats) {
     Flow<Dim> flow = make_flow<Dim>(spec, Communicator::world());
     start(flow);
     std::vector<double> less(flow.state.particles.size(), 1.0);
-    subtract_seen<Dim>(flow, std::vector{1.0}, less);
+    subtract_seen_air<Dim>(flow, air_of(flow), std::vector{1.0}, less);
     const std::vector<double> before = less;
     flow.halo().exchange(less);
     EXPECT_EQ(less, before) << "a force on walls is that of ghosts too";

@@ -26,7 +26,7 @@ constexpr double dt = 0.01;
 void reproject_here(Flow<2>& flow) {
   const StepStart<2> start = save_step_start(flow);
   locate(flow);
-  WallDrive<2> drive = drive_walls(flow, start, dt);
+  WallDrive<2> drive = drive_walls(flow, start.wall_velocity, dt);
   Prediction<2> predicted = predict(flow, start, drive, dt);
   const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
   solve(flow, assemble(flow, predicted, target, drive, dt), drive);

@@ -104,7 +104,9 @@ TEST_P(StateTest, IsAllThatARunNeedsToGoOn) {
   start(whole);
   take_steps(whole, 40);
   Flow<2> resumed = make_flow<2>(spec);
-  ASSERT_TRUE(resumed.restore(whole.saved()));
+  SavedFlow<2> saved;
+  whole.save(saved);
+  ASSERT_TRUE(resumed.restore(std::move(saved)));
   take_steps(whole, 20);
   take_steps(resumed, 20);
   expect_same(whole, resumed);

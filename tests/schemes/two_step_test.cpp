@@ -65,7 +65,7 @@ TEST(TwoStep, PressesApartWhatIsTooDense) {
   Flow<2> flow = make_flow<2>(spec);
   for (Vec<2>& x : flow.state.particles.position) x *= 0.98;
   const StepStart<2> start = save_step_start(flow);
-  WallDrive<2> drive = drive_walls(flow, start, 1e-3);
+  WallDrive<2> drive = drive_walls(flow, start.wall_velocity, 1e-3);
   predict_pressure(flow, start, drive, 1e-3);
   double highest = 0.0;
   Vec<2> place = Vec<2>::Zero();
@@ -131,7 +131,7 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   const double dt = next_time_step(flow);
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
-  WallDrive<Dim> drive = drive_walls_to_end(flow, start, dt);
+  WallDrive<Dim> drive = drive_walls_to_end(flow, start.wall_velocity, dt);
   const Prediction<Dim> predicted = predict(flow, start, drive, dt);
   drift(flow, start, predicted, dt);
   locate(flow);

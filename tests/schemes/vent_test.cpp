@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "air/enclosed_air.h"
 #include "flow/measure.h"
 #include "flow/stages.h"
 #include "schemes/cases.h"
@@ -94,9 +95,9 @@ TYPED_TEST(VentedSpace, ComesToThePressureOfTheAtmosphereAsTheDifferentialEquati
     spec.pockets[0].overpressure = start_of.overpressure;
     Flow<Dim> flow = make_flow<Dim>(spec);
     start(flow);
-    ASSERT_EQ(flow.state.air.pockets.size(), 1u);
-    EXPECT_NEAR(measure_air(flow).pressure, start_of.overpressure, 1e-6 * std::abs(start_of.overpressure));
-    const double energy = measure_air(flow).energy;
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1u);
+    EXPECT_NEAR(air_of(flow).measures().pressure, start_of.overpressure, 1e-6 * std::abs(start_of.overpressure));
+    const double energy = air_of(flow).measures().energy;
     RigidSpace space(std::pow(width, Dim - 1) * depth, start_of.overpressure, area / 1.5,
                      start_of.pockets == AirPockets::adiabatic ? 1.4 : 1.0);
     double work = 0.0;
@@ -104,14 +105,14 @@ TYPED_TEST(VentedSpace, ComesToThePressureOfTheAtmosphereAsTheDifferentialEquati
     while (flow.state.time < start_of.end) {
       if (flow.state.step % 10 == 0) sort_particles(flow);
       work += advance(flow, dt).work.air;
-      const double error = measure_air(flow).pressure - space.overpressure_after(flow.state.time);
+      const double error = air_of(flow).measures().pressure - space.overpressure_after(flow.state.time);
       largest_error = std::max(largest_error, std::abs(error / start_of.overpressure));
     }
     EXPECT_LT(largest_error, 0.02) << start_of.overpressure;
     record_error("vent_pressure", Dim, start_of.overpressure, largest_error);
-    expect_gas_is_booked(flow.state.air);
-    const AirState& air = flow.state.air;
-    EXPECT_NEAR(measure_air(flow).energy, energy - work - air.energy_vented + air.energy_set, 1e-9 * energy);
+    expect_gas_is_booked(air_of(flow).state);
+    const AirState& air = air_of(flow).state;
+    EXPECT_NEAR(air_of(flow).measures().energy, energy - work - air.energy_vented + air.energy_set, 1e-9 * energy);
     EXPECT_GT(air.energy_vented, 0.9 * energy);
   }
 }
@@ -190,13 +191,13 @@ TEST(Bottle, IsFilledThroughItsNeck) {
   spec.vents = {vent_at({0.02, bottle_height}, 4e-3)};
   Flow<2> vented = make_flow<2>(spec);
   const double water_in_vented = fill_bottle(vented);
-  EXPECT_NEAR((water_in_closed + measure_air(closed).volume) / whole, 1.0, 0.02);
-  EXPECT_NEAR((water_in_vented + measure_air(vented).volume) / whole, 1.0, 0.02);
+  EXPECT_NEAR((water_in_closed + air_of(closed).measures().volume) / whole, 1.0, 0.02);
+  EXPECT_NEAR((water_in_vented + air_of(vented).measures().volume) / whole, 1.0, 0.02);
   EXPECT_LT(water_in_closed - neck, 0.1 * bottle_width * bottle_height);
   EXPECT_GT(water_in_vented - neck, 0.3 * bottle_width * bottle_height);
-  for (const Flow<2>* flow : {&closed, &vented}) expect_gas_is_booked(flow->state.air);
-  EXPECT_EQ(closed.state.air.gas_vented, 0.0);
-  EXPECT_GT(vented.state.air.energy_vented, 0.0);
+  for (const Flow<2>* flow : {&closed, &vented}) expect_gas_is_booked(air_of(*flow).state);
+  EXPECT_EQ(air_of(closed).state.gas_vented, 0.0);
+  EXPECT_GT(air_of(vented).state.energy_vented, 0.0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "air/enclosed_air.h"
 #include "base/error.h"
 #include "flow/stages.h"
 #include "pressure/stages.h"
@@ -316,7 +317,7 @@ TYPED_TEST(WallForceOfAir, IsItsPressureTimesTheArea) {
   Flow<Dim> flow = make_flow<Dim>(spec);
   start(flow);
   for (int n = 0; n < 5; ++n) step(flow);
-  const double pressure = measure_air(flow).pressure;
+  const double pressure = air_of(flow).measures().pressure;
   ASSERT_GT(std::abs(pressure), 100.0);
   const double expected = -pressure * std::pow(width, Dim - 1);
   EXPECT_NEAR(Reader<Dim>(spec, flow).force()[Dim - 1], expected, rounding * std::abs(expected));

@@ -75,7 +75,7 @@ struct WettedWall {
     return find_friction_walls<Dim>(scene(), law, V, velocity);
   }
 
-  WallScene<Dim> scene() const { return {set.pairs(), set.particles, walls, here}; }
+  WallScene<Dim> scene() const { return {set.pairs(), set.particles, walls, surroundings}; }
 
   ParticleSet<Dim> set;
   std::unique_ptr<const WallModel<Dim>> model;

@@ -61,7 +61,7 @@ struct EdgeOfBlock {
     return all;
   }
 
-  WallScene<Dim> scene() const { return {set.pairs(), set.particles, walls, here}; }
+  WallScene<Dim> scene() const { return {set.pairs(), set.particles, walls, surroundings}; }
 
   /// Calls visit(i, x) for the wet dummies within 3 dx of the edge; in 3D in the middle of it.
   template <class Visit>

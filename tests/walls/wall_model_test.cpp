@@ -26,7 +26,7 @@ TYPED_TEST(WallTest, OnlyWallsInReachOfFluidAreWet) {
   const WettedWall<Dim> wall(flat<Dim>(), 0.0, make_dummies<Dim>());
   for (std::size_t i = 0; i < wall.set.size(); ++i) {
     const bool is_last = i + 1 == wall.set.size();
-    EXPECT_EQ(wall.here.is_wet[i] != 0, !wall.set.particles.is_fluid(i) && !is_last);
+    EXPECT_EQ(wall.surroundings.is_wet[i] != 0, !wall.set.particles.is_fluid(i) && !is_last);
   }
 }
 

@@ -10,7 +10,7 @@
 //   q <- q + B^-1 (-div F).
 #pragma once
 
-#include "flow/flow.h"
+#include "air/enclosed_air.h"
 
 namespace tailwater {
 
@@ -21,11 +21,11 @@ void extend_to_walls(const Flow<Dim>& flow, std::vector<double>& field);
 
 /// chi_k of all particles. Collective.
 template <int Dim>
-std::vector<double> shares_of(const Flow<Dim>& flow, int pocket);
+std::vector<double> shares_of(const Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket);
 
 /// Brings the response of the water to a pocket up to date, with the matrix of the pressure equation. Overwrites its
-/// right-hand side. Collective.
+/// right-hand side. Returns the iterations of the solves. Collective.
 template <int Dim>
-void find_response(Flow<Dim>& flow, int pocket);
+int find_response(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<const PocketSide<Dim>> sides, int pocket);
 
 }  // namespace tailwater

@@ -1,12 +1,21 @@
 // Walls that move beside pockets. The space that a wall leaves to a pocket is counted by the force with which the
 // pocket pushes it: of the air itself, on the pieces of its faces as far as they see the air, and of the pairs of water
 // and wall, in which the pressure counts from that of the air.
+#include "air/pocket_pressure.h"
 #include "base/for_each.h"
-#include "flow/air_pressure.h"
 #include "pressure/operators.h"
-#include "pressure/pockets.h"
 
 namespace tailwater {
+namespace {
+
+template <int Dim>
+void subtract_fractions(const Flow<Dim>& flow, std::span<const std::pair<std::size_t, PocketShare>> fractions,
+                        std::span<const double> pressures, std::vector<double>& field) {
+  for (const auto& [i, fraction] : fractions) field[i] -= fraction.share * pressures[fraction.pocket];
+  flow.halo().exchange(field);
+}
+
+}  // namespace
 
 template <int Dim>
 double pressure_at(const PocketWall<Dim>& wall, std::span<const double> air) {
@@ -16,9 +25,11 @@ double pressure_at(const PocketWall<Dim>& wall, std::span<const double> air) {
 }
 
 template <int Dim>
-std::vector<PocketPairs<Dim>> pairs_of_walls(const Flow<Dim>& flow) {
+std::vector<PocketPairs<Dim>> find_wall_pair_forces(
+    const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
+    std::span<const std::pair<std::size_t, PocketShare>> air_fractions) {
   const Particles<Dim>& particles = flow.state.particles;
-  const std::size_t count = flow.state.air.pockets.size();
+  const std::size_t count = air.state.pockets.size();
   const auto wall_of = [&](std::size_t i) { return flow.walls.particles.wall[particles.wall_row[i]]; };
   const std::vector<std::size_t> moving = indices_where(particles.owned, [&](std::size_t i) {
     return !particles.is_fluid(i) && flow.walls.boundary.walls[wall_of(i)].moves();
@@ -28,8 +39,8 @@ std::vector<PocketPairs<Dim>> pairs_of_walls(const Flow<Dim>& flow) {
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<double> unit(count, 0.0);
     unit[k] = 1.0;
-    std::vector<double> field = flow.air.response(flow.state.air.pockets[k].number).pressure;
-    subtract_seen<Dim>(flow, unit, field);
+    std::vector<double> field = air.watch.response(air.state.pockets[k].number).pressure;
+    subtract_fractions<Dim>(flow, air_fractions, unit, field);
     const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, moving, field);
     for (const auto& each : flow.setup.wall_motion.moving()) {
       PocketPairs<Dim> sum{each.wall, static_cast<int>(k), Vec<Dim>::Zero(), Mat<Dim>::Zero()};
@@ -71,10 +82,10 @@ void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
 }
 
 template <int Dim>
-std::vector<double> growth_at_walls(const Flow<Dim>& flow, double dt) {
-  std::vector<double> growth(flow.state.air.pockets.size(), 0.0);
+std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
+  std::vector<double> growth(air.state.pockets.size(), 0.0);
   visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
-    for (const PocketWall<Dim>& piece : flow.sides.walls) {
+    for (const PocketWall<Dim>& piece : air.step.walls) {
       if (piece.wall != wall) continue;
       const double flux = piece.area.dot(velocity(piece.x));
       for (const PocketShare& share : piece.shares) growth[share.pocket] += share.share * flux;
@@ -84,10 +95,10 @@ std::vector<double> growth_at_walls(const Flow<Dim>& flow, double dt) {
 }
 
 template <int Dim>
-std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt) {
-  std::vector<double> growth = growth_at_walls(flow, dt);
+std::vector<double> growth_by_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
+  std::vector<double> growth = growth_at_walls(flow, air, dt);
   visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
-    for (const PocketPairs<Dim>& pairs : flow.sides.wall_pair_forces) {
+    for (const PocketPairs<Dim>& pairs : air.step.wall_pair_forces) {
       if (pairs.wall == wall) growth[pairs.pocket] += pairs.growth(velocity);
     }
   });
@@ -95,15 +106,15 @@ std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt) {
 }
 
 template <int Dim>
-void subtract_seen(const Flow<Dim>& flow, std::span<const double> air, std::vector<double>& field) {
-  for (const auto& [i, seen] : flow.sides.air_fractions) field[i] -= seen.share * air[seen.pocket];
-  flow.halo().exchange(field);
+void subtract_seen_air(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, std::span<const double> pressures,
+                       std::vector<double>& field) {
+  subtract_fractions<Dim>(flow, air.step.air_fractions, pressures, field);
 }
 
 TAILWATER_IN_2D_AND_3D(pressure_at);
-TAILWATER_IN_2D_AND_3D(pairs_of_walls);
+TAILWATER_IN_2D_AND_3D(find_wall_pair_forces);
 TAILWATER_IN_2D_AND_3D(growth_at_walls);
 TAILWATER_IN_2D_AND_3D(growth_by_walls);
-TAILWATER_IN_2D_AND_3D(subtract_seen);
+TAILWATER_IN_2D_AND_3D(subtract_seen_air);
 
 }  // namespace tailwater

@@ -18,65 +18,56 @@
 // that has fallen itself.
 #pragma once
 
-#include "flow/flow.h"
-#include "pressure/stages.h"
+#include "air/enclosed_air.h"
 
 namespace tailwater {
 
-/// Finds the flow's `sides` and the responses q_k, with the matrix of the pressure equation, whose sources of
-/// the water are not yet set. Collective.
+/// Finds where water and walls look into pockets and brings the responses q_k up to date, with the matrix of the
+/// pressure equation. Overwrites its sources meanwhile. Collective.
 template <int Dim>
-void pose_pockets(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt);
-
-/// Subtracts from the pressure of owned particles what the air alone adds to it.
-template <int Dim>
-void subtract_air(Flow<Dim>& flow);
-
-/// Adds it again, and brings ghosts up to date. Collective.
-template <int Dim>
-void restore_air(Flow<Dim>& flow);
+PocketStep<Dim> pose_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<const Vec<Dim>> predicted, double dt);
 
 /// The pressures [Pa] of the pockets in a step of dt with which gas and water agree, where p_w has been solved for and
 /// is up to date on walls and ghosts, and walls move as they do now. Collective.
 template <int Dim>
-std::vector<double> find_air_pressures(const Flow<Dim>& flow, double dt);
+std::vector<double> find_air_pressures(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt);
 
 /// By how much [Pa] they (rows) fall for each m^Dim that walls leave the pockets (columns) in the step.
 template <int Dim>
-Eigen::MatrixXd stiffness_of_air(const Flow<Dim>& flow, double dt);
+Eigen::MatrixXd stiffness_of_air(const EnclosedAir<Dim>& air, double dt);
 
 /// Adds to `field` [Pa] of all particles what such pressures of the pockets make: up to date on walls and ghosts.
 template <int Dim>
-void add_air_of(Flow<Dim>& flow, std::span<const double> pressures, std::vector<double>& field);
-
-/// Finds them, and adds what they make to the pressure of the water, which is up to date before and after. Collective.
-template <int Dim>
-void add_air(Flow<Dim>& flow, double dt);
+void add_air_of(const EnclosedAir<Dim>& air, std::span<const double> pressures, std::vector<double>& field);
 
 /// The force of the pockets on the water during dt, after that of the water's pressure; the pockets grow with the mean
 /// of the water's old and new velocity. Collective.
 template <int Dim>
-void push_by_pockets(Flow<Dim>& flow, double dt);
+void push_by_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, double dt);
 
-/// What the pockets do through the pairs of walls that move, with the responses as they are. Collective.
+/// The forces of 1 Pa in each pocket through the pairs of water and walls that move, with the responses as they are.
+/// Collective.
 template <int Dim>
-std::vector<PocketPairs<Dim>> pairs_of_walls(const Flow<Dim>& flow);
+std::vector<PocketPairs<Dim>> find_wall_pair_forces(
+    const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
+    std::span<const std::pair<std::size_t, PocketShare>> air_fractions);
 
 /// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on, as far as the air pushes them
 /// itself: those that are driven by their displacement, bodies by the mean of their velocities at both ends of the
 /// step.
 template <int Dim>
-std::vector<double> growth_at_walls(const Flow<Dim>& flow, double dt);
+std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt);
 
-/// The same with what they do through the water.
+/// The same with the growth through the water.
 template <int Dim>
-std::vector<double> growth_by_walls(const Flow<Dim>& flow, double dt);
+std::vector<double> growth_by_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt);
 
 /// Takes the pressures of the pockets [Pa] out of `field` [Pa] as far as particles see their air: of the rest the pairs
-/// of water and walls make the force on walls that move, and the air's own is on sides.walls. Ghosts are up to date
-/// then. Collective.
+/// of water and walls make the force on walls that move, and the air's own is on the step's `walls`. Ghosts are up to
+/// date then. Collective.
 template <int Dim>
-void subtract_seen(const Flow<Dim>& flow, std::span<const double> air, std::vector<double>& field);
+void subtract_seen_air(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, std::span<const double> pressures,
+                       std::vector<double>& field);
 
 /// Pa; of the air at a piece of a wall.
 template <int Dim>

@@ -1,4 +1,4 @@
-#include "pressure/gas_step.h"
+#include "air/gas_step.h"
 
 #include <Eigen/LU>
 

@@ -1,4 +1,4 @@
-#include "pressure/pocket_response.h"
+#include "air/pocket_response.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,14 +41,15 @@ void show_to_walls(const Flow<Dim>& flow, AirResponse<Dim>& response) {
 
 /// F of the water, 0 of anything else.
 template <int Dim>
-std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, int pocket, const std::vector<double>& pressure) {
+std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket,
+                               const std::vector<double>& pressure) {
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<Vec<Dim>> force(particles.size(), Vec<Dim>::Zero());
   flow.discretisation().find_gradient(flow, pressure, std::span(force).first(particles.owned));
   for_each(particles.owned, [&](std::size_t i) {
     force[i] = flow.role[i] == Role::water ? Vec<Dim>(-force[i]) : Vec<Dim>(Vec<Dim>::Zero());
   });
-  for (const PocketSide<Dim>& side : flow.sides.water) {
+  for (const PocketSide<Dim>& side : sides) {
     for (const PocketShare& share : side.shares) {
       if (share.pocket == pocket) force[side.particle] += share.share * side.push;
     }
@@ -56,33 +57,30 @@ std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, int pocket, const std::vec
   return force;
 }
 
-/// What is left is found in the next pass.
-template <int Dim>
-void solve_roughly(Flow<Dim>& flow, std::vector<double>& field, double tolerance) {
-  flow.sides.iterations += solve_rows(flow, field, tolerance).iterations;
-}
-
 /// What the matrix makes of the pocket's pressure.
 template <int Dim>
-AirResponse<Dim> first_response(Flow<Dim>& flow, int pocket) {
+AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket,
+                                int& iterations) {
   LinearSystem& rows = flow.pressure_rows;
   std::ranges::fill(rows.rhs(), 0.0);
-  for (const PocketSide<Dim>& side : flow.sides.water) {
+  for (const PocketSide<Dim>& side : sides) {
     for (const PocketShare& share : side.shares) {
       if (share.pocket == pocket) rows.set_rhs(side.particle, share.share * side.weight);
     }
   }
-  AirResponse<Dim> response{shares_of(flow, pocket),
+  AirResponse<Dim> response{shares_of(flow, sides, pocket),
                             std::vector(flow.state.particles.size(), Vec<Dim>(Vec<Dim>::Zero()))};
-  solve_roughly(flow, response.pressure, rough_tolerance(flow.pressure_solver.tolerance()));
+  const double tolerance = rough_tolerance(flow.pressure_solver.tolerance());
+  iterations += solve_rows(flow, response.pressure, tolerance).iterations;
   return response;
 }
 
-/// One pass. Returns the largest change.
+/// One pass; the next one finds what it leaves. Returns the largest change.
 template <int Dim>
-double refine_response(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) {
+double refine_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket, AirResponse<Dim>& response,
+                       int& iterations) {
   show_to_walls(flow, response);
-  response.force = force_of(flow, pocket, response.pressure);
+  response.force = force_of(flow, sides, pocket, response.pressure);
   const std::vector<Vec<Dim>> at_rest(flow.state.wall_velocity.size(), Vec<Dim>::Zero());
   set_wall_velocities<Dim>(flow, at_rest, response.force);
   std::vector<double> divergence(flow.state.particles.owned, 0.0);
@@ -90,7 +88,7 @@ double refine_response(Flow<Dim>& flow, int pocket, AirResponse<Dim>& response) 
   LinearSystem& rows = flow.pressure_rows;
   for_each(divergence.size(), [&](std::size_t i) { rows.set_rhs(i, -divergence[i]); });
   std::vector<double> change(response.pressure.size(), 0.0);
-  solve_roughly(flow, change, tolerance_of_pass(flow.pressure_solver.tolerance()));
+  iterations += solve_rows(flow, change, tolerance_of_pass(flow.pressure_solver.tolerance())).iterations;
   extend_to_walls(flow, change);
   flow.halo().exchange(change);
   for_each(change.size(), [&](std::size_t i) { response.pressure[i] += change[i]; });
@@ -110,9 +108,9 @@ void extend_to_walls(const Flow<Dim>& flow, std::vector<double>& field) {
 }
 
 template <int Dim>
-std::vector<double> shares_of(const Flow<Dim>& flow, int pocket) {
+std::vector<double> shares_of(const Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket) {
   std::vector<double> field(flow.state.particles.size(), 0.0);
-  for (const PocketSide<Dim>& side : flow.sides.water) {
+  for (const PocketSide<Dim>& side : sides) {
     for (const PocketShare& share : side.shares) {
       if (share.pocket == pocket) field[side.particle] = share.share;
     }
@@ -122,19 +120,21 @@ std::vector<double> shares_of(const Flow<Dim>& flow, int pocket) {
 }
 
 template <int Dim>
-void find_response(Flow<Dim>& flow, int pocket) {
-  AirResponse<Dim>& response = flow.air.response(flow.state.air.pockets[pocket].number);
+int find_response(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<const PocketSide<Dim>> sides, int pocket) {
+  int iterations = 0;
+  AirResponse<Dim>& response = air.watch.response(air.state.pockets[pocket].number);
   bool goes_on = !response.pressure.empty();
   if (goes_on) {
     response.pressure.resize(flow.state.particles.size(), 0.0);
     response.force.resize(flow.state.particles.size(), Vec<Dim>::Zero());
-    goes_on = refine_response(flow, pocket, response) <= largest_change;
+    goes_on = refine_response(flow, sides, pocket, response, iterations) <= largest_change;
   }
   if (!goes_on) {
-    response = first_response(flow, pocket);
-    for (int pass = 0; pass < passes_at_start; ++pass) refine_response(flow, pocket, response);
+    response = first_response(flow, sides, pocket, iterations);
+    for (int pass = 0; pass < passes_at_start; ++pass) refine_response(flow, sides, pocket, response, iterations);
   }
-  response.force = force_of(flow, pocket, response.pressure);
+  response.force = force_of(flow, sides, pocket, response.pressure);
+  return iterations;
 }
 
 TAILWATER_IN_2D_AND_3D(extend_to_walls);

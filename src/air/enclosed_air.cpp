@@ -1,0 +1,255 @@
+#include "air/enclosed_air.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "air/pocket_pressure.h"
+#include "base/for_each.h"
+#include "base/saved.h"
+#include "flow/measure.h"
+#include "geometry/from_spec.h"
+#include "geometry/opening.h"
+
+namespace tailwater {
+
+// There may be many.
+inline void to_json(Json& json, const CellRun& run) { json = {run.row, run.begin, run.end}; }
+inline void from_json(const Json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
+TAILWATER_SAVED(inline, AirPocket, number, gas, volume, torn, cells)
+TAILWATER_SAVED(inline, AirState, pockets, begun, ended, displacement, gas_found, gas_lost, gas_vented, energy_lost,
+                energy_vented, energy_set)
+
+namespace {
+
+/// Looks at the walls in a run, for the box around all places where they are.
+constexpr int looks_at_moving_walls = 1000;
+
+/// Around walls, wherever they go, and openings.
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup,
+                                          const Boundary<Dim>& boundary) {
+  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
+  const MotionState<Dim> start = initial_motion<Dim>(spec);
+  for (const auto& moving : setup.wall_motion.moving()) {
+    if (moving.body >= 0) continue;  // it stays where water is
+    for (int k = 0; k <= looks_at_moving_walls; ++k) {
+      const AffineMap<Dim> placement = moving.at(spec.time.end * k / looks_at_moving_walls, start);
+      for (const WallFace<Dim>& face : boundary.faces) {
+        if (face.wall == moving.wall) box.extend(moved(placement, face).box());
+      }
+    }
+  }
+  return box;
+}
+
+template <int Dim>
+std::vector<VentPlace<Dim>> make_vents(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  std::vector<VentPlace<Dim>> vents;
+  for (const VentTable& vent : spec.vents) {
+    const Vec<Dim> at = to_vec<Dim>(vent.at, "vent '" + vent.name + "'", "at");
+    const NearestWall<Dim> wall = boundary.nearest(at, 0.5 * spec.particles.spacing);
+    vents.push_back({at, wall.face < 0 ? -1 : boundary.faces[wall.face].wall});
+  }
+  return vents;
+}
+
+}  // namespace
+
+template <int Dim>
+EnclosedAir<Dim>::EnclosedAir(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary)
+    : watch(spec, box_of_run(spec, setup, boundary), setup.domain),
+      vents_(make_vents(spec, boundary)),
+      starts_at_pressure_(!spec.pockets.empty()) {}
+
+template <int Dim>
+std::function<double(const Vec<Dim>&)> EnclosedAir<Dim>::pressure_field() const {
+  if (state.pockets.empty()) return {};
+  return [this](const Vec<Dim>& x) {
+    double sum = 0.0;
+    for (const PocketShare& share : watch.shares_at(x)) sum += share.share * pressure_of(state.pockets[share.pocket]);
+    return sum;
+  };
+}
+
+template <int Dim>
+AirMeasures EnclosedAir<Dim>::measures() const {
+  AirMeasures air{.pockets = state.pockets.size()};
+  double largest = 0.0;
+  for (const AirPocket& pocket : state.pockets) {
+    air.volume += pocket.volume;
+    air.gas += pocket.gas;
+    air.energy += watch.law().energy(pocket.gas, pocket.volume);
+    if (pocket.volume <= largest) continue;
+    largest = pocket.volume;
+    air.pressure = pressure_of(pocket);
+  }
+  return air;
+}
+
+/// Throws InputError where the case gives air a pressure and there is none; before a run writes anything.
+template <int Dim>
+void EnclosedAir<Dim>::begin(Flow<Dim>& flow) {
+  if (!starts_at_pressure_) return;
+  AirState none;
+  watch.look(flow.walls, {}, flow.state.particles, flow.setup.ranks, none);
+  watch.forget();
+}
+
+template <int Dim>
+Json EnclosedAir<Dim>::save() const {
+  return state;
+}
+
+template <int Dim>
+bool EnclosedAir<Dim>::restore(const Json& saved) {
+  saved.get_to(state);
+  return std::ranges::all_of(state.pockets, [](const AirPocket& p) { return p.gas >= 0.0 && p.volume > 0.0; });
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::reordered(Reordering how) {
+  if (how == Reordering::sorted) {
+    watch.forget();
+  } else {
+    watch.forget_responses();
+  }
+}
+
+/// Where vents are now [m]: one that is on a wall that moves goes along.
+template <int Dim>
+std::vector<Vec<Dim>> EnclosedAir<Dim>::places_of_vents(const Flow<Dim>& flow) const {
+  std::vector<Vec<Dim>> places;
+  for (const VentPlace<Dim>& vent : vents_) {
+    places.push_back(vent.at);
+    for (const auto& moving : flow.setup.wall_motion.moving()) {
+      if (moving.wall == vent.wall) places.back() = moving.at(flow.state.time, flow.state.motion)(vent.at);
+    }
+  }
+  return places;
+}
+
+/// Looks for pockets if water may have gone far since the last look.
+template <int Dim>
+void EnclosedAir<Dim>::begin_step(Flow<Dim>& flow, double /*dt*/) {
+  if (!watch.is_due(state)) return;
+  watch.look(flow.walls, places_of_vents(flow), flow.state.particles, flow.setup.ranks, state);
+}
+
+template <int Dim>
+int EnclosedAir<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt) {
+  step = pose_pockets(flow, *this, predicted, dt);
+  return step.iterations;
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::add_allowed_tension(const Flow<Dim>& flow, std::vector<double>& tension) const {
+  if (state.pockets.empty()) return;
+  tension.resize(flow.state.particles.size(), 0.0);
+  for_each(flow.state.particles.owned, [&](std::size_t i) { tension[i] += step.response_deficit[i]; });
+  flow.halo().exchange(tension);
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::finish_solve(Flow<Dim>& flow, double dt) {
+  std::vector<double>& air = watch.air_pressure();
+  air.clear();
+  if (state.pockets.empty()) return;
+  step.pressure = find_air_pressures(flow, *this, dt);
+  air.assign(flow.state.particles.size(), 0.0);
+  add_air_of<Dim>(*this, step.pressure, air);
+}
+
+template <int Dim>
+bool EnclosedAir<Dim>::add_pressure(std::span<double> pressure) const {
+  const std::vector<double>& air = watch.air_pressure();
+  for_each(std::min(air.size(), pressure.size()), [&](std::size_t i) { pressure[i] += air[i]; });
+  return !state.pockets.empty();
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::subtract_pressure(std::span<double> pressure) const {
+  const std::vector<double>& air = watch.air_pressure();
+  for_each(std::min(air.size(), pressure.size()), [&](std::size_t i) { pressure[i] -= air[i]; });
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::correct(Flow<Dim>& flow, double dt) {
+  push_by_pockets(flow, *this, dt);
+  count_displacement(flow, dt);
+}
+
+/// Counts how far water and walls go in a step of dt with their present velocity: what is beside pockets in full,
+/// anything else by a quarter, since new pockets are looked for when it may have gone four times as far.
+template <int Dim>
+void EnclosedAir<Dim>::count_displacement(const Flow<Dim>& flow, double dt) {
+  const double time = flow.state.time;
+  const double walls = flow.setup.wall_motion.largest_displacement(time, time + dt, flow.state.motion);
+  const double anywhere = std::max(dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow)), walls);
+  double beside = 0.0;
+  if (!state.pockets.empty()) {
+    const std::vector<Vec<Dim>>& velocity = flow.state.particles.velocity;
+    const double speed =
+        largest_over(step.water.size(), 0.0, [&](std::size_t n) { return velocity[step.water[n].particle].norm(); });
+    beside = std::max(dt * flow.setup.ranks.largest(speed), walls);
+  }
+  state.displacement += std::max(beside, 0.25 * anywhere);
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::subtract_from_walls(const Flow<Dim>& flow, std::vector<double>& pressure) const {
+  if (!step.pressure.empty()) subtract_seen_air<Dim>(flow, *this, step.pressure, pressure);
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& /*on_walls*/, double dt,
+                                Works& works) const {
+  if (!flow.setup.ranks.is_root() || step.pressure.empty()) return;
+  works.air += step.work;
+  const std::vector<double> growth = growth_at_walls(flow, *this, dt);
+  for (std::size_t k = 0; k < step.pressure.size(); ++k) works.walls -= dt * step.pressure[k] * growth[k];
+}
+
+template <int Dim>
+std::vector<StepColumn> EnclosedAir<Dim>::step_columns() const {
+  const AirMeasures air = measures();
+  return {{"air_work_J", step.work},
+          {"air_energy_J", air.energy},
+          {"pockets", static_cast<double>(air.pockets)},
+          {"pockets_volume_m3", air.volume},
+          {"pocket_pressure_Pa", air.pressure}};
+}
+
+template <int Dim>
+void EnclosedAir<Dim>::add_to_summary(const Flow<Dim>& /*flow*/, Json& summary) const {
+  Json now = Json::array();
+  for (const AirPocket& pocket : state.pockets) {
+    now.push_back({{"number", pocket.number},
+                   {"volume_m3", pocket.volume},
+                   {"gas_m3", pocket.gas},
+                   {"pressure_Pa", pressure_of(pocket)}});
+  }
+  summary["pockets"] = {{"begun", state.begun},
+                        {"ended", state.ended},
+                        {"gas_found_m3", state.gas_found},
+                        {"gas_lost_m3", state.gas_lost},
+                        {"gas_vented_m3", state.gas_vented},
+                        {"energy_J", measures().energy},
+                        {"energy_lost_J", state.energy_lost},
+                        {"energy_vented_J", state.energy_vented},
+                        {"energy_set_J", state.energy_set},
+                        {"now", std::move(now)}};
+}
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_enclosed_air(const CaseSpec& spec, const Setup<Dim>& setup,
+                                             const Boundary<Dim>& boundary) {
+  if (spec.air.pockets == AirPockets::none) return nullptr;
+  return std::make_unique<EnclosedAir<Dim>>(spec, setup, boundary);
+}
+
+template class EnclosedAir<2>;
+template class EnclosedAir<3>;
+TAILWATER_IN_2D_AND_3D(make_enclosed_air);
+
+}  // namespace tailwater

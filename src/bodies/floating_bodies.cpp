@@ -1,0 +1,137 @@
+#include "bodies/floating_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bodies/coupling.h"
+#include "bodies/forces.h"
+
+namespace tailwater {
+namespace {
+
+/// [1 over the frequency of a line with what hangs on it]; the force of a line is that of the start of the step.
+constexpr double longest_step_of_moorings = 0.5;
+
+/// Speed that a unit impulse gives the place x of a body as drawn, at most [1/kg].
+template <int Dim>
+double mobility_at(const FloatingBody<Dim>& body, const Vec<Dim>& x) {
+  const auto is_turn = [](int entry) { return entry >= Dim; };
+  const bool turns_at_all = std::ranges::any_of(body.free, is_turn);
+  const bool goes = !std::ranges::all_of(body.free, is_turn);
+  return (goes ? 1.0 / body.mass : 0.0) +
+         (turns_at_all ? (x - body.drawn.centre).squaredNorm() / body.inertia.minCoeff() : 0.0);
+}
+
+template <int Dim>
+void carry_over(Flow<Dim>& flow, const std::vector<Twist<Dim>>& forces, double dt) {
+  for (std::size_t b = 0; b < forces.size(); ++b) flow.state.motion.bodies.each[b].carried_over += dt * forces[b];
+}
+
+}  // namespace
+
+template <int Dim>
+FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary)
+    : bodies(make_bodies<Dim>(spec)),
+      moorings(make_moorings<Dim>(spec)),
+      body_of_wall(bodies_of_walls(bodies, boundary.walls.size())),
+      contact(make_contact_surfaces(boundary, bodies, setup.spacing)) {}
+
+template <int Dim>
+std::size_t FloatingBodies<Dim>::freedom_count() const {
+  std::size_t count = 0;
+  for (const FloatingBody<Dim>& body : bodies) count += body.free.size();
+  return count;
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::steer(Flow<Dim>& flow, double dt) const {
+  for (std::size_t b = 0; b < start_velocity.size(); ++b) {
+    BodyState<Dim>& body = flow.state.motion.bodies.each[b];
+    body.velocity = start_velocity[b] + dt * body.acceleration;
+  }
+}
+
+template <int Dim>
+StepLimits FloatingBodies<Dim>::step_limits(const Flow<Dim>& /*flow*/) const {
+  StepLimits limits;
+  for (const Mooring<Dim>& mooring : moorings) {
+    double mobility = mobility_at<Dim>(bodies[mooring.body], mooring.at);
+    if (mooring.to_body >= 0) mobility += mobility_at<Dim>(bodies[mooring.to_body], mooring.anchor);
+    if (mobility == 0.0) continue;
+    limits.step = std::min(limits.step, longest_step_of_moorings / std::sqrt(mooring.stiffness * mobility));
+  }
+  return limits;
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::claim(const Flow<Dim>& /*flow*/, std::span<Role> /*role*/) {
+  stagnant.clear();  // until the gaps of this step are known
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::begin_step(Flow<Dim>& flow, double dt) {
+  start_velocity.clear();
+  for (const BodyState<Dim>& body : flow.state.motion.bodies.each) start_velocity.push_back(body.velocity);
+  steer(flow, dt);
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::write_rows(Flow<Dim>& flow) {
+  for (const std::size_t i : stagnant) flow.pressure_rows.row(i).finish_as_zero();  // no later pass corrects its pressure
+}
+
+template <int Dim>
+std::unique_ptr<CoupledUnknowns> FloatingBodies<Dim>::couple(Flow<Dim>& flow, const PosedEquation& equation,
+                                                             WallDrive<Dim>& drive) {
+  if (freedom_count() == 0) return nullptr;
+  auto coupling = std::make_unique<BodyCoupling<Dim>>(flow, *this, equation, drive);
+  coupling->begin();
+  return coupling;
+}
+
+/// Water that is stagnant rests, and takes no work from walls. To other water it is a wall with a pressure of its own.
+template <int Dim>
+void FloatingBodies<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt,
+                                   Works& works) const {
+  const Particles<Dim>& particles = flow.state.particles;
+  visit_forces_of_stagnant_water(flow, *this, on_walls, [&](std::size_t j, const Vec<Dim>& force) {
+    works.walls += dt * force.dot(particles.is_fluid(j)
+                                      ? particles.velocity[j]
+                                      : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
+  });
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::project_again(Flow<Dim>& flow, const std::vector<double>& correction, double dt) {
+  const double time = flow.state.time + dt;
+  carry_over(flow, ForcesOnBodies<Dim>(flow, *this, time).of_pressure(correction, find_covered(flow, *this, time)), dt);
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::stay(Flow<Dim>& flow) {
+  for (std::size_t b = 0; b < start_velocity.size(); ++b) {
+    flow.state.motion.bodies.each[b].velocity = start_velocity[b];
+    flow.state.motion.bodies.each[b].carried_over.setZero();
+  }
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*start*/, double dt) {
+  const double time = flow.state.time + dt;
+  carry_over(flow, ForcesOnBodies<Dim>(flow, *this, time).of_guard(), dt);
+  for (BodyState<Dim>& body : flow.state.motion.bodies.each) body.go_on(time);
+}
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_floating_bodies(const CaseSpec& spec, const Setup<Dim>& setup,
+                                                const Boundary<Dim>& boundary) {
+  if (spec.bodies.empty()) return nullptr;
+  return std::make_unique<FloatingBodies<Dim>>(spec, setup, boundary);
+}
+
+template class FloatingBodies<2>;
+template class FloatingBodies<3>;
+TAILWATER_IN_2D_AND_3D(make_floating_bodies);
+
+}  // namespace tailwater

@@ -1,0 +1,75 @@
+// Bodies that the water moves, with their moorings, as a part of a flow: their motion is solved for together with the
+// pressure (coupling.h). Where they are stands in the flow's state, since they are walls that move.
+#pragma once
+
+#include <vector>
+
+#include "flow/flow.h"
+#include "flow/part.h"
+#include "motion/body_contact.h"
+
+namespace tailwater {
+
+template <int Dim>
+class FloatingBodies final : public Part<Dim> {
+ public:
+  FloatingBodies() = default;  ///< no bodies
+  FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary);
+
+  // Of the case.
+  std::vector<FloatingBody<Dim>> bodies;
+  std::vector<Mooring<Dim>> moorings;
+  std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
+  ContactSurfaces<Dim> contact;
+
+  // Of the present step.
+  std::vector<Twist<Dim>> start_velocity;  ///< of each body
+  std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps, with a known pressure
+
+  /// Degrees of freedom of all bodies.
+  std::size_t freedom_count() const;
+  /// Gives each body the velocity after a step of dt with its present acceleration.
+  void steer(Flow<Dim>& flow, double dt) const;
+
+  std::string_view name() const override { return "bodies"; }
+  bool needs_wall_forces() const override { return true; }
+  StepLimits step_limits(const Flow<Dim>& flow) const override;
+  void claim(const Flow<Dim>& flow, std::span<Role> role) override;
+  /// Sets out from the acceleration of the last step.
+  void begin_step(Flow<Dim>& flow, double dt) override;
+  void write_rows(Flow<Dim>& flow) override;
+  std::unique_ptr<CoupledUnknowns> couple(Flow<Dim>& flow, const PosedEquation& equation,
+                                          WallDrive<Dim>& drive) override;
+  void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
+  /// The impulses of the second projection's pressure reach the bodies in the next step.
+  void project_again(Flow<Dim>& flow, const std::vector<double>& correction, double dt) override;
+  void stay(Flow<Dim>& flow) override;
+  /// The impulses that the last guard took from the water in front of bodies reach them in the next step.
+  void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
+};
+
+template <int Dim>
+const FloatingBodies<Dim>& bodies_of(const Flow<Dim>& flow) {
+  return flow.template part<FloatingBodies<Dim>>();
+}
+
+/// Calls visit(j, force [N]) for the force of stagnant water on each particle j by their pair.
+template <int Dim, class Visit>
+void visit_forces_of_stagnant_water(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies,
+                                    const std::vector<double>& pressure, Visit&& visit) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  for (const std::size_t i : bodies.stagnant) {
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = static_cast<std::size_t>(pairs.j[k]);
+      const double strength = particles.volume[i] * particles.volume[j] * (pressure[i] + pressure[j]);
+      visit(j, Vec<Dim>(strength * flow.surroundings.pair_vectors.at(pairs, i, k)));
+    }
+  }
+}
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_floating_bodies(const CaseSpec& spec, const Setup<Dim>& setup,
+                                                const Boundary<Dim>& boundary);
+
+}  // namespace tailwater
