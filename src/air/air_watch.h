@@ -10,6 +10,7 @@
 #include "case/spec.h"
 #include "geometry/wall_patches.h"
 #include "motion/affine_map.h"
+#include "motion/floating_body.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
@@ -30,6 +31,7 @@ struct PocketWall {
   Vec<Dim> x;     ///< m
   Vec<Dim> area;  ///< m^(Dim-1); towards the wall
   std::vector<PocketShare> shares;
+  Turn<Dim> couple = Turn<Dim>::Zero();  ///< m^Dim; moment of 1 Pa beside that of `area` at x
 };
 
 /// What 1 Pa in a pocket does through the pairs of water and a wall that moves, in which the pressure counts from that

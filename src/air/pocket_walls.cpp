@@ -15,6 +15,17 @@ void subtract_fractions(const Flow<Dim>& flow, std::span<const std::pair<std::si
   flow.halo().exchange(field);
 }
 
+/// rad/s; of a rigid wall whose velocity is a function of the place.
+template <int Dim>
+Turn<Dim> angular_velocity_of(const AffineMap<Dim>& velocity) {
+  const Mat<Dim>& spin = velocity.linear;
+  if constexpr (Dim == 2) {
+    return Turn<2>(spin(1, 0));
+  } else {
+    return {spin(2, 1), spin(0, 2), spin(1, 0)};
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -87,7 +98,7 @@ std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim
   visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
     for (const PocketWall<Dim>& piece : air.step.walls) {
       if (piece.wall != wall) continue;
-      const double flux = piece.area.dot(velocity(piece.x));
+      const double flux = piece.area.dot(velocity(piece.x)) + piece.couple.dot(angular_velocity_of<Dim>(velocity));
       for (const PocketShare& share : piece.shares) growth[share.pocket] += share.share * flux;
     }
   });

@@ -83,39 +83,34 @@ void BodyCoupling<Dim>::begin() {
   add_air_stiffness();
 }
 
-/// Where all air around a body is in pockets, one pressure of all of it may not push it. What pairs and pieces of its
-/// surface make of that, which is not quite nothing at edges and corners, is taken out of the pockets' forces as more
-/// pieces, in the shares in which the body looks into each.
+/// Subtracts the net force and moment of the air on bodies that open air does not reach. One pressure of all air around
+/// such a body may not push it. What pairs and pieces of its surface make of that is not quite nothing at edges and
+/// corners; the body takes it from each pocket by the fraction of its surface that looks into it.
 template <int Dim>
 void BodyCoupling<Dim>::remove_net_air_force() {
   const std::vector<double> all_air(enclosed_air_.state.pockets.size(), 1.0);
   const std::vector<double> everywhere(flow_.state.particles.size(), 1.0);
-  const std::vector<Twist<Dim>> wrong = forces_of(everywhere, all_air);
+  const std::vector<Twist<Dim>> net = forces_of(everywhere, all_air);
   std::vector<PocketWall<Dim>>& pieces = enclosed_air_.step.walls;
   const std::vector<PocketWall<Dim>> surface = pieces;
-  for (std::size_t b = 0; b < wrong.size(); ++b) {
-    std::vector<double> seen(all_air.size(), 0.0);
+  for (std::size_t b = 0; b < net.size(); ++b) {
+    std::vector<double> area(all_air.size(), 0.0);
     double all = 0.0;
     for (const PocketWall<Dim>& piece : surface) {
       if (bodies_.body_of_wall[piece.wall] != static_cast<int>(b)) continue;
       for (const PocketShare& share : piece.shares) {
-        seen[share.pocket] += share.share * piece.area.norm();
+        area[share.pocket] += share.share * piece.area.norm();
         all += share.share * piece.area.norm();
       }
     }
-    if (wrong[b].template head<Dim>().norm() >= most_wrong * all) continue;  // open air is at it as well
-    std::vector<PocketShare> shares;
-    for (std::size_t k = 0; k < seen.size(); ++k) shares.push_back({static_cast<int>(k), seen[k] / all});
-    const Vec<Dim> centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time);
-    const int wall = bodies_.bodies[b].walls.front();
-    const auto add = [&](const Vec<Dim>& x, const Vec<Dim>& area) { pieces.push_back({wall, x, area, shares}); };
-    add(centre, -wrong[b].template head<Dim>());
-    for (int axis = 0; axis < turns<Dim>; ++axis) {  // a couple, with an arm of 1 m
-      const Vec<Dim> arm = Vec<Dim>::Unit(Dim == 2 ? 0 : (axis + 1) % Dim);
-      const Vec<Dim> couple = -wrong[b][Dim + axis] * Vec<Dim>::Unit(Dim == 2 ? 1 : (axis + 2) % Dim);
-      add(centre + arm, couple);
-      add(centre, -couple);
-    }
+    if (net[b].template head<Dim>().norm() >= most_wrong * all) continue;  // open air reaches it as well
+    PocketWall<Dim> correction{.wall = bodies_.bodies[b].walls.front(),
+                               .x = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time),
+                               .area = -net[b].template head<Dim>(),
+                               .shares = {},
+                               .couple = -net[b].template tail<turns<Dim>>()};
+    for (std::size_t k = 0; k < area.size(); ++k) correction.shares.push_back({static_cast<int>(k), area[k] / all});
+    pieces.push_back(std::move(correction));
   }
 }
 

@@ -16,12 +16,12 @@ class ForceSums {
     for (const BodyState<Dim>& body : flow.state.motion.bodies.each) centres_.push_back(body.centre_at(time));
   }
 
-  /// A force at `x`; nothing if `body` is -1.
-  void add(int body, const Vec<Dim>& x, const Vec<Dim>& force) {
+  /// A force at `x` and a couple; nothing if `body` is -1.
+  void add(int body, const Vec<Dim>& x, const Vec<Dim>& force, const Turn<Dim>& couple = Turn<Dim>::Zero()) {
     if (body < 0) return;
     Eigen::Map<Twist<Dim>> sum(sums_.data() + static_cast<std::size_t>(body) * size);
     sum.template head<Dim>() += force;
-    sum.template tail<turns<Dim>>() += moment_of<Dim>(x - centres_[body], force);
+    sum.template tail<turns<Dim>>() += moment_of<Dim>(x - centres_[body], force) + couple;
   }
 
   /// Of all ranks. Collective.
@@ -104,7 +104,8 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_air(std::span<const double> pres
   ForceSums<Dim> sums(flow_, time_);
   for (const PocketWall<Dim>& wall : air_of(flow_).step.walls) {
     if (!flow_.setup.ranks.is_root()) break;
-    sums.add(bodies_.body_of_wall[wall.wall], wall.x, pressure_at<Dim>(wall, pressures) * wall.area);
+    const double pressure = pressure_at<Dim>(wall, pressures);
+    sums.add(bodies_.body_of_wall[wall.wall], wall.x, pressure * wall.area, pressure * wall.couple);
   }
   return sums.gather();
 }
