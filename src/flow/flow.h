@@ -40,6 +40,7 @@ struct Flow {
   // Tools.
   Decomposition<Dim> decomposition;
   Neighbourhood<Dim> neighbourhood;
+  std::shared_ptr<PairWorkspace> pair_workspace;  ///< of the pair vectors, then of the weights of `pressure_rows`
   LinearSystem pressure_rows;
   LinearSolver pressure_solver;
 

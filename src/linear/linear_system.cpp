@@ -22,8 +22,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
   TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
-  if (weights_.capacity() < columns.size()) make_room(weights_, columns.size());
-  weights_.resize(columns.size());
+  weights_ = workspace_->take(columns.size(), columns.size());
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
   first_number_ = ranks_.sum_before(count);
@@ -51,13 +50,6 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
     if (!row.empty() && static_cast<std::size_t>(row.back()) >= rows) has_ghosts = true;
   }
   has_ghosts_ = ranks_.any(has_ghosts);
-}
-
-std::span<float> LinearSystem::borrow_weight_storage(std::size_t count) {
-  TAILWATER_ASSERT(columns_.empty(), "there are no weights");
-  if (weights_.capacity() < count) make_room(weights_, count + count / 4);  // as neighbours have (find_pairs.cpp)
-  weights_.resize(count);
-  return weights_;
 }
 
 void LinearSystem::Row::finish(double diagonal, double rhs) {

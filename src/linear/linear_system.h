@@ -11,11 +11,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "base/pair_workspace.h"
 #include "base/prefetch.h"
-#include "base/room.h"
 #include "linear/cells.h"
 #include "parallel/exchange_plan.h"
 
@@ -74,22 +75,25 @@ class LinearSystem {
     }
   };
 
-  explicit LinearSystem(Communicator ranks = {}) : ranks_(std::move(ranks)) {}
+  explicit LinearSystem(Communicator ranks = {},
+                        std::shared_ptr<PairWorkspace> workspace = std::make_shared<PairWorkspace>())
+      : ranks_(std::move(ranks)), workspace_(std::move(workspace)) {}
+  LinearSystem(LinearSystem&&) = default;
+  LinearSystem& operator=(LinearSystem&&) = default;
 
   /// Sets which unknowns each row couples: columns[row_begin[i]] .. columns[row_begin[i + 1]], without the diagonal; in
   /// each row those below i, then those above it, then ghosts of `halo`, whose unknowns are their owners'. Borrows the
-  /// columns until the weights are forgotten. Collective.
+  /// columns, and takes the workspace for the weights, until these are forgotten. Collective.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                    const ExchangePlan& halo);
   /// The same without ghosts, on one rank.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns);
 
   /// Forgets all weights. Only the right-hand sides stay, until the next pattern is set.
-  void forget_weights() { columns_ = {}; }
-
-  /// The room of the weights, for so many numbers of somebody else. There must be no weights; a new pattern takes it
-  /// back. Two arrays of this size that came and went would leave holes in memory that other arrays divide.
-  std::span<float> borrow_weight_storage(std::size_t count);
+  void forget_weights() {
+    columns_ = {};
+    weights_ = {};
+  }
 
   /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
   void set_cells(Cells cells) { cells_ = std::move(cells); }
@@ -185,7 +189,8 @@ class LinearSystem {
   Cells cells_;
   std::vector<std::uint32_t> row_begin_;  ///< rows + 1
   std::span<const std::int32_t> columns_;
-  UnwrittenArray<float> weights_;
+  std::shared_ptr<PairWorkspace> workspace_;
+  std::span<float> weights_;  ///< in the workspace
   std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0

@@ -34,13 +34,13 @@ void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
     });
     return;
   }
+  const std::size_t pairs = flow.pairs().j.size();  // and a quarter more, as neighbours have (find_pairs.cpp)
   const CorrectionReach reach =
       laws_.pair_vectors == PairVectors::corrected_to_surface ? CorrectionReach::surface : CorrectionReach::inside;
   find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
                                    {kernel_radius(flow.setup.kernel), particles.volume, particles.kind,
                                     surroundings.interior, surroundings.first_moment},
-                                   reach, closing_sweeps(reach),
-                                   flow.pressure_rows.borrow_weight_storage(flow.pairs().j.size()),
+                                   reach, closing_sweeps(reach), flow.pair_workspace->take(pairs, pairs + pairs / 4),
                                    surroundings.pair_vectors, surroundings.open_faces, surroundings.mean_interior);
 }
 
