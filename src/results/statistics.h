@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "base/json.h"
+#include "base/saved.h"
 #include "flow/measure.h"
 #include "flow/step.h"
-#include "base/saved.h"
 
 namespace tailwater {
 
