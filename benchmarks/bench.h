@@ -60,7 +60,7 @@ struct Stage {
     dt = next_time_step(flow);
     gather_walls(flow);
     assign_roles(flow);
-    update_open_ends(flow, dt);
+    for (const auto& part : flow.parts) part->begin_step(flow, dt);
     begin = save_step_start(flow);
     drive = drive_walls(flow, begin.wall_velocity, dt);
     locate(flow);

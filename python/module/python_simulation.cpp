@@ -9,6 +9,7 @@
 
 #include "io/messages.h"
 #include "linear/session.h"
+#include "open_ends/open_ends.h"
 #include "parts/script_loads.h"
 #include "run/estimate.h"
 #include "run/run_case.h"
@@ -146,17 +147,8 @@ void PythonSimulation<Dim>::push(std::size_t b, const Twist<Dim>& push) {
 
 template <int Dim>
 void PythonSimulation<Dim>::set_discharge(const std::string& inlet, double discharge) {
-  for (OpenEnd<Dim>& end : simulation().flow().setup.open_ends) {
-    if (end.opening.name != inlet) continue;
-    if (!end.flow.discharge) {
-      throw InputError(fmt::format("{} has no discharge that a script can change; remedy: give it one in the case",
-                                   end.opening.label()));
-    }
-    tell_of_script();
-    end.flow.discharge = TimeFunction(SmoothCurve({state().time}, {discharge}));
-    return;
-  }
-  throw InputError(fmt::format("there is no inlet '{}'", inlet));
+  simulation().flow().template part<OpenEnds<Dim>>().set_discharge(inlet, state().time, discharge);
+  tell_of_script();
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
 #include "flow/wall_particle.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
@@ -46,13 +47,6 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
             .id = static_cast<std::int64_t>(n)};
   });
   return particles;
-}
-
-template <int Dim>
-Eigen::AlignedBox<double, Dim> box_around_case(const Boundary<Dim>& boundary, const std::vector<OpenEnd<Dim>>& ends) {
-  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
-  for (const OpenEnd<Dim>& end : ends) box.extend(box_around(end.opening.as_faces()));
-  return box;
 }
 
 template <int Dim>
@@ -95,7 +89,6 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   state.wall_velocity.assign(walls.moving, Vec<Dim>::Zero());
   state.motion = initial_motion<Dim>(spec);
   setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
-  state.open_ends.resize(setup.open_ends.size());
   pressure_rows.set_constant_is_free(setup.is_closed);
   for (const auto& part : parts) setup.finds_wall_forces = setup.finds_wall_forces || part->needs_wall_forces();
   regather_walls(*this);
@@ -136,7 +129,7 @@ bool Flow<Dim>::restore(SavedFlow<Dim> saved) {
 
 template <int Dim>
 Eigen::AlignedBox<double, Dim> Flow<Dim>::box() const {
-  Eigen::AlignedBox<double, Dim> box = box_around_case(walls.boundary, setup.open_ends);
+  Eigen::AlignedBox<double, Dim> box = box_around(walls.boundary.faces);
   for (const auto& part : parts) part->extend_box(box);
   return box;
 }

@@ -45,18 +45,16 @@ struct Flow {
   LinearSolver pressure_solver;
 
   // Now.
-  Walls<Dim> walls;                  ///< at their present positions
-  SharedRows<Dim> shared_rows;       ///< where other rows are, if there are other ranks
-  NearWalls<Dim> near_walls;         ///< which rows are among the particles
-  Surroundings<Dim> surroundings;    ///< as `locate` found them
-  bool is_located = false;           ///< whether no particle has moved since
-  bool has_matrix = false;           ///< whether a second projection has left the matrix of these positions
-  WallForces<Dim> wall_forces;       ///< of the last step; empty if no probe asks for them
-  std::vector<Role> role;            ///< of owned particles in this step
-  std::vector<std::int16_t> end_of;  ///< open end whose stretch holds the owned particle in this step, or -1
+  Walls<Dim> walls;                ///< at their present positions
+  SharedRows<Dim> shared_rows;     ///< where other rows are, if there are other ranks
+  NearWalls<Dim> near_walls;       ///< which rows are among the particles
+  Surroundings<Dim> surroundings;  ///< as `locate` found them
+  bool is_located = false;         ///< whether no particle has moved since
+  bool has_matrix = false;         ///< whether a second projection has left the matrix of these positions
+  WallForces<Dim> wall_forces;     ///< of the last step; empty if no probe asks for them
+  std::vector<Role> role;          ///< of owned particles in this step
   std::vector<Vec<Dim>>
       wall_turn_acceleration;  ///< m/s^2; of water along walls that turn, for owned particles; or empty
-  double driven_change = 0.0;  ///< J; of this rank's kinetic energy by what is prescribed at open ends, this step
 
   /// Builds a case that is already drawn.
   Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
@@ -81,7 +79,7 @@ struct Flow {
   }
   /// Whether the matrix of a second projection serves the next step's first one too: not in an open domain, where rows
   /// change between steps.
-  bool keeps_matrix() const { return setup.formulation.has_second_projection && !is_open() && setup.open_ends.empty(); }
+  bool keeps_matrix() const { return setup.formulation.has_second_projection && !is_open(); }
 
   /// Frees the matrix of the pressure equation and what solvers have made of it.
   void forget_matrix() {
@@ -110,7 +108,7 @@ struct Flow {
   double kinetic_energy_of(std::size_t i) const {
     return 0.5 * setup.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
   }
-  /// The box around all walls, where they are now, and all open ends; empty if there are none.
+  /// The box around all walls, where they are now, and what parts have of the case's edges; empty if there is nothing.
   Eigen::AlignedBox<double, Dim> box() const;
   /// Relative to the origin; there is none along periodic directions.
   double potential_energy_of(std::size_t i) const {

@@ -58,6 +58,16 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
+WaterAmount amount_of(const Flow<Dim>& flow, std::span<const std::size_t> water) {
+  WaterAmount amount = sum_over(water.size(), WaterAmount{}, [&](std::size_t n) -> WaterAmount {
+    const std::size_t i = water[n];
+    return {1, flow.state.particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
+  });
+  flow.setup.ranks.sum_each(amount.particles, amount.volume, amount.energy);
+  return amount;
+}
+
+template <int Dim>
 double largest_speed(const Flow<Dim>& flow) {
   return flow.setup.ranks.largest(largest_speed_of_rank(flow));
 }
@@ -90,18 +100,15 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     measures.density_error_mean = sums.density_error / count;
     measures.density_error_rms = std::sqrt(sums.density_error_squared / count);
   }
-  measures.departed = flow.state.fallen;
-  for (const OpenEndState& end : flow.state.open_ends) {
-    measures.departed += end.departed;
-    measures.arrived += end.arrived;
-  }
   for (const auto& part : flow.parts) {
+    part->add_passed_water(measures.departed, measures.arrived);
     for (const StepColumn& column : part->step_columns()) measures.of_parts.push_back(column);
   }
   return measures;
 }
 
 TAILWATER_IN_2D_AND_3D(fluid_sums_of_rank);
+TAILWATER_IN_2D_AND_3D(amount_of);
 TAILWATER_IN_2D_AND_3D(largest_speed);
 TAILWATER_IN_2D_AND_3D(measure);
 

@@ -1,7 +1,10 @@
 // Measures of the whole flow.
 #pragma once
 
+#include <span>
+
 #include "flow/flow.h"
+#include "flow/water_amount.h"
 
 namespace tailwater {
 
@@ -21,6 +24,10 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
 template <int Dim>
 double largest_speed(const Flow<Dim>& flow);
 
+/// The water of these owned particles, over all ranks. Collective.
+template <int Dim>
+WaterAmount amount_of(const Flow<Dim>& flow, std::span<const std::size_t> water);
+
 /// The measures at the end of a step.
 struct FlowMeasures {
   double largest_speed = 0.0;       ///< m/s
@@ -29,9 +36,9 @@ struct FlowMeasures {
   double density_error_mean = 0.0;  ///< of C/C_0 - 1 in the bulk (away from the surface)
   double density_error_rms = 0.0;
   double density_error_largest = 0.0;
-  WaterAmount departed;  ///< through all open ends, and below all walls, since the start
-  WaterAmount arrived;
-  std::vector<StepColumn> of_parts;
+  WaterAmount departed;              ///< all water that parts took out since the start
+  WaterAmount arrived;               ///< all water that parts brought in since the start
+  std::vector<StepColumn> of_parts;  ///< columns of steps.csv
 
   double energy() const { return kinetic_energy + potential_energy; }
 };

@@ -118,6 +118,15 @@ std::vector<StepColumn> Part<Dim>::step_columns() const {
 template <int Dim>
 void Part<Dim>::add_to_summary(const Flow<Dim>& /*flow*/, Json& /*summary*/) const {}
 
+template <int Dim>
+void Part<Dim>::add_passed_water(WaterAmount& /*departed*/, WaterAmount& /*arrived*/) const {}
+
+template <int Dim>
+void Part<Dim>::warn(const Flow<Dim>& /*flow*/) {}
+
+template <int Dim>
+void Part<Dim>::warn_at_end(const Flow<Dim>& /*flow*/) const {}
+
 template class Part<2>;
 template class Part<3>;
 

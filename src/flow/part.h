@@ -22,6 +22,7 @@ namespace tailwater {
 
 struct CaseSpec;
 struct SolveReport;
+struct WaterAmount;
 template <int Dim>
 struct Boundary;
 template <int Dim>
@@ -143,7 +144,8 @@ class Part {
   /// Takes what pushes walls without the water out of a pressure [Pa], ghosts too.
   virtual void subtract_from_walls(const Flow<Dim>& flow, std::vector<double>& pressure) const;
   /// Adds its work [J] on this rank's water in a step of dt; `on_walls` is the pressure that pushes walls through
-  /// water.
+  /// water. Called when the pressure has corrected the velocity, and again, with what walls and ends work set to 0,
+  /// after a second projection.
   virtual void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const;
   /// Called when a second projection has added `correction` [Pa] to the pressure, where the particles arrived.
   virtual void project_again(Flow<Dim>& flow, const std::vector<double>& correction, double dt);
@@ -158,6 +160,13 @@ class Part {
   virtual std::vector<StepColumn> step_columns() const;
   /// Adds its blocks to summary.json.
   virtual void add_to_summary(const Flow<Dim>& flow, Json& summary) const;
+  /// Adds the water that it took out and brought in since the start.
+  virtual void add_passed_water(WaterAmount& departed, WaterAmount& arrived) const;
+  /// Warns, once in a run, of what it does not do as the case prescribes. Called after each step of a run that writes
+  /// a folder; only the root's warnings are shown.
+  virtual void warn(const Flow<Dim>& flow);
+  /// Warns at the end of such a run.
+  virtual void warn_at_end(const Flow<Dim>& flow) const;
 };
 
 /// Makes a part of a case; null if the case has nothing of it. Throws InputError.

@@ -87,8 +87,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   predicted.velocity.assign(particles.size(), Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    if (is_in_end_stretch(flow.role[i]))
-      acceleration[i].setZero();  // only gravity acts, and the end's pressure balances it
+    if (is_claimed(flow.role[i])) acceleration[i].setZero();  // only gravity acts, and the pressure balances it
     predicted.velocity[i] = start.velocity[i] + dt * (acceleration[i] + gravity);
   });
   set_wall_velocities<Dim>(flow, with_gravity ? drive.velocity : start.wall_velocity, predicted.velocity);

@@ -6,6 +6,7 @@
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "geometry/from_spec.h"
+#include "motion/channel_end.h"
 #include "sampling/water_lattice.h"
 #include "walls/facing_walls.h"
 #include "walls/turning_walls.h"
@@ -120,18 +121,9 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
       wall_traits(formulation.walls->traits()),
       wall_motion(std::move(drawing.wall_motion)),
-      open_ends(make_ends<Dim>(spec)),
       kernel(formulation.kernel),
       lattice(lattice_sums(kernel, spacing)),
       kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {
-  for (OpenEnd<Dim>& end : open_ends) {
-    const double at_end = end.opening.normal.dot(end.opening.corner);
-    for (const WallFace<Dim>& face : drawing.walls.boundary.faces) {
-      for (const Vec<Dim>& corner : face.corners) {
-        end.reach = std::max(end.reach, at_end - end.opening.normal.dot(corner));
-      }
-    }
-  }
   const double g = gravity.norm();
   viscosity_law = {.molecular = spec.physics.viscosity, .artificial = formulation.artificial_viscosity * spacing};
   friction_law = {.viscosity = spec.physics.viscosity,

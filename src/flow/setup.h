@@ -6,7 +6,6 @@
 #include "closures/time_step.h"
 #include "closures/viscosity.h"
 #include "flow/formulation.h"
-#include "flow/open_end.h"
 #include "motion/wall_motion.h"
 #include "neighbours/halo.h"
 #include "operators/concentration.h"
@@ -52,7 +51,6 @@ struct Setup {
   bool is_closed;            ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   WallTraits wall_traits;
   WallMotion<Dim> wall_motion;
-  std::vector<OpenEnd<Dim>> open_ends;  ///< one per inlet, then one per outlet
   Kernel<Dim> kernel;
   LatticeSums lattice;
   KernelValues kernel_values;

@@ -31,7 +31,8 @@ template <int Dim>
 void regather_walls(Flow<Dim>& flow);
 
 /// How moving walls are driven in a step of dt from a velocity [m/s] of each row: to their mean velocity over the step,
-/// so that the water leaves exactly the space they sweep. With `displacement = "mean-velocity"`: to their velocity at its end.
+/// so that the water leaves exactly the space they sweep. With `displacement = "mean-velocity"`: to their velocity at
+/// its end.
 template <int Dim>
 WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, double dt);
 
@@ -64,20 +65,13 @@ void set_wall_velocities_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& star
 template <int Dim>
 void assign_roles(Flow<Dim>& flow);
 
-/// Finds the conditions at the open ends in this step: the velocity of the particles in end stretches, the level
-/// beyond. Call once per step, at the positions where it starts.
-template <int Dim>
-void update_open_ends(Flow<Dim>& flow, double dt);
-
-
-/// Removes and counts the particles that have passed an open end outwards, and those that have fallen below all walls
-/// and would fall for ever. Returns whether this rank had any; if so, its indices have changed and its lists are gone.
-/// Call between steps only. Collective.
+/// Removes the particles that parts take out. Returns whether this rank had any; if so, its indices have changed and
+/// its lists are gone. Call between steps only. Collective.
 template <int Dim>
 bool remove_outflow(Flow<Dim>& flow);
 
-/// Adds and counts the particles that have room to enter at the open ends. Returns whether there were any, on any rank;
-/// if so, lists are gone. Call between steps only, after `remove_outflow`. Collective.
+/// Adds the particles that parts bring in. Returns whether there were any, on any rank; if so, lists are gone. Call
+/// between steps only, after `remove_outflow`. Collective.
 template <int Dim>
 bool add_inflow(Flow<Dim>& flow);
 

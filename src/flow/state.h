@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.h"
-#include "flow/open_end.h"
 #include "motion/wall_motion.h"
 #include "particles/particles.h"
 
@@ -21,12 +20,10 @@ struct State {
   /// The owned ones with their order; ghosts are recomputed. Walls that move are where `time` says.
   Particles<Dim> particles;
   std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of walls that move, at the end of the last step
-  std::vector<OpenEndState> open_ends;  ///< one per inlet, then one per outlet
   MotionState<Dim> motion;              ///< of wave makers and floating bodies
   double approach = 0.0;                ///< m/s; the largest in the last step, whose neighbours are forgotten
   double energy_rise = 0.0;             ///< J; from the least energy so far, without what the walls brought
   double density_share = 1.0;           ///< of the density source that lifts: what the energy leaves to the next step
-  WaterAmount fallen;                   ///< water that fell below all walls, and is no longer computed
 };
 
 /// What a checkpoint holds of a flow.

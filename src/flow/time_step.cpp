@@ -17,7 +17,6 @@ constexpr double time_between_looks = 0.01;
 /// (docs/theory/robustness.md).
 constexpr double largest_approach_in_step = 0.9;
 
-
 /// The largest distance [m] that a corner of a wall is from where it was, within `dt` [s] from now on.
 template <int Dim>
 double largest_displacement_within(const Flow<Dim>& flow, double dt) {
@@ -66,11 +65,7 @@ StepLimits step_limits(const Flow<Dim>& flow) {
 template <int Dim>
 double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
   const Setup<Dim>& setup = flow.setup;
-  double speed = largest_speed(flow);
-  for (const OpenEnd<Dim>& end : setup.open_ends) {
-    if (end.is_driven()) speed = std::max(speed, end.largest_speed(flow.state.time, setup.spacing));
-  }
-  speed = std::max(speed, limits.speed);
+  const double speed = std::max(largest_speed(flow), limits.speed);
   const double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed) + limits.viscosity;
   const double dt = setup.time_step_rule.largest(speed, viscosity);
   // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.

@@ -18,22 +18,6 @@ constexpr double in_doubt = 0.25;
 /// was placed too close: it rises slowly.
 constexpr double fading_rate = 1.4;
 
-/// Work [J] of the prescribed water in an end stretch on the water that is solved for, as of a wall, and what is done
-/// on itself.
-template <int Dim>
-double work_of_driven_particle(const Flow<Dim>& flow, std::size_t i, double dt) {
-  const Particles<Dim>& particles = flow.state.particles;
-  const Pairs<Dim>& pairs = flow.pairs();
-  const OpenEnd<Dim>& end = flow.setup.open_ends[flow.end_of[i]];
-  const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
-    if (end.holds(particles.position[j])) return Vec<Dim>(Vec<Dim>::Zero());
-    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
-                    flow.surroundings.pair_vectors.at(pairs, i, k));
-  });
-  const Vec<Dim> weight = flow.setup.density * flow.setup.gravity;
-  return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
-}
-
 template <int Dim>
 double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -72,34 +56,7 @@ double wall_work(const Flow<Dim>& flow, const std::vector<double>& pressure, dou
   });
 }
 
-}  // namespace
-
-template <int Dim>
-Works work_of_boundaries(const Flow<Dim>& flow, double dt) {
-  Works works;
-  std::vector<double> on_walls;
-  if (!flow.setup.wall_motion.moving().empty()) {
-    on_walls = flow.state.particles.pressure;
-    for (const auto& part : flow.parts) part->subtract_from_walls(flow, on_walls);
-    works.walls = wall_work(flow, on_walls, dt);
-  }
-  works.ends = end_work(flow, dt);
-  for (const auto& part : flow.parts) part->add_work(flow, on_walls, dt, works);
-  return works;
-}
-
-template <int Dim>
-double end_work(const Flow<Dim>& flow, double dt) {
-  const std::vector<OpenEnd<Dim>>& ends = flow.setup.open_ends;
-  if (std::ranges::none_of(ends, [](const OpenEnd<Dim>& end) { return end.is_driven(); })) return 0.0;
-  return flow.driven_change + sum_over(flow.state.particles.owned, 0.0, [&](std::size_t i) {
-           return is_driven(flow.role[i]) ? work_of_driven_particle(flow, i, dt) : 0.0;
-         });
-}
-
-namespace {
-
-/// Of gravity along periodic directions on what this rank's water has moved since `start`.
+/// Work [J] of gravity along periodic directions on this rank's water since `start`.
 template <int Dim>
 double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
   const Vec<Dim> along = flow.setup.gravity - flow.setup.gravity_across;
@@ -112,6 +69,19 @@ double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
 }
 
 }  // namespace
+
+template <int Dim>
+Works work_of_boundaries(const Flow<Dim>& flow, double dt) {
+  Works works;
+  std::vector<double> on_walls;
+  if (!flow.setup.wall_motion.moving().empty()) {
+    on_walls = flow.state.particles.pressure;
+    for (const auto& part : flow.parts) part->subtract_from_walls(flow, on_walls);
+    works.walls = wall_work(flow, on_walls, dt);
+  }
+  for (const auto& part : flow.parts) part->add_work(flow, on_walls, dt, works);
+  return works;
+}
 
 template <int Dim>
 Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
@@ -148,7 +118,6 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
 }
 
 TAILWATER_IN_2D_AND_3D(work_of_boundaries);
-TAILWATER_IN_2D_AND_3D(end_work);
 TAILWATER_IN_2D_AND_3D(work_of_step);
 TAILWATER_IN_2D_AND_3D(balance_energy);
 

@@ -9,7 +9,7 @@ namespace tailwater {
 
 template <int Dim>
 double find_fullness(const Flow<Dim>& flow) {
-  if (!flow.setup.has_air() || !flow.setup.open_ends.empty()) return 0.0;
+  if (!flow.setup.has_air() || flow.is_open()) return 0.0;
   const Vec<2> nothing = Vec<2>::Zero();
   Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
     return flow.role[i] == Role::water ? Vec<2>(1.0 - flow.surroundings.interior[i], 1.0) : nothing;

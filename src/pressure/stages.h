@@ -72,10 +72,6 @@ Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pre
 template <int Dim>
 Works work_of_boundaries(const Flow<Dim>& flow, double dt);
 
-/// Work [J] of what is prescribed at open ends on this rank's water in a step of dt; likewise.
-template <int Dim>
-double end_work(const Flow<Dim>& flow, double dt);
-
 /// Adds up the works of all ranks in `report`, balances the energy of the step, and sets the share of the density
 /// source that the energy leaves to the next step: lifting water that had come too close costs what the scheme must
 /// have dissipated before. The share falls from 1 to 0 while the energy rises to `energy_slack` above its least, the

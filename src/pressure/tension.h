@@ -14,8 +14,8 @@ double tension_share(const Flow<Dim>& flow, std::size_t i) {
 }
 
 /// Tension [Pa] that particles, water or wall, keep in full; empty where there is none. Beside pockets of air it is by
-/// how much the pressure that the pockets alone make is off that of their air: in the outermost rows this pressure makes
-/// a velocity with a divergence, and what mends that pulls by as much at most. Collective.
+/// how much the pressure that the pockets alone make is off that of their air: in the outermost rows this pressure
+/// makes a velocity with a divergence, and what mends that pulls by as much at most. Collective.
 template <int Dim>
 std::vector<double> allowed_tension(const Flow<Dim>& flow) {
   std::vector<double> tension;

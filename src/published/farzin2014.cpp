@@ -144,7 +144,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
     const std::size_t capped =
         find_published_shifts<Dim>(shifting_, dt, flow.pairs(), particles, flow.surroundings, shifts);
     for_each(particles.owned, [&](std::size_t i) {
-      if (is_in_end_stretch(flow.role[i]) || flow.role[i] == Role::stagnant) shifts[i].setZero();
+      if (is_claimed(flow.role[i])) shifts[i].setZero();
     });
     set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
     carry_fields_along<Dim>(flow.pairs(), *tensors_, flow.surroundings, shifts, particles);

@@ -4,8 +4,10 @@
 
 #include "air/enclosed_air.h"
 #include "bodies/floating_bodies.h"
+#include "open_ends/open_ends.h"
 #include "parts/boundary_layers.h"
 #include "parts/damping_zones.h"
+#include "parts/domain_floor.h"
 #include "parts/section_counters.h"
 #include "parts/side_walls.h"
 #include "parts/wave_makers.h"
@@ -28,8 +30,9 @@ template <int Dim>
 Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   // All parts that a flow can have, in the order in which the stages call them.
   static constexpr std::array parts{
-      make_wave_makers<Dim>,     make_side_walls<Dim>,      make_damping_zones<Dim>, make_boundary_layers<Dim>,
-      make_floating_bodies<Dim>, make_enclosed_air<Dim>, make_section_counters<Dim>,
+      make_open_ends_part<Dim>,  make_domain_floor<Dim>,  make_wave_makers<Dim>,
+      make_side_walls<Dim>,      make_damping_zones<Dim>, make_boundary_layers<Dim>,
+      make_floating_bodies<Dim>, make_enclosed_air<Dim>,  make_section_counters<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

@@ -6,6 +6,7 @@
 
 #include "base/json.h"
 #include "flow/flow.h"
+#include "flow/water_amount.h"
 
 namespace tailwater {
 
@@ -26,14 +27,6 @@ WaterAmount water_outside(const Flow<Dim>& flow);
 /// The water that is computed and not outside; collective.
 template <int Dim>
 WaterAmount water_inside(const Flow<Dim>& flow);
-
-/// The water that left through all open ends since the start.
-template <int Dim>
-WaterAmount water_out(const Flow<Dim>& flow);
-
-/// The water that came through all open ends since the start.
-template <int Dim>
-WaterAmount water_came(const Flow<Dim>& flow);
 
 /// Block "water_balance" of the summary; collective.
 template <int Dim>

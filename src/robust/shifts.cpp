@@ -10,7 +10,7 @@ std::size_t RobustDiscretisation<Dim>::find_shifts(Flow<Dim>& flow, double dt, s
   const std::size_t capped =
       compute_shift<Dim>(laws_.shifting, dt, largest_speed(flow), flow.pairs(), particles, flow.surroundings, shifts);
   for_each(particles.owned, [&](std::size_t i) {
-    if (is_in_end_stretch(flow.role[i]) || flow.role[i] == Role::stagnant) shifts[i].setZero();
+    if (is_claimed(flow.role[i])) shifts[i].setZero();
   });
   return capped;
 }

@@ -16,11 +16,6 @@ void require_fit(bool condition, const char* part) {
   if (!condition) throw IoError("its '{}' does not fit", part);
 }
 
-TAILWATER_SAVED(inline, WaterAmount, particles, volume, energy)
-TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
-TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate,
-                entry_speed, depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived,
-                short_steps)
 TAILWATER_SAVED(inline, MakerState, correction, rate, time)
 
 namespace {
@@ -69,16 +64,14 @@ BodyState<Dim> body_of(const Json& json) {
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A member that is new in State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, open_ends, motion, approach, energy_rise, density_share, fallen] =
+  const auto& [time, step, particles, wall_velocity, motion, approach, energy_rise, density_share] =
       checkpoint.flow.state;
   Json json{{"time", time},
             {"step", step},
             {"approach", approach},
             {"energy_rise", energy_rise},
             {"density_share", density_share},
-            {"fallen", fallen},
             {"reference_step", checkpoint.reference_step},
-            {"open_ends", open_ends},
             {"wave_makers", motion.wave_makers},
             {"bodies", Json::array()},
             {"inertia", motion.bodies.inertia},
@@ -97,9 +90,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.approach = json.at("approach");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
-  state.fallen = json.at("fallen");
   checkpoint.reference_step = json.at("reference_step");
-  json.at("open_ends").get_to(state.open_ends);
   json.at("wave_makers").get_to(state.motion.wave_makers);
   for (const Json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));
   json.at("inertia").get_to(state.motion.bodies.inertia);

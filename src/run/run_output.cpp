@@ -11,6 +11,7 @@
 #include "case/writer.h"
 #include "io/messages.h"
 #include "io/write_file.h"
+#include "open_ends/open_ends.h"
 #include "parallel/together.h"
 #include "parts/section_counters.h"
 #include "results/field_output.h"
@@ -125,8 +126,7 @@ Json RunOutput<Dim>::saved() const {
           {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
           {"warnings", warnings()},
           {"limits", limits_.saved()},
-          {"warned_outside", warned_outside_},
-          {"end_watch", end_monitor_.saved()}};
+          {"warned_outside", warned_outside_}};
 }
 
 template <int Dim>
@@ -146,7 +146,6 @@ void RunOutput<Dim>::restore(const Json& kept) {
   recall_warnings(kept.at("warnings"));
   limits_.restore(kept.at("limits"));
   warned_outside_ = kept.at("warned_outside");
-  end_monitor_.restore(kept.at("end_watch"));
   const Json& cost = kept.at("cost");
   wall_seconds_before_ = cost.at("wall_seconds");
   cpu_seconds_before_ = cost.at("cpu_seconds");
@@ -238,7 +237,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   const FlowMeasures measures = measure(flow);
   const auto outside = static_cast<std::size_t>(water_outside(flow).particles);
   warn_if_outside(flow, outside);
-  end_monitor_.update(flow);
+  for (const auto& part : flow.parts) part->warn(flow);
   statistics_.add(report, measures, outside);
   do_on_root(ranks_, [&] {
     require_folder_in_place();
@@ -281,7 +280,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   probes_.write_maps(folder_, flow.state.time, ranks_);
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   limits_.warn_of_largest();
-  end_monitor_.warn_of_end(flow);
+  for (const auto& part : flow.parts) part->warn_at_end(flow);
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
   tell_results();
@@ -290,7 +289,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
 template <int Dim>
 void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, ExitCode code, const std::string& message) {
   limits_.warn_of_largest();
-  end_monitor_.warn_of_end(flow);
+  for (const auto& part : flow.parts) part->warn_at_end(flow);
   try {
     write_summary(flow, "failed", code, message);
   } catch (const IoError&) {
@@ -350,11 +349,12 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
 template <int Dim>
 void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
   const WaterAmount outside = water_outside(flow);
-  if (flow.setup.open_ends.empty() && outside.particles == 0) return;
-  const WaterAmount came = water_came(flow);
+  if (!flow.is_open() && outside.particles == 0) return;
+  const auto& ends = flow.template part<OpenEnds<Dim>>();
+  const WaterAmount came = ends.arrived();
   tell("water: {} at the start, {}{} inside, {} outside the walls, {} out", text_of(water_at_start_),
        came.particles > 0 ? text_of(came) + " in, " : "", text_of(water_inside(flow)), text_of(outside),
-       text_of(water_out(flow)));
+       text_of(ends.departed()));
 }
 
 template <int Dim>

@@ -15,7 +15,6 @@
 #include "io/pvd_series.h"
 #include "io/run_folder.h"
 #include "probes/probe_set.h"
-#include "results/end_watch.h"
 #include "results/frame_output.h"
 #include "results/measurements.h"
 #include "results/probe_results.h"
@@ -103,7 +102,6 @@ class RunOutput {
   WaterAmount water_at_start_;
   Schedule fields_schedule_;
   bool warned_outside_ = false;
-  OpenEndMonitor end_monitor_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_look_at_folder_;
   double cpu_start_;

@@ -6,8 +6,8 @@
 //     // read simulation.flow()
 //   }
 //
-// A program that adds forces (parts/script_loads.h) does so between `prepare` and `step`, when particles have the indices
-// of the coming step.
+// A program that adds forces (parts/script_loads.h) does so between `prepare` and `step`, when particles have the
+// indices of the coming step.
 #pragma once
 
 #include "case/spec.h"

@@ -6,7 +6,6 @@ template <int Dim>
 StepStart<Dim> begin_step(Flow<Dim>& flow, double dt) {
   gather_walls(flow);
   assign_roles(flow);
-  update_open_ends(flow, dt);
   for (const auto& part : flow.parts) part->begin_step(flow, dt);
   return save_step_start(flow);
 }

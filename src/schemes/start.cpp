@@ -34,7 +34,6 @@ template <int Dim>
 void start(Flow<Dim>& flow) {
   const double dt = next_time_step(flow);
   assign_roles(flow);
-  update_open_ends(flow, 0.0);
   for (const auto& part : flow.parts) part->begin_step(flow, 0.0);
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);

@@ -43,7 +43,6 @@ Checkpoint<2> sound_checkpoint() {
   checkpoint.flow.state.time = 0.5;
   checkpoint.flow.state.step = 10;
   checkpoint.flow.state.wall_velocity.assign(1, Vec<2>::Zero());
-  checkpoint.flow.state.open_ends.resize(1);
   checkpoint.flow.parts = Json::object();
   checkpoint.output = {{"steps", 10}};
   checkpoint.rank_log = {1.0, 2.0};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "case/formulation.h"
 #include "case/reader.h"
 #include "geometry/cases.h"
 #include "run/inflow_estimate.h"

@@ -32,7 +32,7 @@ class StepGuardTest : public testing::Test {
 TYPED_TEST_SUITE(StepGuardTest, Dimensions);
 
 TYPED_TEST(StepGuardTest, LetsSoundStepsPass) {
-  this->guard.attempt(remember(this->flow), [&] { this->flow.state.particles.velocity[5][0] = 1.0; });
+  this->guard.attempt(save_step_start(this->flow), [&] { this->flow.state.particles.velocity[5][0] = 1.0; });
   EXPECT_EQ(this->flow.state.particles.velocity[5][0], 1.0);
 }
 
@@ -41,7 +41,7 @@ TYPED_TEST(StepGuardTest, NamesTheParticleThatIsNotFiniteAndPutsTheGoodStateBack
     this->flow.state.particles.velocity[5][0] = std::numeric_limits<double>::quiet_NaN();
     throw SolverError("the source of the pressure equation is not finite");  // it follows from the particle
   };
-  const std::string message = message_of<SolverError>([&] { this->guard.attempt(remember(this->flow), spoil); });
+  const std::string message = message_of<SolverError>([&] { this->guard.attempt(save_step_start(this->flow), spoil); });
   EXPECT_NE(message.find("particle 5, which was at ("), std::string::npos) << message;
   EXPECT_NE(message.find("has a value that is not finite"), std::string::npos) << message;
   EXPECT_EQ(this->flow.state.particles.velocity[5][0], 0.0);
@@ -63,7 +63,7 @@ TYPED_TEST(StepGuardTest, NamesAParticleThatIsTooFastBeforeNeighboursAreKnown) {
 
 TYPED_TEST(StepGuardTest, PassesOnWhatTheSolverSays) {
   const std::string message = message_of<SolverError>(
-      [&] { this->guard.attempt(remember(this->flow), [] { throw SolverError("it did not converge"); }); });
+      [&] { this->guard.attempt(save_step_start(this->flow), [] { throw SolverError("it did not converge"); }); });
   EXPECT_NE(message.find("it did not converge"), std::string::npos) << message;
 }
 

@@ -29,7 +29,7 @@ double mean_depth(const Flow<2>& flow, double length) {
 /// particles evenly: 1 near the closed end, and from there linearly down to 0 in the middle.
 template <int Dim>
 double depth_away_from_end(const Flow<Dim>& flow) {
-  const OpenEnd<Dim>& end = flow.setup.open_ends[0];
+  const OpenEnd<Dim>& end = flow.template part<OpenEnds<Dim>>().ends()[0];
   const Particles<Dim>& particles = flow.state.particles;
   double volume = 0.0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
@@ -61,7 +61,7 @@ TEST(OpenEnd, ATankComesToTheLevelBeyond) {
         ASSERT_NEAR(mean_depth(flow, tank_width), level, dx) << "t = " << flow.state.time;
       }
     }
-    EXPECT_LT(flow.state.open_ends[0].miss.since, 0.0) << "not missed for long";
+    EXPECT_LT(state_of_end(flow, 0).miss.since, 0.0) << "not missed for long";
   }
 }
 
@@ -89,7 +89,7 @@ void expect_follows(const CaseSpec& spec, const Varying& level, double rate, dou
   (spec.inlets.empty() ? with_level.outlets[0].level : with_level.inlets[0].level) = level;
   Flow<Dim> flow = make_flow<Dim>(with_level);
   start(flow);
-  const double length = flow.setup.open_ends[0].reach;
+  const double length = flow.template part<OpenEnds<Dim>>().ends()[0].reach;
   const TimeFunction asked(level, {});
   double least = asked.at(0.0);  // m; of the levels so far
   while (flow.state.time < duration) {
@@ -109,7 +109,7 @@ void expect_follows(const CaseSpec& spec, const Varying& level, double rate, dou
     ++count;
   }
   EXPECT_NEAR(mean / count, at_rest, 0.3 * dx);
-  EXPECT_LT(flow.state.open_ends[0].miss.since, 0.0) << "not missed for long";
+  EXPECT_LT(state_of_end(flow, 0).miss.since, 0.0) << "not missed for long";
 }
 
 /// Any series of levels takes the water along: up, down, and as a wave.
@@ -247,11 +247,11 @@ TEST(OpenEnd, ALevelThatIsNotHeldIsTold) {
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 6.0) pass_and_step(flow);
-  const LevelError& miss = flow.state.open_ends[1].miss;
+  const LevelError& miss = state_of_end(flow, 1).miss;
   EXPECT_GE(miss.since, 0.0);
   EXPECT_NEAR(miss.most, depth - 0.4, dx);
   EXPECT_GT(miss.total, 0.0);
-  EXPECT_LT(flow.state.open_ends[0].miss.since, 0.0);
+  EXPECT_LT(state_of_end(flow, 0).miss.since, 0.0);
 }
 
 /// Whatever the profile, the rows of the lattice bring the discharge.
@@ -267,7 +267,7 @@ TEST(OpenEnd, ASteepProfileBringsTheDischarge) {
   start(flow);
   while (flow.state.time < 3.0) pass_and_step(flow);
   const double asked = speed * depth * flow.state.time;
-  EXPECT_NEAR(flow.state.open_ends[0].asked, asked, 1e-9);
+  EXPECT_NEAR(state_of_end(flow, 0).asked, asked, 1e-9);
   EXPECT_NEAR(arrived_at(flow, 0).volume, asked, 0.02 * asked + dx * depth);
 }
 

@@ -1,6 +1,7 @@
 // Tanks and channels with open ends, and how a run goes on with them.
 #pragma once
 
+#include "open_ends/open_ends.h"
 #include "schemes/cases.h"
 
 namespace tailwater {
@@ -60,8 +61,18 @@ void pass_and_step(Flow<Dim>& flow) {
 }
 
 template <int Dim>
+const OpenEndState& state_of_end(const Flow<Dim>& flow, std::size_t end) {
+  return flow.template part<OpenEnds<Dim>>().states().at(end);
+}
+
+template <int Dim>
 WaterAmount arrived_at(const Flow<Dim>& flow, std::size_t end) {
-  return flow.state.open_ends[end].arrived;
+  return state_of_end(flow, end).arrived;
+}
+
+template <int Dim>
+WaterAmount sump_of(const Flow<Dim>& flow, int circuit) {
+  return flow.template part<OpenEnds<Dim>>().sump(circuit);
 }
 
 }  // namespace tailwater

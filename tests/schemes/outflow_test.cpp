@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "parts/domain_floor.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
 
@@ -26,7 +27,8 @@ Vec<Dim> beside(double below) {
 
 TYPED_TEST(OutflowTest, WaterASupportBelowAllWallsIsBookedAndGone) {
   constexpr int Dim = TypeParam::value;
-  Flow<Dim> flow = make_flow<Dim>(tank_case<Dim>(dx, 0.4, 0.2));
+  const CaseSpec spec = tank_case<Dim>(dx, 0.4, 0.2);
+  Flow<Dim> flow = make_flow<Dim>(spec);
   Particles<Dim>& particles = flow.state.particles;
   const double support = kernel_radius(flow.setup.kernel);
   const std::size_t owned = particles.owned;
@@ -47,13 +49,22 @@ TYPED_TEST(OutflowTest, WaterASupportBelowAllWallsIsBookedAndGone) {
   ASSERT_EQ(particles.owned, owned - 1);
   for (std::size_t i = 0; i < particles.owned; ++i) EXPECT_NE(particles.id[i], falls);
   EXPECT_EQ(particles.id[0], stays);
-  EXPECT_EQ(flow.state.fallen.particles, 1);
-  EXPECT_EQ(flow.state.fallen.volume, volume);
-  EXPECT_DOUBLE_EQ(flow.state.fallen.energy, taken);
+  EXPECT_EQ(flow.template part<DomainFloor<Dim>>().fallen().particles, 1);
+  EXPECT_EQ(flow.template part<DomainFloor<Dim>>().fallen().volume, volume);
+  EXPECT_DOUBLE_EQ(flow.template part<DomainFloor<Dim>>().fallen().energy, taken);
   const FlowMeasures measures = measure(flow);
   EXPECT_EQ(measures.departed.particles, 1);
   EXPECT_NEAR(measures.energy() + measures.departed.energy, with_it, 1e-12 * std::abs(with_it));
   EXPECT_FALSE(remove_outflow(flow));
+
+  Flow<Dim> resumed = make_flow<Dim>(spec);
+  SavedFlow<Dim> saved;
+  flow.save(saved);
+  ASSERT_TRUE(resumed.restore(std::move(saved)));
+  const WaterAmount& restored = resumed.template part<DomainFloor<Dim>>().fallen();
+  EXPECT_EQ(restored.particles, 1);
+  EXPECT_EQ(restored.volume, volume);
+  EXPECT_EQ(restored.energy, flow.template part<DomainFloor<Dim>>().fallen().energy);
 }
 
 TYPED_TEST(OutflowTest, WithoutGravityNothingFalls) {
@@ -64,7 +75,7 @@ TYPED_TEST(OutflowTest, WithoutGravityNothingFalls) {
   Flow<Dim> flow = make_flow<Dim>(spec);
   flow.state.particles.position[0] = beside<Dim>(100.0);
   EXPECT_FALSE(remove_outflow(flow));
-  EXPECT_EQ(flow.state.fallen.particles, 0);
+  EXPECT_EQ(flow.template part<DomainFloor<Dim>>().fallen().particles, 0);
 }
 
 }  // namespace outflow_test

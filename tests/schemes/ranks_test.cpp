@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "air/pocket_pressure.h"
-#include "air/pocket_pressure.h"
+#include "bodies/floating_bodies.h"
 #include "schemes/force_reader.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
@@ -309,8 +309,8 @@ TEST(RanksTest, WaterThatLeavesIsBookedOnAllRanks) {
   Flow<2> flow = make_flow<2>(spec, Communicator::world());
   const std::int64_t at_start = water_in(flow);
   run(flow, 40);
-  EXPECT_GT(flow.state.open_ends[0].departed.particles, 0);
-  EXPECT_EQ(water_in(flow) + flow.state.open_ends[0].departed.particles, at_start);
+  EXPECT_GT(state_of_end(flow, 0).departed.particles, 0);
+  EXPECT_EQ(water_in(flow) + state_of_end(flow, 0).departed.particles, at_start);
   expect_same<2>(spec, 0.3, as_it_is);
 }
 
@@ -321,9 +321,9 @@ TEST(RanksTest, WaterThatEntersIsMadeOnceAndBookedOnAllRanks) {
   Flow<2> flow = make_flow<2>(spec, Communicator::world());
   const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
   run(flow, 40);
-  EXPECT_GT(flow.state.open_ends[0].arrived.particles, 0);
+  EXPECT_GT(state_of_end(flow, 0).arrived.particles, 0);
   EXPECT_EQ(flow.setup.ranks.sum(count_fluid(flow)),
-            at_start + static_cast<std::size_t>(flow.state.open_ends[0].arrived.particles));
+            at_start + static_cast<std::size_t>(state_of_end(flow, 0).arrived.particles));
   expect_same<2>(spec, 0.3, as_it_is);
 }
 
@@ -335,7 +335,7 @@ TEST(RanksTest, ALevelBeyondIsHeldTogether) {
     Flow<2> flow = make_flow<2>(spec, Communicator::world());
     const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
     run(flow, 40);
-    const OpenEndState& state = flow.state.open_ends[0];
+    const OpenEndState& state = state_of_end(flow, 0);
     EXPECT_GT(level > 0.3 ? state.arrived.particles : state.departed.particles, 0) << "level " << level;
     EXPECT_EQ(flow.setup.ranks.sum(count_fluid(flow)) + static_cast<std::size_t>(state.departed.particles),
               at_start + static_cast<std::size_t>(state.arrived.particles));
@@ -387,7 +387,7 @@ TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
   Flow<2> flow = make_flow<2>(spec, Communicator::world());
   const std::size_t at_start = flow.setup.ranks.sum(count_fluid(flow));
   run(flow, 60);
-  EXPECT_GT(flow.state.open_ends[0].arrived.particles, 0);
+  EXPECT_GT(state_of_end(flow, 0).arrived.particles, 0);
   EXPECT_EQ(flow.setup.ranks.sum(count_fluid(flow)) + static_cast<std::size_t>(sump_of(flow, 1).particles), at_start);
 }
 
@@ -541,7 +541,7 @@ TEST(RanksTest, WaterIsHeldInTheNarrowGapUnderABody) {
   spec.bodies = {body};
   Flow<2> flow = make_flow<2>(spec, Communicator::world());
   run(flow, 1);
-  EXPECT_GT(flow.setup.ranks.sum(static_cast<int>(std::ranges::count(flow.role, Role::stagnant))), 0);
+  EXPECT_GT(flow.setup.ranks.sum(static_cast<int>(bodies_of(flow).stagnant.size())), 0);
   expect_same<2>(spec, 0.3, as_it_is);
 }
 

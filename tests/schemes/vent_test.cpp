@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "air/enclosed_air.h"
+#include "base/error.h"
 #include "flow/measure.h"
 #include "flow/stages.h"
 #include "schemes/cases.h"

@@ -4,7 +4,8 @@
 #include <functional>
 
 #include "base/for_each.h"
-#include "flow/stages.h"
+#include "flow/flow.h"
+#include "open_ends/open_ends.h"
 
 namespace tailwater {
 namespace {
@@ -77,11 +78,11 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   return entrants;
 }
 
-/// What enters where water circulates: as many as wait in the sump, of their mean volume, so that number and volume are
-/// kept. Those that have waited longest come first.
+/// What enters where water circulates: as many as wait in the `sump`, of their mean volume, so that number and volume
+/// are kept. Those that have waited longest come first.
 template <int Dim>
-std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow) {
-  const WaterAmount sump = sump_of(flow, end.circuit);
+std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow,
+                                         const WaterAmount& sump) {
   const double number = static_cast<double>(sump.particles);
   const double cell = power<Dim>(flow.setup.spacing);
   std::vector<Entrant<Dim>> entrants =
@@ -118,19 +119,19 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, std::
 }  // namespace
 
 template <int Dim>
-bool add_inflow(Flow<Dim>& flow) {
+bool OpenEnds<Dim>::bring_in(Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   bool some_came = false;
-  for (std::size_t e = 0; e < setup.open_ends.size(); ++e) {
-    if (!setup.open_ends[e].is_driven()) continue;
-    const OpenEnd<Dim>& end = setup.open_ends[e];
-    OpenEndState& state = flow.state.open_ends[e];
-    const std::vector<Entrant<Dim>> entrants =
-        end.circuit < 0 ? find_entrants(end, state, flow, std::nullopt) : find_returning(end, state, flow);
+  for (std::size_t e = 0; e < ends_.size(); ++e) {
+    if (!ends_[e].is_driven()) continue;
+    const OpenEnd<Dim>& end = ends_[e];
+    OpenEndState& state = states_[e];
+    const std::vector<Entrant<Dim>> entrants = end.circuit < 0 ? find_entrants(end, state, flow, std::nullopt)
+                                                               : find_returning(end, state, flow, sump(end.circuit));
     if (entrants.empty()) continue;
     some_came = true;
     std::int64_t first_id = setup.first_wall_id + flow.walls.particles.numbers;
-    for (const OpenEndState& any : flow.state.open_ends) first_id += any.arrived.particles;
+    for (const OpenEndState& any : states_) first_id += any.arrived.particles;
     add_water(flow, entrants, first_id);
     for (const Entrant<Dim>& entrant : entrants) {
       const double mass = setup.density * entrant.volume;
@@ -138,26 +139,10 @@ bool add_inflow(Flow<Dim>& flow) {
           {1, entrant.volume, mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
     }
   }
-  for (const auto& part : flow.parts) some_came = part->bring_in(flow) || some_came;
   return some_came;
 }
 
-template <int Dim>
-WaterAmount sump_of(const Flow<Dim>& flow, int circuit) {
-  WaterAmount sump;
-  const double particle = power<Dim>(flow.setup.spacing);
-  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
-    const OpenEnd<Dim>& end = flow.setup.open_ends[e];
-    if (end.circuit != circuit) continue;
-    const std::int64_t reserve = std::lround(end.reserve / particle);
-    sump += {reserve, static_cast<double>(reserve) * particle};
-    sump += flow.state.open_ends[e].departed;
-    sump -= flow.state.open_ends[e].arrived;
-  }
-  return sump;
-}
-
-TAILWATER_IN_2D_AND_3D(sump_of);
-TAILWATER_IN_2D_AND_3D(add_inflow);
+template bool OpenEnds<2>::bring_in(Flow<2>&);
+template bool OpenEnds<3>::bring_in(Flow<3>&);
 
 }  // namespace tailwater

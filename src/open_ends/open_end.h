@@ -9,22 +9,10 @@
 
 #include <cstdint>
 
+#include "flow/water_amount.h"
 #include "motion/channel_end.h"
 
 namespace tailwater {
-
-template <int Dim>
-struct Flow;
-
-/// An amount of water.
-struct WaterAmount {
-  std::int64_t particles = 0;
-  double volume = 0.0;  ///< m^Dim
-  double energy = 0.0;  ///< J; kinetic and potential; of water that passed an opening, on passing
-
-  WaterAmount& operator+=(const WaterAmount& other);
-  WaterAmount& operator-=(const WaterAmount& other);
-};
 
 /// How well a prescribed level is held.
 struct LevelError {
@@ -80,12 +68,7 @@ struct OpenEnd : ChannelEnd<Dim> {
   Vec<Dim> inflow_at(const OpenEndState& state, const Vec<Dim>& x) const;
 };
 
-template <int Dim>
-std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec);
-
-/// The water that waits to enter through the ends of a circuit (ChannelEnd::circuit): its reserve and what has left
-/// through them, less what came. Its energy is not counted.
-template <int Dim>
-WaterAmount sump_of(const Flow<Dim>& flow, int circuit);
+/// Depth [m] of a flow with speed u and the invariant that comes from beyond.
+double depth_at_speed(double invariant, double gravity, double u);
 
 }  // namespace tailwater

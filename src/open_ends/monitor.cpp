@@ -1,12 +1,12 @@
-#include "results/end_watch.h"
-
+// Warns of open ends that do not do what the case prescribes.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "flow/flow.h"
 #include "io/messages.h"
+#include "open_ends/open_ends.h"
 
 namespace tailwater {
 namespace {
@@ -18,31 +18,31 @@ constexpr double columns_that_wait = 3.0;
 
 }  // namespace
 
-bool OpenEndMonitor::is_first(const std::string& what) {
-  if (std::ranges::find(told_, what) != told_.end()) return false;
-  told_.push_back(what);
+template <int Dim>
+bool OpenEnds<Dim>::is_first(const std::string& warning) {
+  if (std::ranges::find(warnings_, warning) != warnings_.end()) return false;
+  warnings_.push_back(warning);
   return true;
 }
 
 template <int Dim>
-void OpenEndMonitor::update(const Flow<Dim>& flow) {
-  const double spacing = flow.setup.spacing;
-  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
-    const OpenEnd<Dim>& end = flow.setup.open_ends[e];
-    const OpenEndState& state = flow.state.open_ends[e];
+void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
+  for (std::size_t e = 0; e < ends_.size(); ++e) {
+    const OpenEnd<Dim>& end = ends_[e];
+    const OpenEndState& state = states_[e];
     const std::string label = end.opening.label();
     if (state.miss.since >= 0.0 && is_first(label + ": level")) {
-      warn(
+      tailwater::warn(
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
           "spacing of {:.3g} m; the end of the run tells how long. Remedy: a wider or deeper opening, or levels and "
           "discharges that change more slowly",
-          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing);
+          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing_);
     }
     if (!end.flow.feeds() || end.circuit >= 0) continue;
     const double missing = state.asked - (state.arrived.volume - state.departed.volume);
-    const double columns = columns_that_wait * spacing * state.depth * end.width;
+    const double columns = columns_that_wait * spacing_ * state.depth * end.width;
     if (missing > most_missing * std::abs(state.asked) + columns && is_first(label + ": discharge")) {
-      warn(
+      tailwater::warn(
           "{} does not bring what it should: at t = {:.4g} s {:.3g} of {:.3g} m^3 are missing, for want of room; "
           "water_balance in summary.json tells what came. Remedy: a higher opening, or a smaller spacing",
           label, flow.state.time, missing, state.asked);
@@ -51,25 +51,24 @@ void OpenEndMonitor::update(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-void OpenEndMonitor::warn_of_end(const Flow<Dim>& flow) const {
-  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
-    const LevelError& miss = flow.state.open_ends[e].miss;
+void OpenEnds<Dim>::warn_at_end(const Flow<Dim>& flow) const {
+  for (std::size_t e = 0; e < ends_.size(); ++e) {
+    const LevelError& miss = states_[e].miss;
     if (miss.since < 0.0) continue;
     const std::string now =
         miss.lasts > 0.0 ? fmt::format("still {:.3g} m too {}", std::abs(miss.mean), miss.mean < 0.0 ? "low" : "high")
                          : "within a spacing again";
-    warn("at t = {:.4g} s the level at {}, not held for {:.3g} s and off by {:.3g} m at the most, is {}",
-         flow.state.time, flow.setup.open_ends[e].opening.label(), miss.total, std::abs(miss.most), now);
+    tailwater::warn("at t = {:.4g} s the level at {}, not held for {:.3g} s and off by {:.3g} m at the most, is {}",
+                    flow.state.time, ends_[e].opening.label(), miss.total, std::abs(miss.most), now);
   }
 }
 
-Json OpenEndMonitor::saved() const { return told_; }
-
-void OpenEndMonitor::restore(const Json& saved) { saved.get_to(told_); }
-
-template void OpenEndMonitor::update(const Flow<2>&);
-template void OpenEndMonitor::update(const Flow<3>&);
-template void OpenEndMonitor::warn_of_end(const Flow<2>&) const;
-template void OpenEndMonitor::warn_of_end(const Flow<3>&) const;
+#define TAILWATER_INSTANTIATE(Dim)                           \
+  template bool OpenEnds<Dim>::is_first(const std::string&); \
+  template void OpenEnds<Dim>::warn(const Flow<Dim>&);       \
+  template void OpenEnds<Dim>::warn_at_end(const Flow<Dim>&) const;
+TAILWATER_INSTANTIATE(2)
+TAILWATER_INSTANTIATE(3)
+#undef TAILWATER_INSTANTIATE
 
 }  // namespace tailwater

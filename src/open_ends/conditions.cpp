@@ -1,16 +1,14 @@
-#include "flow/open_end.h"
-
+// The conditions at open ends in a step, from the flow before them and from what the case prescribes.
 #include <algorithm>
 #include <cmath>
 
 #include "base/for_each.h"
-#include "case/formulation.h"
-#include "flow/stages.h"
+#include "flow/flow.h"
+#include "open_ends/open_ends.h"
 
 namespace tailwater {
 namespace {
 
-constexpr double gauge_over_spacing = 2.0;
 /// Water shallower than this share of dx gives no reliable level.
 constexpr double least_depth_over_spacing = 0.1;
 /// Time over which the invariant is averaged, in travel times of a long wave from the gauge into the end stretch. It is
@@ -125,12 +123,6 @@ double read_flow(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Reading& 
   state.speed = speed;
   if (end.holds_level()) state.depth_at_gauge = celerity_squared / end.gravity;
   return change;
-}
-
-/// Depth [m] of a flow with speed u and the invariant that comes from beyond.
-double depth_at_speed(double invariant, double gravity, double u) {
-  const double twice_celerity = std::max(0.0, u - invariant);
-  return 0.25 * twice_celerity * twice_celerity / gravity;
 }
 
 /// What a level beyond an open end means for the flow through it.
@@ -269,70 +261,16 @@ void choose_rows(double spacing, OpenEndState& state) {
   if (!fit) state.rows = std::lround(wanted);
 }
 
-/// Kinetic energy [J] of this rank's water in driven end stretches.
-template <int Dim>
-double kinetic_energy_in_driven_ends(const Flow<Dim>& flow) {
-  return sum_over(flow.state.particles.owned, 0.0,
-                  [&](std::size_t i) { return is_driven(flow.role[i]) ? flow.kinetic_energy_of(i) : 0.0; });
-}
-
 }  // namespace
 
-WaterAmount& WaterAmount::operator+=(const WaterAmount& other) {
-  particles += other.particles;
-  volume += other.volume;
-  energy += other.energy;
-  return *this;
-}
-
-WaterAmount& WaterAmount::operator-=(const WaterAmount& other) {
-  particles -= other.particles;
-  volume -= other.volume;
-  energy -= other.energy;
-  return *this;
-}
-
 template <int Dim>
-OpenEnd<Dim>::OpenEnd(ChannelEnd<Dim> end, double spacing, double support)
-    : ChannelEnd<Dim>(std::move(end)),
-      stretch(support + spacing),
-      gauge(gauge_over_spacing * spacing),
-      columns(Dim == 2 ? 1 : std::max(1, static_cast<int>(std::lround(this->width / spacing)))) {}
-
-template <int Dim>
-double OpenEnd<Dim>::pressure_at(const OpenEndState& state, const Vec<Dim>& x, double density) const {
-  if (this->gravity == 0.0 || !(state.is_wet || this->is_driven())) return 0.0;
-  double level = this->floor + state.depth;
-  if (!this->flow.feeds()) {
-    const auto depth_at = [&](double speed) { return depth_at_speed(state.invariant, this->gravity, speed); };
-    const double at_gauge = this->is_driven() ? state.depth_at_gauge : depth_at(state.speed);
-    const double in_middle = this->is_driven() ? state.depth_in_middle : depth_at(state.speed_beyond);
-    const double share = (this->opening.beyond(x) + stretch + gauge) / distance();
-    level = this->floor + (1.0 - share) * at_gauge + share * in_middle;
-  }
-  return density * this->gravity * std::max(0.0, level - this->up.dot(x));
-}
-
-/// The water may become deeper or shallower. Then it is stretched along `rise`, and what it gains or loses along the
-/// channel makes up for it: the field has no divergence, and the discharge at the opening is the prescribed one.
-template <int Dim>
-Vec<Dim> OpenEnd<Dim>::inflow_at(const OpenEndState& state, const Vec<Dim>& x) const {
-  if (state.depth == 0.0) return Vec<Dim>::Zero();
-  const double share = this->rise.dot(x - this->low) / state.depth;
-  const double inside = -this->opening.beyond(x);
-  const double row = state.rows > 0 ? 1.0 / static_cast<double>(state.rows) : 1.0;
-  const double in = state.entry_speed * this->flow.profile_of_row(share, row) - inside * state.depth_rate / state.depth;
-  return -in * this->opening.normal + share * state.depth_rate * this->rise;
-}
-
-template <int Dim>
-void update_open_ends(Flow<Dim>& flow, double dt) {
+void OpenEnds<Dim>::begin_step(Flow<Dim>& flow, double dt) {
   Particles<Dim>& particles = flow.state.particles;
-  flow.driven_change = -kinetic_energy_in_driven_ends(flow);
+  driven_change_ = -kinetic_energy_in_driven_ends(flow);
   const double time = flow.state.time + 0.5 * dt;
-  for (std::size_t e = 0; e < flow.setup.open_ends.size(); ++e) {
-    const OpenEnd<Dim>& end = flow.setup.open_ends[e];
-    OpenEndState& state = flow.state.open_ends[e];
+  for (std::size_t e = 0; e < ends_.size(); ++e) {
+    const OpenEnd<Dim>& end = ends_[e];
+    OpenEndState& state = states_[e];
     const Readings readings = read_end(end, state, flow);
     double change = 0.0;
     if (end.flow.feeds()) {
@@ -346,7 +284,7 @@ void update_open_ends(Flow<Dim>& flow, double dt) {
     const Vec<Dim>& normal = end.opening.normal;
     const double mean = readings.inside.speed_or(0.0);
     for_each(particles.owned, [&](std::size_t i) {
-      if (flow.end_of[i] != static_cast<std::int16_t>(e)) return;
+      if (end_of_[i] != static_cast<std::int16_t>(e)) return;
       Vec<Dim>& velocity = particles.velocity[i];
       if (end.flow.feeds()) {
         velocity = end.inflow_at(state, particles.position[i]);
@@ -357,21 +295,16 @@ void update_open_ends(Flow<Dim>& flow, double dt) {
       }
     });
   }
-  flow.driven_change += kinetic_energy_in_driven_ends(flow);
+  driven_change_ += kinetic_energy_in_driven_ends(flow);
 }
 
 template <int Dim>
-std::vector<OpenEnd<Dim>> make_ends(const CaseSpec& spec) {
-  std::vector<OpenEnd<Dim>> ends;
-  for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
-    ends.emplace_back(std::move(end), spec.particles.spacing, traits_of(spec).support * spec.particles.spacing);
-  }
-  return ends;
+double OpenEnds<Dim>::kinetic_energy_in_driven_ends(const Flow<Dim>& flow) const {
+  return sum_over(flow.state.particles.owned, 0.0,
+                  [&](std::size_t i) { return is_driven(i) ? flow.kinetic_energy_of(i) : 0.0; });
 }
 
-template struct OpenEnd<2>;
-template struct OpenEnd<3>;
-TAILWATER_IN_2D_AND_3D(make_ends);
-TAILWATER_IN_2D_AND_3D(update_open_ends);
+template void OpenEnds<2>::begin_step(Flow<2>&, double);
+template void OpenEnds<3>::begin_step(Flow<3>&, double);
 
 }  // namespace tailwater

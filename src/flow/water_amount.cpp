@@ -1,0 +1,27 @@
+#include "flow/water_amount.h"
+
+#include "base/saved.h"
+
+namespace tailwater {
+
+WaterAmount& WaterAmount::operator+=(const WaterAmount& other) {
+  particles += other.particles;
+  volume += other.volume;
+  energy += other.energy;
+  return *this;
+}
+
+WaterAmount& WaterAmount::operator-=(const WaterAmount& other) {
+  particles -= other.particles;
+  volume -= other.volume;
+  energy -= other.energy;
+  return *this;
+}
+
+TAILWATER_SAVED(, WaterAmount, particles, volume, energy)
+
+Json summary_of(const WaterAmount& water, double density) {
+  return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
+}
+
+}  // namespace tailwater

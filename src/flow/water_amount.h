@@ -1,0 +1,28 @@
+// Amounts of water that have entered or left a flow.
+#pragma once
+
+#include <cstdint>
+
+#include "base/json.h"
+
+namespace tailwater {
+
+/// An amount of water.
+struct WaterAmount {
+  std::int64_t particles = 0;
+  double volume = 0.0;  ///< m^Dim
+  double energy = 0.0;  ///< J; kinetic and potential, of water that entered or left the flow, at that instant
+
+  WaterAmount& operator+=(const WaterAmount& other);
+  WaterAmount& operator-=(const WaterAmount& other);
+};
+
+/// Its members by name, for checkpoints.
+void to_json(Json& json, const WaterAmount& water);
+/// Throws Json::exception if one is missing or of another type.
+void from_json(const Json& json, WaterAmount& water);
+
+/// Number, volume and mass, for the summary; `density` in kg/m^3.
+Json summary_of(const WaterAmount& water, double density);
+
+}  // namespace tailwater
