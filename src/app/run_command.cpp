@@ -26,6 +26,7 @@ std::string help_on_cases(const std::string& format) {
   if (format == "markdown") return case_reference_markdown();
   if (format == "json") return case_reference_json();
   if (format == "schema") return case_schema();
+  if (format == "probes") return probe_reference_markdown();
   return format == "study" ? study_reference_markdown() : case_help();
 }
 
@@ -88,10 +89,10 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
       ->add_option(
           "--help-case", arguments->help_case,
           "Print the reference of all case keys as text, markdown, json or schema (for editors); study: print the keys "
-          "for numerical studies")
+          "for numerical studies; probes: print the output of each type of probe")
       ->expected(0, 1)
       ->default_str("text")
-      ->check(CLI::IsMember({"text", "markdown", "json", "schema", "study"}).description(""))
+      ->check(CLI::IsMember({"text", "markdown", "json", "schema", "study", "probes"}).description(""))
       ->type_name("FORMAT");
   command->footer(
       "Examples: tailwater run my.toml --out my_run\n"

@@ -56,7 +56,7 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
                                unknown_name_hint(measurement.probe, names_in(spec.probes, &ProbeTable::name))));
     return;
   }
-  const std::vector<SeriesColumn> columns = columns_of(*probe, spec.general.dimension);
+  const std::vector<OutputColumn> columns = comparable_columns(*probe, spec.general.dimension);
   if (columns.empty()) {
     reporter.wrong("probe", fmt::format("a {} probe{} cannot be compared with measured values; give a probe of another "
                                         "type, as \"depth\" or \"velocity\"",
@@ -64,11 +64,11 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
     return;
   }
   if (measurement.column.empty()) measurement.column = columns.front().name;
-  const auto column = std::ranges::find(columns, measurement.column, &SeriesColumn::name);
+  const auto column = std::ranges::find(columns, measurement.column, &OutputColumn::name);
   if (column == columns.end()) {
     reporter.wrong("column",
                    fmt::format("a {} probe has no such column; {}", name_of(probe->type),
-                               unknown_name_hint(measurement.column, names_in(columns, &SeriesColumn::name))));
+                               unknown_name_hint(measurement.column, names_in(columns, &OutputColumn::name))));
     return;
   }
   try {

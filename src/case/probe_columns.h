@@ -1,7 +1,9 @@
-// The columns of probes' tables that hold one quantity over time, or over x and time, with which a measurement can be
-// compared.
+// The output of probes, declared once for each type in probe_types.cpp: the columns of its table, its totals in
+// summary.json and its results. The headings of tables and their units, what a measurement can be compared with, the
+// summary and docs/reference/probes.md follow from these declarations.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,21 +13,83 @@
 
 namespace tailwater {
 
-/// Those that the probe writes, the first its default; none of a velocity profile, and of a profile in 3D.
-std::vector<SeriesColumn> columns_of(const ProbeTable& probe, int dimension);
+/// The numbers that one declaration stands for.
+enum class Parts {
+  one,
+  one_in_3d,
+  vector,        ///< NAME_x, NAME_y and in 3D NAME_z
+  turn,          ///< in 2D one, in 3D NAME_x, NAME_y and NAME_z
+  velocity,      ///< NAMEu, NAMEv and in 3D NAMEw
+  vector_range,  ///< least_NAME_x, largest_NAME_x, and so on
+  turn_range,
+};
+
+/// Whether a measurement can be compared with a column. One that names no column is compared with the default.
+enum class Comparison { none, possible, by_default };
+
+/// A column that needs something is absent from the tables of probes without it.
+enum class Need { nothing, diameter, moment_about, moving_walls };
+
+struct DeclaredColumn {
+  std::string_view name;
+  Measure measure;
+  std::string_view doc;
+  Comparison comparison = Comparison::none;
+  Parts parts = Parts::one;
+  Need need = Need::nothing;
+};
+
+enum class Statistic { mean, max, max_magnitude, max_smoothed, last, range, rate, max_rate, rise, last_min, last_max };
+
+/// A number that a run prints at its end and writes to the block "results" of summary.json. It is left out in the
+/// dimension in which its column does not exist.
+struct DeclaredResult {
+  std::string_view name;
+  std::string_view label;   ///< in front of the number; empty for the main result
+  std::string_view column;  ///< without its unit
+  Statistic statistic;
+};
+
+struct ProbeInfo {
+  ProbeType type;
+  std::string_view doc;
+  std::vector<DeclaredColumn> columns;  ///< of the table after the time, in its order
+  std::vector<DeclaredResult> results;
+  std::vector<DeclaredColumn> totals = {};  ///< of the whole run, in the block "probes" of summary.json
+};
+
+const ProbeInfo& info_of(ProbeType type);
+
+/// A column in 2D or 3D.
+struct OutputColumn {
+  std::string name;     ///< "force_x"
+  std::string heading;  ///< "force_x_N_per_m"
+  Measure measure;
+  Comparison comparison;
+};
+
+std::vector<OutputColumn> columns_in(int dimension, const DeclaredColumn& declared);
+
+/// The columns of a probe's table after the time. `walls_move`: one of the walls that the probe is for moves.
+std::vector<OutputColumn> columns_of(const ProbeTable& probe, int dimension, bool walls_move = false);
+
+/// The totals of a probe, in their order.
+std::vector<OutputColumn> totals_of(ProbeType type, int dimension);
+
+/// The columns that a measurement can be compared with, the default first.
+std::vector<OutputColumn> comparable_columns(const ProbeTable& probe, int dimension);
 
 struct Compared {
   std::size_t probe;  ///< in the case
-  SeriesColumn column;
+  OutputColumn column;
 };
 /// With what a measurement of a case that has been read is compared.
 Compared compared_with(const MeasurementTable& measurement, const CaseSpec& spec);
 
-/// Whether a heading of a table, as in "force_x_N_per_m", is that of the column.
-bool is_heading_of(const SeriesColumn& column, std::string_view heading);
+/// The quantity of a statistic of a column.
+Measure measure_of(Statistic statistic, Measure of_column);
 
-/// The unit of a column by the end of its name. In 2D a force is per metre of width, as its column says; an energy and
-/// a volume are too, which theirs do not say.
-std::string unit_of_column(std::string_view column, int dimension);
+/// The SI unit, as "N/m" of a force in 2D, where forces, volumes and energies are per metre of width.
+std::string_view unit_of(Measure measure, int dimension);
 
 }  // namespace tailwater

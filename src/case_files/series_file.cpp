@@ -33,6 +33,11 @@ constexpr std::array<Unit, 4> force_units{{{"n", 1.0}, {"kn", 1e3}, {"n/m", 1.0}
 constexpr std::array<Unit, 4> moment_units{{{"n m", 1.0}, {"kn m", 1e3}, {"n m/m", 1.0}, {"kn m/m", 1e3}}};
 constexpr std::array<Unit, 4> energy_units{{{"j", 1.0}, {"kj", 1e3}, {"j/m", 1.0}, {"kj/m", 1e3}}};
 
+// In the order of Measure.
+constexpr std::array<std::span<const Unit>, 9> units_in_files{length_units,    angle_units,  speed_units,
+                                                              discharge_units, volume_units, pressure_units,
+                                                              force_units,     moment_units, energy_units};
+
 class SeriesFile : ColumnFile {
  public:
   SeriesFile(const std::filesystem::path& path, std::span<const SeriesColumn> columns)
@@ -71,27 +76,7 @@ class SeriesFile : ColumnFile {
 
   /// The first is the SI unit.
   static std::span<const Unit> units_of(const SeriesColumn& column) {
-    switch (column.measure) {
-      case Measure::angle:
-        return angle_units;
-      case Measure::speed:
-        return speed_units;
-      case Measure::discharge:
-        return discharge_units;
-      case Measure::volume:
-        return volume_units;
-      case Measure::pressure:
-        return pressure_units;
-      case Measure::force:
-        return force_units;
-      case Measure::moment:
-        return moment_units;
-      case Measure::energy:
-        return energy_units;
-      case Measure::length:
-        break;
-    }
-    return length_units;
+    return units_in_files[static_cast<std::size_t>(column.measure)];
   }
 
   /// A header as it could be.

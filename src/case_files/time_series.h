@@ -7,8 +7,23 @@
 
 namespace tailwater {
 
-/// What a column measures; it decides which units the header may name.
-enum class Measure { length, angle, speed, discharge, volume, pressure, force, moment, energy };
+/// The quantity of a column, which decides its unit. No file may have one of the last five.
+enum class Measure {
+  length,
+  angle,
+  speed,
+  discharge,
+  volume,
+  pressure,
+  force,
+  moment,
+  energy,
+  number,
+  time,
+  angular_speed,
+  impulse,
+  power,
+};
 
 struct SeriesColumn {
   std::string_view name;

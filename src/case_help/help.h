@@ -26,4 +26,7 @@ std::string case_schema();
 /// docs/reference/study-keys.md.
 std::string study_reference_markdown();
 
+/// For `tailwater run --help-case=probes`: the output of each type of probe, docs/reference/probes.md.
+std::string probe_reference_markdown();
+
 }  // namespace tailwater

@@ -30,17 +30,7 @@ Reading<Dim> motion_reading(const ProbeTable& probe, const CaseSpec& spec) {
   const std::size_t number = number_of_body(probe, spec);
   const Vec<Dim> drawn = make_bodies<Dim>(spec)[number].drawn.centre;
   Reading<Dim> reading;
-  const auto add_columns = [&](const std::string& what, int count, const std::string& unit) {
-    for (int k = 0; k < count; ++k) {
-      const std::string axis = count == 1 ? "" : std::string("_") + "xyz"[k];
-      reading.columns.push_back(what + axis + "_" + unit);
-    }
-  };
-  add_columns("displacement", Dim, "m");
-  add_columns("angle", turns<Dim>, "rad");
-  add_columns("velocity", Dim, "m_per_s");
-  add_columns("angular_velocity", turns<Dim>, "rad_per_s");
-
+  reading.columns = columns_of(probe, Dim);
   constexpr double infinity = std::numeric_limits<double>::max();
   const auto memory = std::make_shared<std::vector<double>>(2 * places<Dim>);
   std::fill_n(memory->begin(), places<Dim>, infinity);
@@ -61,13 +51,12 @@ Reading<Dim> motion_reading(const ProbeTable& probe, const CaseSpec& spec) {
     return {row};
   };
   reading.memory = memory;
-  reading.summary = [memory, columns = reading.columns] {
-    std::vector<std::pair<std::string, double>> lines;
+  reading.totals = [memory] {
+    std::vector<double> totals;
     for (std::size_t k = 0; k < places<Dim>; ++k) {
-      lines.emplace_back("least_" + columns[k], (*memory)[k]);
-      lines.emplace_back("largest_" + columns[k], (*memory)[k + places<Dim>]);
+      totals.insert(totals.end(), {(*memory)[k], (*memory)[k + places<Dim>]});
     }
-    return lines;
+    return totals;
   };
   return reading;
 }

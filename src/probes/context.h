@@ -8,11 +8,10 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "base/vec.h"
+#include "case/probe_columns.h"
 #include "geometry/boundary.h"
 #include "kernel/kernel.h"
 #include "motion/floating_body.h"
@@ -145,10 +144,10 @@ struct Region {
   Vec<Dim> across(const Vec<Dim>& v) const { return v - v.dot(along) * along; }
 };
 
-/// A measurement set up for one place: its columns after "time_s", and how to take it, as one or more rows.
+/// A measurement set up for one place: the columns of its table, and how to take it, as one or more rows.
 template <int Dim>
 struct Reading {
-  std::vector<std::string> columns;
+  std::vector<OutputColumn> columns;
   std::function<std::vector<Row>(const ProbeContext<Dim>&)> take;
   /// On several ranks the root takes the measurement, from the particles of all ranks within the kernel's support of
   /// this region at `time` [s]. If empty, every rank takes it from its own particles, and the root's rows count.
@@ -159,8 +158,8 @@ struct Reading {
   bool memory_grows = false;  ///< else it always has as many numbers
   /// It adds up over time: taken at every step, whatever interval is between the lines of its table.
   bool adds_up = false;
-  /// Its lines in the summary of the run, from its memory: name and value.
-  std::function<std::vector<std::pair<std::string, double>>()> summary = {};
+  /// The totals of its type (totals_of), from its memory; the last ones are left out where there are none yet.
+  std::function<std::vector<double>()> totals = {};
   /// Writes its map at `time` [s] as VTP, or beside `path` as CSV, from its memory. Throws IoError.
   std::function<void(const std::filesystem::path& path, double time)> write_map = {};
 };

@@ -80,7 +80,7 @@ Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
   const std::size_t number = number_among_sections(probe, spec);
   const double smoothing = discharge_smoothed_over<Dim>(probe, spec);
   Reading<Dim> reading;
-  reading.columns = {"discharge_m3_per_s", "volume_m3"};
+  reading.columns = columns_of(probe, Dim);
   reading.memory = std::make_shared<std::vector<double>>(Memory::at_start());
   reading.take = [=, numbers = reading.memory](const ProbeContext<Dim>& context) -> std::vector<Row> {
     Memory memory(*numbers);
@@ -99,11 +99,9 @@ Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
     }
     return {{memory.discharge, volume}};
   };
-  reading.summary = [=, numbers = reading.memory]() -> std::vector<std::pair<std::string, double>> {
+  reading.totals = [=, numbers = reading.memory]() -> std::vector<double> {
     const Memory memory(*numbers);
-    return {{"largest_m3_per_s", memory.largest},
-            {"time_of_largest_s", memory.time_of_largest},
-            {"smoothed_over_s", smoothing}};
+    return {memory.largest, memory.time_of_largest, smoothing};
   };
   return reading;
 }

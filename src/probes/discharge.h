@@ -18,8 +18,8 @@ namespace tailwater {
 template <int Dim>
 double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec);
 
-/// Columns discharge_m3_per_s and volume_m3; in 2D per metre of width. Throws InputError, which names the probe, for a
-/// section without extent, one that is not flat, or a direction that runs along it.
+/// Throws InputError, which names the probe, for a section without extent, one that is not flat, or a direction that
+/// runs along it.
 template <int Dim>
 Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec);
 

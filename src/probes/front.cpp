@@ -71,7 +71,7 @@ Reading<Dim> front_reading(const ProbeTable& probe) {
                      place(direction));
   }
   direction.normalize();
-  return {{"front_m", "front_connected_m"}, [direction](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  return {columns_of(probe, Dim), [direction](const ProbeContext<Dim>& context) -> std::vector<Row> {
             return {read_front(context, direction)};
           }};
 }

@@ -11,8 +11,7 @@ namespace tailwater {
 template <int Dim>
 bool is_connected(const ProbeContext<Dim>& context, std::int32_t i);
 
-/// Columns front_m, front_connected_m: coordinates along `direction`, 0 if there is no such fluid. Throws InputError
-/// for a direction of length 0.
+/// Coordinates along `direction`, 0 if there is no such fluid. Throws InputError for a direction of length 0.
 template <int Dim>
 Reading<Dim> front_reading(const ProbeTable& probe);
 

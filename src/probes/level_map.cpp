@@ -137,19 +137,17 @@ struct LevelMap {
     }
   };
 
-  std::vector<std::pair<std::string, double>> summary() const {
+  std::vector<double> totals() const {
     // Levels that differ by rounding alone are equal, so the place does not depend on the number of ranks.
     const double rounding = 1e-9 * std::abs(piece[0]);
     const double top = largest_over(lines.size(), of(0, largest), [&](std::size_t k) { return of(k, largest); });
     std::size_t highest = 0;
     while (of(highest, largest) < top - rounding) ++highest;
-    std::vector<std::pair<std::string, double>> summary{{"largest_m", top},
-                                                        {"time_of_largest_s", of(highest, time_of_largest)}};
-    constexpr std::array names{"x_m", "y_m"};
-    for (int d = 0; d < Dim - 1; ++d) summary.emplace_back(names[d], places[highest][d]);
-    summary.emplace_back("mean_m", mean_over_places([&](std::size_t k) { return mean(k); }));
-    summary.emplace_back("last_mean_m", mean_over_places([&](std::size_t k) { return of(k, last); }));
-    return summary;
+    std::vector<double> totals{top, of(highest, time_of_largest)};
+    totals.insert(totals.end(), places[highest].begin(), places[highest].begin() + (Dim - 1));
+    totals.push_back(mean_over_places([&](std::size_t k) { return mean(k); }));
+    totals.push_back(mean_over_places([&](std::size_t k) { return of(k, last); }));
+    return totals;
   }
 };
 
@@ -159,11 +157,11 @@ template <int Dim>
 Reading<Dim> level_map_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const auto map = std::make_shared<const LevelMap<Dim>>(probe, spec, boundary);
   Reading<Dim> reading;
-  reading.columns = {"highest_m", "mean_m"};
+  reading.columns = columns_of(probe, Dim);
   reading.take = [map](const ProbeContext<Dim>& context) -> std::vector<Row> { return {map->read(context)}; };
   reading.region = [map](double time) { return region_of(map->lines, time); };
   reading.memory = map->memory;
-  reading.summary = [map] { return map->summary(); };
+  reading.totals = [map] { return map->totals(); };
   reading.write_map = [map](const std::filesystem::path& path, double time) { map->write(path, time); };
   return reading;
 }

@@ -10,8 +10,7 @@
 
 namespace tailwater {
 
-/// Columns highest_m, mean_m over the places; and the map. Throws InputError if there is no gravity, a place has no
-/// bed, or a plan has no extent in x or y.
+/// Throws InputError if there is no gravity, a place has no bed, or a plan has no extent in x or y.
 template <int Dim>
 Reading<Dim> level_map_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

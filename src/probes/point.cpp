@@ -62,7 +62,7 @@ Vec<Dim> velocity_at(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
 template <int Dim>
 Reading<Dim> pressure_reading(const ProbeTable& probe) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
-  return {{"pressure_Pa", "wet"},
+  return {columns_of(probe, Dim),
           [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
             if (water_share(context, at) <= surface_share) return {{context.air_pressure_at(at), 0.0}};
             return {{interpolate(context, at, context.particles.pressure, 0.0), 1.0}};
@@ -75,10 +75,7 @@ Reading<Dim> pressure_reading(const ProbeTable& probe) {
 template <int Dim>
 Reading<Dim> velocity_reading(const ProbeTable& probe) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
-  std::vector<std::string> columns{"u_m_s", "v_m_s", "w_m_s"};
-  columns.resize(Dim);
-  columns.push_back("wet");
-  return {columns,
+  return {columns_of(probe, Dim),
           [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
             Row row(Dim + 1, 0.0);
             if (water_share(context, at) > surface_share) {

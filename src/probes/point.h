@@ -16,11 +16,9 @@ namespace tailwater {
 template <int Dim>
 Vec<Dim> velocity_at(const ProbeContext<Dim>& context, const Vec<Dim>& x);
 
-/// Columns pressure_Pa, wet.
 template <int Dim>
 Reading<Dim> pressure_reading(const ProbeTable& probe);
 
-/// Columns u_m_s, v_m_s (w_m_s), wet.
 template <int Dim>
 Reading<Dim> velocity_reading(const ProbeTable& probe);
 

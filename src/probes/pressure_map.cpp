@@ -123,18 +123,16 @@ struct PressureMap {
     write_vtp(path, time, encode_piece(fields));
   }
 
-  std::vector<std::pair<std::string, double>> summary() const {
+  std::vector<double> totals() const {
     const std::size_t highest = first_of_highest([&](std::size_t k) { return largest(k); });
-    std::vector<std::pair<std::string, double>> lines{{"largest_Pa", largest(highest)},
-                                                      {"time_of_largest_s", time_of_largest(highest)}};
     Vec<Dim> place = Vec<Dim>::Zero();
     for (int c = 0; c < Dim; ++c) place += drawn_corners[Dim * highest + c] / Dim;
-    constexpr std::array names{"x_m", "y_m", "z_m"};
-    for (int d = 0; d < Dim; ++d) lines.emplace_back(names[d], place[d]);
     double mean_over_area = 0.0;
     for (std::size_t k = 0; k < patches.size(); ++k) mean_over_area += patches[k].measure / area * mean(k);
-    lines.emplace_back("mean_Pa", mean_over_area);
-    return lines;
+    std::vector<double> totals{largest(highest), time_of_largest(highest)};
+    totals.insert(totals.end(), place.begin(), place.end());
+    totals.push_back(mean_over_area);
+    return totals;
   }
 };
 
@@ -144,12 +142,10 @@ template <int Dim>
 Reading<Dim> pressure_map_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const auto map = std::make_shared<const PressureMap<Dim>>(probe, spec, boundary);
   Reading<Dim> reading;
-  reading.columns = {"largest_Pa", "x_m", "y_m", "z_m"};
-  reading.columns.resize(1 + Dim);
-  reading.columns.insert(reading.columns.end(), {"mean_Pa", "wet_share"});
+  reading.columns = columns_of(probe, Dim);
   reading.take = [map](const ProbeContext<Dim>& context) -> std::vector<Row> { return {map->read(context)}; };
   reading.memory = map->memory;
-  reading.summary = [map] { return map->summary(); };
+  reading.totals = [map] { return map->totals(); };
   reading.write_map = [map](const std::filesystem::path& path, double time) { map->write(path, time); };
   return reading;
 }

@@ -9,8 +9,7 @@
 
 namespace tailwater {
 
-/// Columns largest_Pa, where it is, mean_Pa over the area, wet_share; and the map. Throws InputError as chosen_shares
-/// does.
+/// Throws InputError as chosen_shares does.
 template <int Dim>
 Reading<Dim> pressure_map_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

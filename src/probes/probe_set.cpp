@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/for_each.h"
 #include "parallel/together.h"
 #include "probes/body_motion.h"
@@ -27,17 +27,16 @@ namespace tailwater {
 namespace {
 
 template <int Dim>
-Reading<Dim> energy_reading() {
-  return {{"kinetic_J", "potential_J", "total_J"}, [](const ProbeContext<Dim>& context) -> std::vector<Row> {
+Reading<Dim> energy_reading(const ProbeTable& probe) {
+  return {columns_of(probe, Dim), [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const FlowTotals& totals = context.totals;
             return {{totals.kinetic_energy, totals.potential_energy, totals.kinetic_energy + totals.potential_energy}};
           }};
 }
 
 template <int Dim>
-Reading<Dim> volume_reading() {
-  return {{"particles", "density_error_mean", "density_error_rms", "volume_out_m3", "volume_in_m3"},
-          [](const ProbeContext<Dim>& context) -> std::vector<Row> {
+Reading<Dim> volume_reading(const ProbeTable& probe) {
+  return {columns_of(probe, Dim), [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const Particles<Dim>& particles = context.particles;
             const std::size_t count = count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
             return {{context.ranks.sum(static_cast<double>(count)), context.totals.density_error_mean,
@@ -52,29 +51,10 @@ Reading<Dim> pockets_reading(const ProbeTable& probe, const CaseSpec& spec) {
         "{}: reads enclosed air, which this case does not compute; give pockets = \"{}\" in [air], or remove the probe",
         label(probe), name_of(AirPockets::adiabatic));
   }
-  return {{"pressure_Pa", "volume_m3", "gas_m3", "vented_m3", "energy_J", "pockets"},
-          [](const ProbeContext<Dim>& context) -> std::vector<Row> {
+  return {columns_of(probe, Dim), [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const PocketTotals& air = context.totals.air;
             return {{air.pressure, air.volume, air.gas, air.vented, air.energy, air.pockets}};
           }};
-}
-
-/// A pressure with its impulse since the start. What a step has read at its end acts in all of it.
-template <int Dim>
-Reading<Dim> with_impulse(Reading<Dim> reading) {
-  reading.columns.emplace_back("impulse_Pa_s");
-  reading.memory = std::make_shared<std::vector<double>>(2, 0.0);
-  reading.take = [take = std::move(reading.take), memory = reading.memory](const ProbeContext<Dim>& context) {
-    std::vector<Row> rows = take(context);
-    double& last_time = memory->front();  // s
-    double& impulse = memory->back();     // Pa s
-    impulse += rows.front().front() * (context.time - last_time);
-    last_time = context.time;
-    rows.front().push_back(impulse);
-    return rows;
-  };
-  reading.adds_up = true;
-  return reading;
 }
 
 template <int Dim>
@@ -83,9 +63,9 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
     case ProbeType::depth:
       return depth_reading(probe, spec, boundary);
     case ProbeType::wall_pressure:
-      return with_impulse<Dim>(wall_pressure_reading(probe, spec, boundary));
+      return wall_pressure_reading(probe, spec, boundary);
     case ProbeType::wall_pressure_mean:
-      return with_impulse<Dim>(wall_pressure_mean_reading(probe, spec, boundary));
+      return wall_pressure_mean_reading(probe, spec, boundary);
     case ProbeType::front:
       return front_reading<Dim>(probe);
     case ProbeType::profile:
@@ -95,7 +75,7 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
     case ProbeType::velocity:
       return velocity_reading<Dim>(probe);
     case ProbeType::energy:
-      return energy_reading<Dim>();
+      return energy_reading<Dim>(probe);
     case ProbeType::discharge:
       return discharge_reading<Dim>(probe, spec);
     case ProbeType::force:
@@ -115,7 +95,7 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
     case ProbeType::volume:
       break;
   }
-  return volume_reading<Dim>();
+  return volume_reading<Dim>(probe);
 }
 
 }  // namespace
@@ -124,7 +104,7 @@ template <int Dim>
 std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   std::vector<Probe<Dim>> probes;
   for (const ProbeTable& table : spec.probes) {
-    Probe<Dim> probe{table.name, make_reading(table, spec, boundary), table.interval, table.times};
+    Probe<Dim> probe{table.name, table.type, make_reading(table, spec, boundary), table.interval, table.times};
     std::sort(probe.times.begin(), probe.times.end());
     probes.push_back(std::move(probe));
   }
@@ -141,9 +121,9 @@ ProbeSet<Dim>::ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder,
     for (std::size_t k = 0; k < instruments_.size(); ++k) {
       Instrument& instrument = instruments_[k];
       const Probe<Dim>& probe = instrument.probe;
-      std::vector<std::string> columns{"time_s"};
-      columns.insert(columns.end(), probe.reading.columns.begin(), probe.reading.columns.end());
-      instrument.csv.emplace(folder.probe(probe.name), columns,
+      std::vector<std::string> headings{"time_s"};
+      for (const OutputColumn& column : probe.reading.columns) headings.push_back(column.heading);
+      instrument.csv.emplace(folder.probe(probe.name), headings,
                              marks ? std::optional(marks->at(k).size) : std::nullopt);
     }
   });
@@ -198,7 +178,13 @@ std::vector<typename ProbeSet<Dim>::Summary> ProbeSet<Dim>::summaries() const {
   std::vector<Summary> all;
   for (const Instrument& instrument : instruments_) {
     const Probe<Dim>& probe = instrument.probe;
-    if (probe.reading.summary) all.push_back({probe.name, probe.reading.summary()});
+    if (!probe.reading.totals) continue;
+    const std::vector<OutputColumn> declared = totals_of(probe.type, Dim);
+    const std::vector<double> values = probe.reading.totals();
+    TAILWATER_ASSERT(values.size() <= declared.size(), "a probe has the totals that its type declares");
+    Summary summary{probe.name, {}};
+    for (std::size_t k = 0; k < values.size(); ++k) summary.lines.emplace_back(declared[k].heading, values[k]);
+    all.push_back(std::move(summary));
   }
   return all;
 }

@@ -20,6 +20,7 @@ namespace tailwater {
 template <int Dim>
 struct Probe {
   std::string name;
+  ProbeType type;
   Reading<Dim> reading;
   double interval = 0.0;      ///< s; 0: at every step
   std::vector<double> times;  ///< s, ascending; if any, they replace the interval
@@ -53,7 +54,7 @@ class ProbeSet {
   /// probes.
   void restore(std::span<const double> memory, const std::filesystem::path& checkpoints);
 
-  /// The lines of a probe in the summary of the run.
+  /// The totals of a probe, by the headings that its type declares.
   struct Summary {
     std::string probe;
     std::vector<std::pair<std::string, double>> lines;

@@ -96,13 +96,11 @@ template <int Dim>
 Reading<Dim> run_up_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const auto run_up = std::make_shared<const RunUp<Dim>>(probe, spec, boundary);
   Reading<Dim> reading;
-  reading.columns = {"connected_m", "highest_m"};
+  reading.columns = columns_of(probe, Dim);
   reading.take = [run_up](const ProbeContext<Dim>& context) -> std::vector<Row> { return {run_up->read(context)}; };
   reading.memory = run_up->memory;
-  reading.summary = [run_up]() -> std::vector<std::pair<std::string, double>> {
-    return {{"largest_connected_m", run_up->largest()},
-            {"time_of_largest_s", run_up->time_of_largest()},
-            {"largest_highest_m", run_up->highest()}};
+  reading.totals = [run_up]() -> std::vector<double> {
+    return {run_up->largest(), run_up->time_of_largest(), run_up->highest()};
   };
   return reading;
 }

@@ -12,7 +12,7 @@
 
 namespace tailwater {
 
-/// Columns connected_m, highest_m. Throws InputError if there is no gravity, and as chosen_shares does.
+/// Throws InputError if there is no gravity, and as chosen_shares does.
 template <int Dim>
 Reading<Dim> run_up_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

@@ -1,6 +1,5 @@
 #include "probes/velocity_profile.h"
 
-#include <array>
 #include <memory>
 
 #include "probes/places.h"
@@ -12,8 +11,6 @@ namespace {
 
 /// Sums over the time between readings; a checkpoint keeps these numbers.
 enum ProfileSum { time_of_last_reading, duration, depth_integral, velocity_integral };
-
-constexpr std::array velocity_names{"u_m_s", "v_m_s", "w_m_s"};
 
 template <int Dim>
 std::vector<Row> read_profile(const ProbeContext<Dim>& context, const UprightGauge<Dim>& gauge, double step,
@@ -55,23 +52,17 @@ Reading<Dim> velocity_profile_reading(const ProbeTable& probe, const CaseSpec& s
   const double step = step_of(probe, spec.particles.spacing);
   const auto memory = std::make_shared<std::vector<double>>(velocity_integral + Dim, 0.0);
   Reading<Dim> reading;
-  reading.columns = {"height_m"};
-  for (int d = 0; d < Dim; ++d) reading.columns.emplace_back(velocity_names[d]);
-  reading.columns.emplace_back("depth_m");
-  for (int d = 0; d < Dim; ++d) reading.columns.push_back(fmt::format("mean_{}", velocity_names[d]));
+  reading.columns = columns_of(probe, Dim);
   reading.take = [gauge, step, memory](const ProbeContext<Dim>& context) {
     return read_profile(context, gauge, step, *memory);
   };
   reading.region = [gauge](double time) { return gauge.region(time); };
   reading.memory = memory;
-  reading.summary = [memory] {
-    const std::vector<double>& sums = *memory;
-    const double time = sums[duration] > 0.0 ? sums[duration] : 1.0;
-    std::vector<std::pair<std::string, double>> lines{{"mean_depth_m", sums[depth_integral] / time}};
-    for (int d = 0; d < Dim; ++d) {
-      lines.emplace_back(fmt::format("mean_{}", velocity_names[d]), sums[velocity_integral + d] / time);
-    }
-    return lines;
+  reading.totals = [memory] {
+    const double time = (*memory)[duration] > 0.0 ? (*memory)[duration] : 1.0;
+    std::vector<double> totals(memory->begin() + depth_integral, memory->end());
+    for (double& total : totals) total /= time;
+    return totals;
   };
   return reading;
 }

@@ -10,8 +10,7 @@
 
 namespace tailwater {
 
-/// A row per piece: height_m above the bed, u_m_s, v_m_s (w_m_s), then of the whole column depth_m, mean_u_m_s,
-/// mean_v_m_s (mean_w_m_s). One row of zeros where it is dry. Throws InputError as depth_reading does.
+/// A row per piece, and one row of zeros where it is dry. Throws InputError as depth_reading does.
 template <int Dim>
 Reading<Dim> velocity_profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

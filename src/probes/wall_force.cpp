@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -317,24 +316,6 @@ struct ForceMemory {
   }
 };
 
-constexpr std::array axis_names{"x", "y", "z"};
-
-template <int Dim>
-std::vector<std::string> component_columns(std::string_view what, std::string_view unit) {
-  std::vector<std::string> columns;
-  for (int d = 0; d < Dim; ++d) columns.push_back(fmt::format("{}_{}_{}", what, axis_names[d], unit));
-  return columns;
-}
-
-template <int Dim>
-void add_moment_columns(std::vector<std::string>& columns) {
-  if constexpr (Dim == 2) {
-    columns.emplace_back("moment_N_m_per_m");
-  } else {
-    for (std::string& column : component_columns<3>("moment", "N_m")) columns.push_back(std::move(column));
-  }
-}
-
 /// Throws InputError where the forces between particles are not equal and opposite.
 void require_reactions(const ProbeTable& probe, const CaseSpec& spec) {
   const std::string_view why = traits_of(spec).no_reaction;
@@ -352,17 +333,9 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
   require_reactions(probe, spec);
   const auto walls = std::make_shared<WallForceProbe<Dim>>(probe, spec, boundary);
   const auto memory = std::make_shared<std::vector<double>>(ForceMemory<Dim>::count, 0.0);
-  const std::string per_width = Dim == 2 ? "_per_m" : "";
-  const std::string newton = "N" + per_width;
-
-  Reading<Dim> reading;
-  for (const std::string_view what : {"force", "pressure", "friction"}) {
-    for (std::string& column : component_columns<Dim>(what, newton)) reading.columns.push_back(std::move(column));
-  }
   const bool has_moment = !probe.moment_about.empty();
-  if (has_moment) add_moment_columns<Dim>(reading.columns);
-  if (walls->has_power()) reading.columns.push_back("power_to_water_W" + per_width);
-
+  Reading<Dim> reading;
+  reading.columns = columns_of(probe, Dim, walls->has_power());
   reading.take = [walls, memory, has_moment](const ProbeContext<Dim>& context) -> std::vector<Row> {
     const WallLoads<Dim> loads = walls->read(context);
     const Vec<Dim> force = loads.force();
@@ -376,15 +349,13 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
     return {row};
   };
   reading.memory = memory;
-  reading.summary = [memory, newton] {
+  reading.totals = [memory] {
     const ForceMemory<Dim> so_far{*memory};
-    std::vector<std::pair<std::string, double>> lines{{"largest_" + newton, so_far.largest()},
-                                                      {"time_of_largest_s", so_far.time_of_largest()}};
-    const std::vector<std::string> means = component_columns<Dim>("mean", newton);
-    for (int d = 0; d < Dim; ++d) {
-      lines.emplace_back(means[d], so_far.duration() > 0.0 ? so_far.impulse()[d] / so_far.duration() : 0.0);
+    std::vector<double> totals{so_far.largest(), so_far.time_of_largest()};
+    for (const double impulse : so_far.impulse()) {
+      totals.push_back(so_far.duration() > 0.0 ? impulse / so_far.duration() : 0.0);
     }
-    return lines;
+    return totals;
   };
   return reading;
 }

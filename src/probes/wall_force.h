@@ -19,9 +19,7 @@
 
 namespace tailwater {
 
-/// Columns force_x_N .., pressure_x_N .., friction_x_N .., moment_x_N_m .., and power_to_water_W if one of these walls
-/// moves; in 2D per metre of width, as the names say. Throws InputError for a scheme whose pairs have no reactions, and
-/// for walls and regions as chosen_shares does.
+/// Throws InputError for a scheme whose pairs have no reactions, and for walls and regions as chosen_shares does.
 template <int Dim>
 Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

@@ -123,25 +123,42 @@ double air_pressure_on(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, co
   return context.air_pressure_at(x_w + context.spacing * normal);
 }
 
+/// A pressure with its impulse since the start. What a step has read at its end acts in all of it.
+template <int Dim>
+Reading<Dim> with_impulse(Reading<Dim> reading) {
+  reading.memory = std::make_shared<std::vector<double>>(2, 0.0);
+  reading.take = [take = std::move(reading.take), memory = reading.memory](const ProbeContext<Dim>& context) {
+    std::vector<Row> rows = take(context);
+    double& last_time = memory->front();  // s
+    double& impulse = memory->back();     // Pa s
+    impulse += rows.front().front() * (context.time - last_time);
+    last_time = context.time;
+    rows.front().push_back(impulse);
+    return rows;
+  };
+  reading.adds_up = true;
+  return reading;
+}
+
 /// The mean over points of walls.
 template <int Dim>
 Reading<Dim> mean_over(const std::vector<Vec<Dim>>& places, const ProbeTable& probe, const CaseSpec& spec,
                        const Boundary<Dim>& boundary) {
   std::vector<PointOnWall<Dim>> points;
   for (const Vec<Dim>& x : places) points.push_back(point_on_wall(probe, x, spec, boundary));
-  return {{"pressure_Pa", "wet_share"},
-          [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            double sum = 0.0;
-            double wet = 0.0;
-            for (const PointOnWall<Dim>& point : points) {
-              const PressureOnWall pressure = wall_pressure(context, point.at(context.time));
-              sum += pressure.value;
-              wet += pressure.is_wet ? 1.0 : 0.0;
-            }
-            const double count = static_cast<double>(points.size());
-            return {{sum / count, wet / count}};
-          },
-          [points](double time) { return region_of(points, time); }};
+  return with_impulse<Dim>({columns_of(probe, Dim),
+                            [points](const ProbeContext<Dim>& context) -> std::vector<Row> {
+                              double sum = 0.0;
+                              double wet = 0.0;
+                              for (const PointOnWall<Dim>& point : points) {
+                                const PressureOnWall pressure = wall_pressure(context, point.at(context.time));
+                                sum += pressure.value;
+                                wet += pressure.is_wet ? 1.0 : 0.0;
+                              }
+                              const double count = static_cast<double>(points.size());
+                              return {{sum / count, wet / count}};
+                            },
+                            [points](double time) { return region_of(points, time); }});
 }
 
 }  // namespace
@@ -228,11 +245,11 @@ Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec
   const Vec<Dim> centre = to_vec<Dim>(probe.at, label(probe), "at");
   if (probe.diameter > 0.0) return mean_over(places_on_disc(probe, centre, spec, boundary), probe, spec, boundary);
   const PointOnWall<Dim> point = point_on_wall(probe, centre, spec, boundary);
-  return {{"pressure_Pa"},
-          [point](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            return {{wall_pressure(context, point.at(context.time)).value}};
-          },
-          [point](double time) { return region_of<Dim>({point}, time); }};
+  return with_impulse<Dim>({columns_of(probe, Dim),
+                            [point](const ProbeContext<Dim>& context) -> std::vector<Row> {
+                              return {{wall_pressure(context, point.at(context.time)).value}};
+                            },
+                            [point](double time) { return region_of<Dim>({point}, time); }});
 }
 
 template <int Dim>

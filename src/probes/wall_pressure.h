@@ -65,14 +65,14 @@ template <int Dim>
 std::vector<AirPush<Dim>> pushes_of_air(const ProbeContext<Dim>& context, std::span<const WallPatch<Dim>> patches,
                                         std::span<const double> chosen);
 
-/// Pressure at the point of a wall nearest to `at`: column pressure_Pa. With a `diameter` the mean over a disc in the
-/// wall (2D: a stretch), with the columns of a mean. Throws InputError when no wall is within a support of `at`, or of
+/// Pressure at the point of a wall nearest to `at`; with a `diameter` the mean over a disc in the wall (2D: a stretch).
+/// Throws InputError when no wall is within a support of `at`, or of
 /// a place of the disc.
 template <int Dim>
 Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 /// Mean pressure over the stretch from `from` to `to`, with a `width` over the rectangle in the wall around it, from
-/// places at most dx/2 apart; dry places count with the air's. Columns pressure_Pa, wet_share. Throws InputError as
+/// places at most dx/2 apart; dry places count with the air's. Throws InputError as
 /// above, for any of these places, and for a width in 2D.
 template <int Dim>
 Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);

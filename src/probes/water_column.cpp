@@ -195,14 +195,14 @@ Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const 
   const auto waves = std::make_shared<WaveRecord>(wave_band * spec.particles.spacing);
   reading.memory = waves->memory();
   reading.memory_grows = true;
-  reading.columns = {"connected_m", "highest_m", "wet_m"};
+  reading.columns = columns_of(probe, Dim);
   reading.take = [gauge, waves](const ProbeContext<Dim>& context) -> std::vector<Row> {
     const WaterColumn column = WaterColumns<Dim>(context).on(gauge.now(context));
     waves->add(context.time, column.highest);
     return {{column.connected, column.highest, column.wet}};
   };
   reading.region = [gauge](double time) { return gauge.region(time); };
-  reading.summary = [waves] { return waves->summary(); };
+  reading.totals = [waves] { return waves->totals(); };
   return reading;
 }
 
@@ -211,9 +211,7 @@ Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, cons
   const std::vector<Vec<Dim>> places = places_between<Dim>(probe, spec.particles.spacing);
   std::vector<UprightGauge<Dim>> gauges;
   for (const Vec<Dim>& at : places) gauges.emplace_back(probe, at, spec, boundary);
-  std::vector<std::string> columns{"x_m", "bed_m", "connected_m", "highest_m"};
-  if (Dim == 3) columns.insert(columns.begin() + 1, "y_m");
-  return {columns,
+  return {columns_of(probe, Dim),
           [places, gauges](const ProbeContext<Dim>& context) {
             const WaterColumns<Dim> water(context);
             std::vector<Row> rows;

@@ -91,13 +91,13 @@ Region<Dim> region_of(const std::vector<UprightGauge<Dim>>& gauges, double time)
   return region;
 }
 
-/// A depth probe: columns connected_m, highest_m, wet_m. Throws InputError if there is no gravity or no bed below the
+/// A depth probe. Throws InputError if there is no gravity or no bed below the
 /// place.
 template <int Dim>
 Reading<Dim> depth_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// A profile: a row per place from `from` to `to`, dx apart, with columns x_m (y_m), bed_m, connected_m, highest_m.
-/// Throws InputError if there is no gravity or a place has no bed.
+/// A profile: a row per place from `from` to `to`, dx apart. Throws InputError if there is no gravity or a place has no
+/// bed.
 template <int Dim>
 Reading<Dim> profile_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

@@ -52,24 +52,21 @@ void WaveRecord::close_wave() {
   at(crest) = at(trough) = at(level);
 }
 
-std::vector<std::pair<std::string, double>> WaveRecord::summary() const {
+std::vector<double> WaveRecord::totals() const {
   if (at(readings) == 0.0) return {};
-  std::vector<std::pair<std::string, double>> lines{
-      {"mean_m", mean()}, {"least_m", at(least)}, {"largest_m", at(largest)}};
+  std::vector<double> totals{mean(), at(least), at(largest)};
   std::vector<double> heights(memory_->begin() + slots, memory_->end());
-  if (heights.empty()) return lines;
+  if (heights.empty()) return totals;
   std::ranges::sort(heights, std::greater<>());
   const auto mean_of_highest = [&](std::size_t count) {
     return std::accumulate(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(count), 0.0) /
            static_cast<double>(count);
   };
-  const auto count = static_cast<double>(heights.size());
-  lines.emplace_back("waves", count);
-  lines.emplace_back("height_mean_m", mean_of_highest(heights.size()));
-  lines.emplace_back("height_third_m", mean_of_highest(std::max<std::size_t>(1, heights.size() / 3)));
-  lines.emplace_back("height_largest_m", heights.front());
-  lines.emplace_back("period_mean_s", (at(last) - at(first)) / count);
-  return lines;
+  const auto waves = static_cast<double>(heights.size());
+  const std::size_t third = std::max<std::size_t>(1, heights.size() / 3);
+  totals.insert(totals.end(), {waves, mean_of_highest(heights.size()), mean_of_highest(third), heights.front(),
+                               (at(last) - at(first)) / waves});
+  return totals;
 }
 
 }  // namespace tailwater

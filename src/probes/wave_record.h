@@ -4,8 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace tailwater {
@@ -22,9 +20,8 @@ class WaveRecord {
   /// A level [m] at a time [s] after the last.
   void add(double now, double reading);
 
-  /// mean_m (over time), least_m, largest_m; and where there are waves: waves, height_mean_m, height_third_m (the mean
-  /// of the highest third), height_largest_m, period_mean_s. Nothing before the first reading.
-  std::vector<std::pair<std::string, double>> summary() const;
+  /// The totals of a depth probe. Nothing before the first reading, and only the first three without waves.
+  std::vector<double> totals() const;
 
  private:
   enum Slot {

@@ -162,18 +162,13 @@ std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const std
   for (const MeasurementTable& measurement : spec.measurements) {
     const Compared compared = compared_with(measurement, spec);
     const std::filesystem::path table = run / "probes" / (measurement.probe + ".csv");
-    const auto is_wanted = [&](std::string_view heading) { return is_heading_of(compared.column, heading); };
-    std::string heading;
     if (spec.probes[compared.probe].type == ProbeType::profile) {
-      const ProbeProfiles found = read_probe_profiles(table, is_wanted);
-      heading = found.name;
-      scores.push_back(score(measurement, found));
+      scores.push_back(score(measurement, read_probe_profiles(table, compared.column.heading)));
     } else {
-      const ProbeColumn found = read_probe_column(table, is_wanted);
-      heading = found.name;
+      const ProbeColumn found = read_probe_column(table, compared.column.heading);
       scores.push_back(score(measurement, Curve{found.time, found.value}));
     }
-    scores.back().unit = unit_of_column(heading, spec.general.dimension);
+    scores.back().unit = unit_of(compared.column.measure, spec.general.dimension);
   }
   return scores;
 }

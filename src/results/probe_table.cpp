@@ -29,21 +29,17 @@ double parsed_number(std::string_view field) {
   return value;
 }
 
-/// Calls take(time, second, value) for the lines of a table that have a time and a number in the first column whose
-/// name is wanted; `second` is the number in the second column. Returns the name of the column.
+/// Calls take(time, second, value) for the lines of a table that have a time and a number in the column with this
+/// heading; `second` is the number in the second column.
 template <class Take>
-std::string read_column(const std::filesystem::path& path, const std::function<bool(std::string_view name)>& is_wanted,
-                        const Take& take) {
+void read_column(const std::filesystem::path& path, std::string_view heading, const Take& take) {
   std::ifstream file(path);
   if (!file) throw_io_error("read", path, errno);
   std::string line;
   std::getline(file, line);
-  std::string found;
   std::size_t place = 0;
   for_each_cell(line, [&](std::size_t k, std::string_view name) {
-    if (k == 0 || place > 0 || !is_wanted(name)) return;
-    place = k;
-    found = name;
+    if (name == heading) place = k;
   });
   while (place > 0 && std::getline(file, line)) {
     double time = std::numeric_limits<double>::quiet_NaN();
@@ -56,7 +52,6 @@ std::string read_column(const std::filesystem::path& path, const std::function<b
     });
     if (!std::isnan(time) && !std::isnan(value)) take(time, second, value);
   }
-  return found;
 }
 
 }  // namespace
@@ -105,10 +100,9 @@ double ColumnDigest::rate_in_second_half() const {
   return has_begun_half_ && last_time > half_begin_ ? (last - value_at_half_) / (last_time - half_begin_) : 0.0;
 }
 
-ProbeColumn read_probe_column(const std::filesystem::path& path,
-                              const std::function<bool(std::string_view name)>& is_wanted) {
+ProbeColumn read_probe_column(const std::filesystem::path& path, std::string_view heading) {
   ProbeColumn column;
-  column.name = read_column(path, is_wanted, [&](double time, double, double value) {
+  read_column(path, heading, [&](double time, double, double value) {
     if (!column.time.empty() && time <= column.time.back()) {
       column.time.pop_back();
       column.value.pop_back();
@@ -119,10 +113,9 @@ ProbeColumn read_probe_column(const std::filesystem::path& path,
   return column;
 }
 
-ProbeProfiles read_probe_profiles(const std::filesystem::path& path,
-                                  const std::function<bool(std::string_view name)>& is_wanted) {
+ProbeProfiles read_probe_profiles(const std::filesystem::path& path, std::string_view heading) {
   ProbeProfiles profiles;
-  profiles.name = read_column(path, is_wanted, [&](double time, double x, double value) {
+  read_column(path, heading, [&](double time, double x, double value) {
     if (profiles.time.empty() || time > profiles.time.back()) {
       profiles.time.push_back(time);
       profiles.x.emplace_back();
@@ -146,29 +139,24 @@ TableDigest digest_probe_table(const std::filesystem::path& path, double half) {
     if (name.starts_with("force_")) force.push_back(k - 1);
     table.names.emplace_back(name);
   });
-  const std::size_t own = table.names.size();
-  if (!force.empty()) {
-    const std::string& first = table.names[force.front()];  // force_x_N_per_m
-    table.names.push_back(magnitude_of_force + first.substr(std::string_view("force_x_").size()));
-  }
   table.columns.resize(table.names.size());
-  std::vector<double> row(own);
+  std::vector<double> row(table.names.size());
   while (std::getline(file, line)) {
     std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
     double time = 0.0;
     for_each_cell(line, [&](std::size_t k, std::string_view field) {
       if (k == 0) time = parsed_number(field);
-      if (k > 0 && k <= own) row[k - 1] = parsed_number(field);
+      if (k > 0 && k <= row.size()) row[k - 1] = parsed_number(field);
     });
     if (std::isnan(time)) continue;
     table.last_time = time;
-    for (std::size_t k = 0; k < own; ++k) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
       if (!std::isnan(row[k])) table.columns[k].add(time, row[k], half);
     }
     if (force.empty()) continue;
     double squares = 0.0;
     for (const std::size_t k : force) squares += row[k] * row[k];
-    if (!std::isnan(squares)) table.columns.back().add(time, std::sqrt(squares), half);
+    if (!std::isnan(squares)) table.magnitude_of_force.add(time, std::sqrt(squares), half);
   }
   return table;
 }

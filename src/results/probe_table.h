@@ -4,15 +4,11 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace tailwater {
-
-/// A column that is added to tables with components of a force: their magnitude.
-inline constexpr const char* magnitude_of_force = "force_magnitude_";
 
 struct ColumnDigest {
   std::size_t count = 0;  ///< of numbers; "nan" is none
@@ -51,31 +47,28 @@ struct ColumnDigest {
 struct TableDigest {
   std::vector<std::string> names;  ///< without that of the time
   std::vector<ColumnDigest> columns;
-  double last_time = 0.0;  ///< s
+  ColumnDigest magnitude_of_force;  ///< empty in a table without a force
+  double last_time = 0.0;           ///< s
 };
 
 struct ProbeColumn {
-  std::string name;          ///< empty: the table has no such column
   std::vector<double> time;  ///< s, ascending
   std::vector<double> value;
 };
 
-/// The first column whose name is one that is wanted. Lines without a number are left out, and all but the last of one
-/// time. Throws IoError if the file cannot be read.
-ProbeColumn read_probe_column(const std::filesystem::path& path,
-                              const std::function<bool(std::string_view name)>& is_wanted);
+/// The column with this heading; empty if there is none. Lines without a number are left out, and all but the last of
+/// one time. Throws IoError if the file cannot be read.
+ProbeColumn read_probe_column(const std::filesystem::path& path, std::string_view heading);
 
 /// A column of a table that has several lines of one time, each of a place.
 struct ProbeProfiles {
-  std::string name;                    ///< empty: the table has no such column
   std::vector<double> time;            ///< s, ascending
   std::vector<std::vector<double>> x;  ///< m; of each time its places, ascending
   std::vector<std::vector<double>> value;
 };
 
 /// As read_probe_column; the places are in the table's second column.
-ProbeProfiles read_probe_profiles(const std::filesystem::path& path,
-                                  const std::function<bool(std::string_view name)>& is_wanted);
+ProbeProfiles read_probe_profiles(const std::filesystem::path& path, std::string_view heading);
 
 /// `half` [s] is where the second half begins. Throws IoError if the file cannot be read.
 TableDigest digest_probe_table(const std::filesystem::path& path, double half);

@@ -168,8 +168,8 @@ std::vector<Coordinates> places_of(const ProbeTable& probe, std::size_t dimensio
   return {low, {high[0], low[1]}, high, {low[0], high[1]}};
 }
 
-/// Headings by probe.
-using Columns = std::vector<std::vector<std::string>>;
+/// By probe.
+using Columns = std::vector<std::vector<OutputColumn>>;
 
 /// The columns of each probe's table after the time; none where it cannot measure, which is told of elsewhere.
 template <int Dim>
@@ -190,11 +190,21 @@ Json probes_json(const CaseSpec& spec, const Columns& columns, const Json& box) 
   Json probes = Json::array();
   for (std::size_t p = 0; p < spec.probes.size(); ++p) {
     const ProbeTable& table = spec.probes[p];
+    Json headings = Json::array();
+    Json names = Json::array();
+    Json units = Json::array();
+    for (const OutputColumn& column : columns[p]) {
+      headings.push_back(column.heading);
+      names.push_back(column.name);
+      units.push_back(unit_of(column.measure, Dim));
+    }
     probes.push_back({{"name", table.name},
                       {"type", name_of(table.type)},
                       {"file", fmt::format("probes/{}.csv", table.name)},
                       {"points", places_of(table, Dim, lowest)},
-                      {"columns", columns[p]},
+                      {"columns", std::move(headings)},
+                      {"names", std::move(names)},
+                      {"units", std::move(units)},
                       {"walls", table.walls},
                       {"body", table.body}});
   }
@@ -202,15 +212,11 @@ Json probes_json(const CaseSpec& spec, const Columns& columns, const Json& box) 
 }
 
 /// What laboratories have measured within the time of the run, in the order of the case.
-Json measurements_json(const CaseSpec& spec, const Columns& columns) {
+Json measurements_json(const CaseSpec& spec) {
   Json measurements = Json::array();
   for (const MeasurementTable& table : spec.measurements) {
-    const Compared compared = compared_with(table, spec);
-    const std::vector<std::string>& headings = columns[compared.probe];
-    const auto heading =
-        std::ranges::find_if(headings, [&](const std::string& name) { return is_heading_of(compared.column, name); });
     Json one{{"probe", table.probe},
-             {"column", heading == headings.end() ? table.column : *heading},
+             {"column", compared_with(table, spec).column.heading},
              {"file", std::filesystem::path(table.file).filename().string()},
              {"time", Json::array()},
              {"value", Json::array()}};
@@ -310,7 +316,7 @@ Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
           {"pockets", pockets_json<Dim>(spec)},
           {"vents", vents_json<Dim>(spec)},
           {"probes", probes_json<Dim>(spec, columns, box)},
-          {"measurements", measurements_json(spec, columns)},
+          {"measurements", measurements_json(spec)},
           {"scalars", std::move(scalars)}};
 }
 

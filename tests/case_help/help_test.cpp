@@ -31,6 +31,14 @@ TEST(StudyReference, InTheTreeIsWhatTheProgramWrites) {
          "docs/reference/study-keys.md";
 }
 
+TEST(ProbeReference, InTheTreeIsWhatTheProgramWrites) {
+  std::ifstream file(TAILWATER_SOURCE_DIR "/docs/reference/probes.md");
+  std::ostringstream page;
+  page << file.rdbuf();
+  EXPECT_TRUE(page.str() == probe_reference_markdown())
+      << "docs/reference/probes.md is out of date; run: tailwater run --help-case=probes > docs/reference/probes.md";
+}
+
 /// Bounds that the tree has set itself: a user meets all of these keys.
 TEST(CaseReference, HasNoMoreKeysThanItMay) {
   std::size_t all = 0;

@@ -35,27 +35,27 @@ TYPED_TEST(LevelMapTest, KeepsTheLargestTheMeanAndTheLastLevel) {
   using T = typename TestFixture::TankOf;
   const T first = T::filled(0.6);
   const Reading<Dim> reading = level_map_reading<Dim>(TestFixture::over_the_tank(), first.spec, first.boundary);
-  EXPECT_EQ(reading.columns, (std::vector<std::string>{"highest_m", "mean_m"}));
+  ASSERT_EQ(reading.columns.size(), 2u);
+  EXPECT_EQ(reading.columns[0].heading, "highest_m");
   reading.take(first.context(0.0));
   const Row high = reading.take(T::filled(0.8).context(1.0)).at(0);
   EXPECT_NEAR(high[0], 0.8, TestFixture::bound);
   EXPECT_NEAR(high[1], 0.8, TestFixture::bound);
   reading.take(T::filled(0.4).context(3.0));
 
-  const auto summary = reading.summary();
-  ASSERT_EQ(summary.size(), Dim + 3u);
-  EXPECT_EQ(summary[0].first, "largest_m");
-  EXPECT_NEAR(summary[0].second, 0.8, TestFixture::bound);
-  EXPECT_EQ(summary[1].second, 1.0);
-  EXPECT_NEAR(summary[2].second, 0.125, 1e-12);  // x of the first of equally high places
-  EXPECT_NEAR(summary[Dim + 1].second, (0.8 * 1.0 + 0.4 * 2.0) / 3.0, TestFixture::bound);
-  EXPECT_NEAR(summary[Dim + 2].second, 0.4, TestFixture::bound);
+  const std::vector<double> totals = reading.totals();
+  ASSERT_EQ(totals.size(), totals_of(ProbeType::level_map, Dim).size());
+  EXPECT_NEAR(totals[0], 0.8, TestFixture::bound);
+  EXPECT_EQ(totals[1], 1.0);
+  EXPECT_NEAR(totals[2], 0.125, 1e-12);  // x of the first of equally high places
+  EXPECT_NEAR(totals[Dim + 1], (0.8 * 1.0 + 0.4 * 2.0) / 3.0, TestFixture::bound);
+  EXPECT_NEAR(totals[Dim + 2], 0.4, TestFixture::bound);
 
   // A restart has the same memory.
   const Reading<Dim> again = level_map_reading<Dim>(TestFixture::over_the_tank(), first.spec, first.boundary);
   ASSERT_EQ(again.memory->size(), reading.memory->size());
   *again.memory = *reading.memory;
-  EXPECT_EQ(again.summary(), summary);
+  EXPECT_EQ(again.totals(), totals);
 
   const TemporaryFolder folder;
   reading.write_map(folder.path() / "map.vtp", 3.0);

@@ -44,7 +44,7 @@ TYPED_TEST(VelocityProfileTest, OfALinearShearIsExact) {
   probe.step = 0.25;
   const Reading<Dim> reading = velocity_profile_reading<Dim>(probe, tank.spec, tank.boundary);
   ASSERT_EQ(reading.columns.size(), 2u + 2u * Dim);
-  EXPECT_EQ(reading.columns.back(), Dim == 2 ? "mean_v_m_s" : "mean_w_m_s");
+  EXPECT_EQ(reading.columns.back().heading, Dim == 2 ? "mean_v_m_s" : "mean_w_m_s");
   const std::vector<Row> rows = reading.take(tank.context(0.0));
   ASSERT_EQ(rows.size(), 3u);
   const double depth = rows[0][1 + Dim];
@@ -68,12 +68,10 @@ TYPED_TEST(VelocityProfileTest, SumsUpTheMeanOverTime) {
   reading.take(tank.context(0.0));
   reading.take(TestFixture::moving(0.6, 2.0).context(1.0));
   reading.take(TestFixture::moving(0.6, 5.0).context(4.0));
-  const auto summary = reading.summary();
-  ASSERT_EQ(summary.size(), 1u + Dim);
-  EXPECT_EQ(summary[0].first, "mean_depth_m");
-  EXPECT_NEAR(summary[0].second, 0.6, 0.05 * T::dx);
-  EXPECT_EQ(summary[1].first, "mean_u_m_s");
-  EXPECT_NEAR(summary[1].second, (2.0 * 1.0 + 5.0 * 3.0) / 4.0, 1e-10);
+  const std::vector<double> totals = reading.totals();
+  ASSERT_EQ(totals.size(), totals_of(ProbeType::velocity_profile, Dim).size());
+  EXPECT_NEAR(totals[0], 0.6, 0.05 * T::dx);
+  EXPECT_NEAR(totals[1], (2.0 * 1.0 + 5.0 * 3.0) / 4.0, 1e-10);
 }
 
 TYPED_TEST(VelocityProfileTest, OfADryBedIsARowOfZeros) {
@@ -117,12 +115,11 @@ TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
   const double later = after(1.0, at_start, 0.8);
   EXPECT_NEAR(discharge_at(1.0, 2.0, 0.8), later, 1e-12);
   EXPECT_NEAR(discharge_at(2.0, -3.0, -0.4), after(1.0, later, -1.2), 1e-12);
-  const auto summary = reading.summary();
-  EXPECT_EQ(summary[0].first, "largest_m3_per_s");
-  EXPECT_NEAR(summary[0].second, later, 1e-12);
-  EXPECT_EQ(summary[1].second, 1.0);
-  EXPECT_EQ(summary[2].first, "smoothed_over_s");
-  EXPECT_NEAR(summary[2].second, smoothing, 1e-12);
+  const std::vector<double> totals = reading.totals();
+  ASSERT_EQ(totals.size(), totals_of(ProbeType::discharge, Dim).size());
+  EXPECT_NEAR(totals[0], later, 1e-12);
+  EXPECT_EQ(totals[1], 1.0);
+  EXPECT_NEAR(totals[2], smoothing, 1e-12);
 }
 
 }  // namespace

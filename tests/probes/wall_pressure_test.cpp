@@ -114,7 +114,7 @@ TYPED_TEST(WallPressureTest, TheMeanOverAStretchCountsDryPlacesAsZero) {
   // Half the stretch is above water; no place (at odd multiples of dx/4) is nearer to the surface than dx/4.
   EXPECT_NEAR(mean(0.4, 0.8)[0], 0.5 * T::rho * T::g * 0.1, TestFixture::rounding);
   EXPECT_EQ(mean(0.4, 0.8)[1], 0.5);
-  EXPECT_EQ(mean(0.7, 0.9), (Row{0.0, 0.0}));
+  EXPECT_EQ(mean(0.7, 0.9), (Row{0.0, 0.0, 0.0}));
 }
 
 TYPED_TEST(WallPressureTest, TheMeanOverADiscIsThatAtItsCentreUnderWaterAndHalfDryAtTheLevel) {

@@ -1,6 +1,7 @@
 """Runs by the program: tables, fields, sweeps, errors, pages."""
 
 import os
+import re
 import signal
 import threading
 import time
@@ -231,6 +232,20 @@ class Tables(PackageTest):
         for name, unit in (("time_s", "s"), ("discharge_m3_per_s", "m^3/s"), ("moment_N_m_per_m", "N m/m"),
                            ("step", ""), ("pressure_Pa", "Pa"), ("impulse_Pa_s", "Pa s"), ("divergence_old_per_s", "1/s"), ("s", "")):
             self.assertEqual(tables.unit_of(name), unit, name)
+
+    def test_units_of_probes_are_those_that_the_program_declares(self):
+        def in_2d_and_3d(cell):
+            both = re.fullmatch("2D: (.*); 3D: (.*)", cell)
+            return both.groups() if both else (cell, cell)
+
+        found = 0
+        for line in call("run", "--help-case=probes").splitlines():
+            row = re.match(r"\| ((?:[23]D: )?`.*?) \| (.*?) \|", line)
+            for headings, unit in zip(*map(in_2d_and_3d, row.groups())) if row else ():
+                for heading in re.findall(r"`(\w+)`", headings):
+                    self.assertEqual(tables.unit_of(heading), unit.removesuffix(" per m"), heading)
+                    found += 1
+        self.assertGreater(found, 100)
 
     def test_table_of_others_has_provenance_lines(self):
         self.write("lab.csv", "# of a flume\nx_m,h_m\n0,1\n1,2\n")

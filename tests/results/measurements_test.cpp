@@ -102,7 +102,7 @@ TEST(MeasurementScore, IsOverWhatTheRunHasReached) {
 
 /// A depth of x + t, taken at 1 and 2 s from 0 to 2 m; measured a tenth of a second early, and 0.01 m too low.
 TEST(MeasurementScore, OfProfilesIsAtTheirTimesAndPlaces) {
-  const ProbeProfiles computed{"connected_m", {1.0, 2.0}, {{0.0, 2.0}, {0.0, 2.0}}, {{1.0, 3.0}, {2.0, 4.0}}};
+  const ProbeProfiles computed{{1.0, 2.0}, {{0.0, 2.0}, {0.0, 2.0}}, {{1.0, 3.0}, {2.0, 4.0}}};
   MeasurementTable table;
   table.series = {"surface.csv", {2, 3, 4}, {1.0, 1.0, 1.5}, {{1.59, 3.09, 2.59}, {0.5, 2.0, 1.0}}};
   const MeasurementScore found = score(table, computed);
