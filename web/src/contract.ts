@@ -161,6 +161,9 @@ export interface Probe {
   /** Its table in the run's folder; probes/NAME.csv where it is not said. */
   file?: string;
   columns: string[];
+  /** Of the columns: their names without units, and their units as "m^3/s per m"; absent in runs of older programs. */
+  names?: string[];
+  units?: string[];
   lines?: Lines;
 }
 

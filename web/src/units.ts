@@ -1,4 +1,4 @@
-// Numbers as people read them, and the units that the names of columns end with.
+// Numbers as people read them, and units in print.
 
 /** `digits` significant digits, without an exponent between 1e-4 and 1e6. */
 export function number(x: number, digits = 4): string {
@@ -32,24 +32,8 @@ function superscript(n: number): string {
   return String(n).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]!));
 }
 
-/** Ends of the names of columns (src/probes) that hold a unit, before those that they end with; and the unit in 2D, where
- * all is per metre of width, if that is another. */
-const ends: [string, string, string?][] = [
-  ["_m3_per_s", "m³/s", "m³/s/m"], ["_m_per_s", "m/s"], ["_rad_per_s", "rad/s"], ["_m_s", "m/s"],
-  ["_N_m_per_m", "N m/m"], ["_N_per_m", "N/m"], ["_W_per_m", "W/m"], ["_N_m", "N m"], ["_Pa_s", "Pa s"],
-  ["_m3", "m³", "m³/m"], ["_J", "J", "J/m"], ["_Pa", "Pa"], ["_N", "N"], ["_W", "W"], ["_rad", "rad"], ["_m", "m"], ["_s", "s"],
-];
-
-/** "connected_m" is "connected" in m; a name without a known unit is itself. */
-export function split(column: string, dimension: 2 | 3): { label: string; unit: string } {
-  const [end, unit, unit2d = unit] = ends.find(([text]) => column.endsWith(text)) ?? ["", ""];
-  return { label: words(column.slice(0, column.length - end.length)), unit: dimension === 2 ? unit2d : unit };
-}
-
 /** A unit as the program writes it, "m^3/s per m", with the signs of print. */
 export const printed = (unit: string) => unit.replace(/\^(\d)/g, (_, n: string) => superscript(Number(n)));
-
-const words = (name: string) => name.replaceAll("_", " ");
 
 /** 1, 2 or 5 times a power of ten, at most `x`. */
 export function niceBelow(x: number): number {

@@ -1,7 +1,7 @@
 // What a probe's plot shows: curves over time of one column, of every run, and the laboratory's points.
 import type { Measurement, Probe } from "../contract.ts";
 import type { Subject } from "../run/subject.ts";
-import { split } from "../units.ts";
+import { printed } from "../units.ts";
 
 export interface Curve {
   run: Subject;
@@ -63,7 +63,10 @@ export function measuredFor({ time: times, x = [], value }: Measurement, before:
   return now.sort(([a], [b]) => a - b);
 }
 
-export function axisLabel(column: string, dimension: 2 | 3): string {
-  const { label, unit } = split(column, dimension);
-  return unit ? `${label}, ${unit}` : label;
+export const unitOf = (probe: Probe, column: string) => printed(probe.units?.[probe.columns.indexOf(column)] ?? "");
+
+export function axisLabel(probe: Probe, column: string): string {
+  const name = (probe.names?.[probe.columns.indexOf(column)] ?? column).replaceAll("_", " ");
+  const unit = unitOf(probe, column);
+  return unit ? `${name}, ${unit}` : name;
 }

@@ -8,8 +8,8 @@ import type { Subject } from "../run/subject.ts";
 import { useChanges } from "../store.ts";
 import { block, toCsv, valueAt } from "../tables.ts";
 import { colours } from "../theme.ts";
-import { number, split, withUncertainty } from "../units.ts";
-import { alongOf, axisLabel, choices, curves, favourite, isProfile, laboratory, measuredFor } from "./curves.ts";
+import { number, withUncertainty } from "../units.ts";
+import { alongOf, axisLabel, choices, curves, favourite, isProfile, laboratory, measuredFor, unitOf } from "./curves.ts";
 import { limit, meanOf, type Mean } from "./limit.ts";
 import { Plot, type Line } from "./plot.tsx";
 import { saveText } from "../picture/save.ts";
@@ -62,12 +62,11 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
   const rows = runs.map((run) => run.table(probe.name)?.rows ?? 0).join(" ");
   const stamp = owner.id + rows + column + (profile ? `@${blockStamp(owner, probe, app.player.time)}` : "");
   const measured = runs.flatMap((run) => laboratory(run, probe.name, column).map((m) => ({ ...m, run })));
-  const { dimension } = owner.scene;
-  const { unit } = split(column, dimension);
-  const xLabel = profile ? axisLabel(alongOf(probe), dimension) : "time, s";
+  const unit = unitOf(probe, column);
+  const xLabel = profile ? axisLabel(probe, alongOf(probe)) : "time, s";
   const save = (how: string) => {
     if (how === "csv") saveText(`${probe.name}.csv`, "text/csv", csv(owner, probe.name));
-    else if (how === "svg") saveText(`${probe.name}.svg`, "image/svg+xml", toSvg(lines, xLabel, axisLabel(column, dimension), colours(), probe.name));
+    else if (how === "svg") saveText(`${probe.name}.svg`, "image/svg+xml", toSvg(lines, xLabel, axisLabel(probe, column), colours(), probe.name));
     else if (how === "png") plot.current?.ctx.canvas.toBlob((blob) => blob && saveText(`${probe.name}.png`, "image/png", blob));
   };
   return (
@@ -79,11 +78,11 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
         {columns.length > 1 ? (
           <select aria-label={`Column of ${probe.name}`} value={column} onChange={(e) => choose(e.currentTarget.value)}>
             {columns.map((name) => (
-              <option value={name}>{axisLabel(name, dimension)}</option>
+              <option value={name}>{axisLabel(probe, name)}</option>
             ))}
           </select>
         ) : (
-          <span class="column">{axisLabel(column, dimension)}</span>
+          <span class="column">{axisLabel(probe, column)}</span>
         )}
         {!profile && <Now app={app} run={owner} probe={probe.name} column={column} unit={unit} />}
         <select class="save" aria-label={`Save ${probe.name}`} title={`Save ${probe.name} as a table or a picture`} value="" onChange={(e) => { save(e.currentTarget.value); e.currentTarget.value = ""; }}>
@@ -95,11 +94,11 @@ function Gauge({ app, runs, probe }: { app: App; runs: Subject[]; probe: Probe }
       </header>
       <div class="read" aria-live="off" />
       {owner.table(probe.name) || (measured.length > 0 && !profile) ? (
-        <Plot lines={lines} xLabel={xLabel} yLabel={axisLabel(column, dimension)} height={lit ? 250 : 150} player={profile ? null : app.player} stamp={stamp} sync={profile ? `profile-${probe.name}` : "time"} onMake={(u) => (plot.current = u)} />
+        <Plot lines={lines} xLabel={xLabel} yLabel={axisLabel(probe, column)} height={lit ? 250 : 150} player={profile ? null : app.player} stamp={stamp} sync={profile ? `profile-${probe.name}` : "time"} onMake={(u) => (plot.current = u)} />
       ) : (
         <p class="hint">No reading yet.</p>
       )}
-      {!profile && runs.length >= 3 && <Limit runs={runs} probe={probe.name} column={column} plot={plot} />}
+      {!profile && runs.length >= 3 && <Limit runs={runs} probe={probe.name} column={column} unit={unit} plot={plot} />}
       {measured.map((m) => (
         <p class="score">
           <i /> {runs.length > 1 ? `${m.run.name}: ` : ""}
@@ -133,7 +132,7 @@ function Now({ app, run, probe, column, unit }: { app: App; run: Subject; probe:
 }
 
 /** Means over the times that the plot shows, and what they come to at dx = 0, where there are three spacings. */
-function Limit({ runs, probe, column, plot }: { runs: Subject[]; probe: string; column: string; plot: { current: uPlot | null } }) {
+function Limit({ runs, probe, column, unit, plot }: { runs: Subject[]; probe: string; column: string; unit: string; plot: { current: uPlot | null } }) {
   const [span, show] = useState<[number, number] | null>(null);
   useEffect(() => {
     const u = plot.current;
@@ -150,7 +149,6 @@ function Limit({ runs, probe, column, plot }: { runs: Subject[]; probe: string; 
   if (means.some((m) => m === null) || means.length < 3) return null;
   const end = limit(means as Mean[]);
   if (!end) return null;
-  const { unit } = split(column, runs[0]!.scene.dimension);
   return (
     <p class="score" title="A straight line through the means over the times shown; zoom to where the flow is steady">
       means over {number(span[0], 3)} to {number(span[1], 3)} s: {means.map((m) => number(m!.mean, 4)).join(", ")}; <span class="whole">at dx = 0: <strong>{withUncertainty(end.value, end.uncertainty)} {unit}</strong></span>

@@ -1,13 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { colourMaps, table } from "../../src/colours.ts";
-import { choices, favourite, measuredFor } from "../../src/gauges/curves.ts";
+import { axisLabel, choices, favourite, measuredFor } from "../../src/gauges/curves.ts";
 import { linear } from "../../src/gauges/plot.tsx";
 import { wetLines } from "../../src/gauges/profiles.ts";
 import type { Probe } from "../../src/contract.ts";
 import type { Subject } from "../../src/run/subject.ts";
 import { block, Table, toCsv, valueAt } from "../../src/tables.ts";
-import { decimals, duration, length, niceBelow, number, printed, split, timeDecimals, withUncertainty } from "../../src/units.ts";
+import { decimals, duration, length, niceBelow, number, timeDecimals, withUncertainty } from "../../src/units.ts";
 import { ticks, toSvg } from "../../src/picture/svg.ts";
 import { bestColumns } from "../../src/water/columns.ts";
 import { Player } from "../../src/time/player.ts";
@@ -26,16 +26,10 @@ test("a place has the decimals of a pixel, a value those of its uncertainty", ()
     ["0.050 ± 0.015", "0.3907 ± 0.0046", "1235 ± 20", "−3.0 ± 1.0", "1 ± 0"]);
 });
 
-test("names of columns end with their unit, in 2D per metre of width", () => {
-  const units = (dimension: 2 | 3) => (column: string) => split(column, dimension);
-  assert.deepEqual(["connected_m", "largest_Pa", "wet_share", "pockets", "u_m_s"].map(units(2)), [
-    { label: "connected", unit: "m" }, { label: "largest", unit: "Pa" }, { label: "wet share", unit: "" }, { label: "pockets", unit: "" }, { label: "u", unit: "m/s" },
-  ]);
-  const columns = ["discharge_m3_per_s", "volume_in_m3", "total_J", "force_x_N_per_m", "moment_N_m_per_m", "power_to_water_W_per_m", "impulse_Pa_s", "angular_velocity_rad_per_s", "angle_rad", "velocity_x_m_per_s"];
-  assert.deepEqual(columns.map((name) => units(2)(name).unit), ["m³/s/m", "m³/m", "J/m", "N/m", "N m/m", "W/m", "Pa s", "rad/s", "rad", "m/s"]);
-  const in3d = ["discharge_m3_per_s", "gas_m3", "energy_J", "force_x_N", "moment_y_N_m", "power_to_water_W"];
-  assert.deepEqual(in3d.map((name) => units(3)(name).unit), ["m³/s", "m³", "J", "N", "N m", "W"]);
-  assert.equal(printed("m^3/s per m"), "m³/s per m");
+test("a column is shown with the name and the unit of its scene", () => {
+  const probe = { name: "q", type: "discharge", points: [], columns: ["discharge_m3_per_s", "wet_share"], names: ["discharge", "wet_share"], units: ["m^3/s per m", ""] };
+  assert.deepEqual(probe.columns.map((column) => axisLabel(probe, column)), ["discharge, m³/s per m", "wet share"]);
+  assert.equal(axisLabel({ ...probe, names: undefined, units: undefined }, "discharge_m3_per_s"), "discharge m3 per s");
 });
 
 test("readings that are all 0 are not drawn up to 100", () => {
