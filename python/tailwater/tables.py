@@ -9,9 +9,10 @@ from .errors import DataError
 __all__ = ["frame", "read_table", "unit_of", "without_unit"]
 
 # Endings of names that are units, the longest first, so that "m3_per_s" is not taken for "s".
-UNITS = {"m3_per_s": "m^3/s", "m_per_s": "m/s", "rad_per_s": "rad/s", "kg_per_m3": "kg/m^3", "N_m_per_m": "N m/m",
-         "N_per_m": "N/m", "Pa_s": "Pa s", "per_s": "1/s", "N_m": "N m", "m3": "m^3", "m2": "m^2", "Pa": "Pa", "kg": "kg", "Hz": "Hz",
-         "rad": "rad", "deg": "deg", "bytes": "bytes", "m": "m", "s": "s", "J": "J", "N": "N", "W": "W"}
+UNITS = {"m3_per_s": "m^3/s", "m_per_s": "m/s", "m_s": "m/s", "rad_per_s": "rad/s", "kg_per_m3": "kg/m^3",
+         "N_m_per_m": "N m/m", "N_per_m": "N/m", "Pa_s": "Pa s", "per_s": "1/s", "N_m": "N m", "m3": "m^3",
+         "m2": "m^2", "Pa": "Pa", "kg": "kg", "Hz": "Hz", "rad": "rad", "deg": "deg", "bytes": "bytes", "m": "m",
+         "s": "s", "J": "J", "N": "N", "W": "W", "W_per_m": "W/m"}
 ENDINGS = sorted(UNITS, key=len, reverse=True)
 
 
