@@ -68,11 +68,11 @@ struct PocketStep {
   std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
   std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
   std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
-  /// Pa; of owned particles: by how much the pressure that the air alone makes there is off that of the air beside them,
-  /// either way, at the start of the step.
+  /// Pa; of owned particles: by how much the pressure that the air alone makes there is off that of the air beside
+  /// them, either way, at the start of the step.
   std::vector<double> response_deficit;
   int iterations = 0;  ///< of the solves for the responses
-  double work = 0.0;     ///< J; that the gas has done
+  double work = 0.0;   ///< J; that the gas has done
 
   /// Pa; of the air beside water.
   double pressure_at(const PocketSide<Dim>& side) const {

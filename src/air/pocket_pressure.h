@@ -48,9 +48,8 @@ void push_by_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, double dt);
 /// The forces of 1 Pa in each pocket through the pairs of water and walls that move, with the responses as they are.
 /// Collective.
 template <int Dim>
-std::vector<PocketPairs<Dim>> find_wall_pair_forces(
-    const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
-    std::span<const std::pair<std::size_t, PocketShare>> air_fractions);
+std::vector<PocketPairs<Dim>> find_wall_pair_forces(const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
+                                                    std::span<const std::pair<std::size_t, PocketShare>> air_fractions);
 
 /// m^Dim/s; by which walls that move make each pocket grow in a step of dt from now on, as far as the air pushes them
 /// itself: those that are driven by their displacement, bodies by the mean of their velocities at both ends of the

@@ -59,8 +59,7 @@ std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, std::span<const PocketSide
 
 /// What the matrix makes of the pocket's pressure.
 template <int Dim>
-AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket,
-                                int& iterations) {
+AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket, int& iterations) {
   LinearSystem& rows = flow.pressure_rows;
   std::ranges::fill(rows.rhs(), 0.0);
   for (const PocketSide<Dim>& side : sides) {

@@ -1,6 +1,6 @@
-// One number for each pair of neighbours, in memory that stages use in turn: first where they find the pair vectors, then
-// for the weights of the pressure rows. Two arrays of this size that came and went would leave holes in memory that
-// other arrays divide.
+// One number for each pair of neighbours, in memory that stages use in turn: first where they find the pair vectors,
+// then for the weights of the pressure rows. Two arrays of this size that came and went would leave holes in memory
+// that other arrays divide.
 #pragma once
 
 #include <span>

@@ -3,8 +3,8 @@
 namespace tailwater {
 
 template <int Dim>
-std::vector<OneSidedForce> find_moorings(const std::vector<Mooring<Dim>>& moorings, const std::vector<BodyState<Dim>>& bodies,
-                                         std::span<const Freedom> freedoms) {
+std::vector<OneSidedForce> find_moorings(const std::vector<Mooring<Dim>>& moorings,
+                                         const std::vector<BodyState<Dim>>& bodies, std::span<const Freedom> freedoms) {
   std::vector<OneSidedForce> lines;
   for (const Mooring<Dim>& mooring : moorings) {
     const BodyState<Dim>& body = bodies[mooring.body];

@@ -8,7 +8,7 @@ namespace tailwater {
 
 /// Those that are stretched; `bodies` are as they are at the start of the step.
 template <int Dim>
-std::vector<OneSidedForce> find_moorings(const std::vector<Mooring<Dim>>& moorings, const std::vector<BodyState<Dim>>& bodies,
-                                         std::span<const Freedom> freedoms);
+std::vector<OneSidedForce> find_moorings(const std::vector<Mooring<Dim>>& moorings,
+                                         const std::vector<BodyState<Dim>>& bodies, std::span<const Freedom> freedoms);
 
 }  // namespace tailwater

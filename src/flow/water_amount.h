@@ -18,9 +18,9 @@ struct WaterAmount {
 };
 
 /// Its members by name, for checkpoints.
-void to_json(Json& json, const WaterAmount& water);
+void to_json(Json& json, const WaterAmount& all);
 /// Throws Json::exception if one is missing or of another type.
-void from_json(const Json& json, WaterAmount& water);
+void from_json(const Json& json, WaterAmount& all);
 
 /// Number, volume and mass, for the summary; `density` in kg/m^3.
 Json summary_of(const WaterAmount& water, double density);

@@ -190,7 +190,7 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
 class SoundMesh {
  public:
   SoundMesh(const CaseSpec& spec, const PlacedFile& file, const std::string& owner)
-      : mesh(read_mesh(file.file, owner)), refuse(mesh, fmt::format("{}: file {}: ", owner, file.file)) {
+      : mesh{read_mesh(file.file, owner)}, refuse(mesh, fmt::format("{}: file {}: ", owner, file.file)) {
     double farthest = 0.0;
     for (const Vec<3>& x : mesh.points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
     const double round_off = file_precision * farthest * file.scale;

@@ -190,7 +190,7 @@ class LinearSystem {
   std::vector<std::uint32_t> row_begin_;  ///< rows + 1
   std::span<const std::int32_t> columns_;
   std::shared_ptr<PairWorkspace> workspace_;
-  std::span<float> weights_;  ///< in the workspace
+  std::span<float> weights_;                ///< in the workspace
   std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0

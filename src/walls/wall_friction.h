@@ -38,8 +38,8 @@ std::vector<FrictionWall<Dim>> find_friction_walls(const WallScene<Dim>& scene, 
 /// Adds lambda times the stress of `walls` to the acceleration [m/s^2] of fluid particles: the tangential part of
 /// sum_w lambda c_iw [nu (u_noslip - u_i) - k_i (u_i - V)]. Here c_iw is the Morris weight, `no_slip` the wall model's
 /// velocity for each wall particle (up to date on ghosts), and V the wall's velocity, on which the slip velocity
-/// depends. k_i [m^2/s] makes the second term the excess of the turbulent stress; `excess_viscosity`, if it is not empty,
-/// receives it for owned particles. Relative to the wall, friction only slows the water.
+/// depends. k_i [m^2/s] makes the second term the excess of the turbulent stress; `excess_viscosity`, if it is not
+/// empty, receives it for owned particles. Relative to the wall, friction only slows the water.
 template <int Dim>
 void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const FrictionWall<Dim>> walls,
                        std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,
