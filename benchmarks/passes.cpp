@@ -23,7 +23,7 @@ void add_operators(Stage<Dim>& stage) {
     const Particles<Dim>& particles = flow.state.particles;
     for_each(particles.owned, [&](std::size_t i) {
       if (particles.is_fluid(i)) {
-        (*fluid_sums)[i] = kernel_sums<Dim>(flow.pairs(), i, flow.setup.kernel_values);
+        (*fluid_sums)[i] = kernel_sums<Dim>(flow.pairs(), i, flow.setup.scale.kernel_values);
       }
     });
   });
@@ -35,7 +35,7 @@ void add_operators(Stage<Dim>& stage) {
     const Particles<Dim>& particles = flow.state.particles;
     constexpr CorrectionReach reach = CorrectionReach::inside;
     find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
-                                     {kernel_radius(flow.setup.kernel), particles.volume, particles.kind,
+                                     {kernel_radius(flow.setup.scale.kernel), particles.volume, particles.kind,
                                       flow.surroundings.interior, flow.surroundings.first_moment},
                                      reach, closing_sweeps(reach), *room, *vectors, *faces, *mean_interior);
   });

@@ -172,7 +172,7 @@ void PythonSimulation<Dim>::steer(const std::string& name, std::function<std::ve
       [label, path = std::move(path)](double time) { return placement_of<Dim>(path(time), label, time); }};
   const State<Dim>& state = flow.state;
   motion.steer(static_cast<std::size_t>(wall - motion.moving().begin()), std::move(given), state.time, state.motion,
-               largest_jump * flow.setup.spacing, label);
+               largest_jump * flow.setup.scale.spacing, label);
   tell_of_script();
   if (simulation().is_prepared()) {
     dt_ = simulation().shorten();

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "air/vent.h"
-#include "base/for_each.h"
 #include "air/gas_step.h"
 #include "air/pocket_response.h"
+#include "air/vent.h"
+#include "base/for_each.h"
 
 namespace tailwater {
 namespace {
@@ -91,7 +91,7 @@ std::vector<double> find_response_deficit(const Flow<Dim>& flow, const EnclosedA
 template <int Dim>
 Eigen::MatrixXd find_answers(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
   const auto count = static_cast<Eigen::Index>(air.state.pockets.size());
-  const double unit = dt / flow.setup.density;
+  const double unit = dt / flow.setup.liquid.density;
   Eigen::MatrixXd answers(count, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const AirResponse<Dim>& response = air.watch.response(air.state.pockets[k].number);
@@ -151,7 +151,7 @@ PocketStep<Dim> pose_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<c
 
 template <int Dim>
 std::vector<double> find_air_pressures(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
-  const double unit = dt / flow.setup.density;
+  const double unit = dt / flow.setup.liquid.density;
   std::vector<Vec<Dim>> gradient(flow.state.particles.owned, Vec<Dim>::Zero());
   flow.discretisation().find_gradient(flow, flow.state.particles.pressure, gradient);
   std::vector<double> now = growth(flow, air, [&](std::size_t i) { return Vec<Dim>(-unit * gradient[i]); });
@@ -181,7 +181,7 @@ void push_by_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, double dt) {
   std::vector<Vec<Dim>>& velocity = flow.state.particles.velocity;
   for_each(step.water.size(), [&](std::size_t n) {
     const PocketSide<Dim>& side = step.water[n];
-    velocity[side.particle] += dt / flow.setup.density * step.pressure_at(side) * side.push;
+    velocity[side.particle] += dt / flow.setup.liquid.density * step.pressure_at(side) * side.push;
   });
   const std::vector<double> flow_after = growth(flow, air, [&](std::size_t i) { return velocity[i]; });
   const std::vector<double> by_walls = growth_by_walls(flow, air, dt);

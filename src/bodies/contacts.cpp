@@ -16,8 +16,8 @@ struct SurfaceMotion {
 template <int Dim>
 class ContactFinder {
  public:
-  ContactFinder(const Flow<Dim>& flow, const ContactSurfaces<Dim>& surfaces,
-                const std::vector<BodyState<Dim>>& bodies, double dt, std::span<const Freedom> freedoms)
+  ContactFinder(const Flow<Dim>& flow, const ContactSurfaces<Dim>& surfaces, const std::vector<BodyState<Dim>>& bodies,
+                double dt, std::span<const Freedom> freedoms)
       : flow_(flow), surfaces_(surfaces), bodies_(bodies), dt_(dt), freedoms_(freedoms) {}
 
   std::vector<OneSidedForce> find() const {
@@ -26,7 +26,8 @@ class ContactFinder {
       const SurfaceMotion<Dim> motion = motion_of(surface);
       for (int b = 0; b < static_cast<int>(surfaces_.points.size()); ++b) {
         if (b == surface.body) continue;
-        for (const Vec<Dim>& point : surfaces_.points[b]) add(b, bodies_[b].placement(point), surface, motion, contacts);
+        for (const Vec<Dim>& point : surfaces_.points[b])
+          add(b, bodies_[b].placement(point), surface, motion, contacts);
       }
     }
     return contacts;
@@ -48,7 +49,7 @@ class ContactFinder {
   /// The point of body b that is at x, if it is near the surface.
   void add(int b, const Vec<Dim>& x, const ContactSurface<Dim>& surface, const SurfaceMotion<Dim>& motion,
            std::vector<OneSidedForce>& contacts) const {
-    const double spacing = flow_.setup.spacing;
+    const double spacing = flow_.setup.scale.spacing;
     const Vec<Dim> drawn = motion.placement.inverse(x);
     const NearestWall<Dim> wall = surface.boundary.nearest(drawn, contact_reach * spacing);
     if (wall.face < 0) return;

@@ -69,7 +69,8 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, co
   const std::vector<Twist<Dim>> frictions = forces_.of_friction();
   for (std::size_t b = 0; b < before.size(); ++b) {
     before[b].velocity = bodies.start_velocity[b];
-    loads_.push_back(bodies.bodies[b].load(before[b], flow.setup.gravity) + frictions[b] + before[b].carried_over / dt_);
+    loads_.push_back(bodies.bodies[b].load(before[b], flow.setup.gravity) + frictions[b] +
+                     before[b].carried_over / dt_);
   }
   flow.template part<ScriptLoads<Dim>>().add_to_bodies(loads_);
   one_sided_ = find_contacts<Dim>(flow, bodies.contact, before, dt_, freedoms_);
@@ -254,7 +255,7 @@ void BodyCoupling<Dim>::correct(Eigen::VectorXd& g, double tolerance, SolveRepor
   if (flow_.state.motion.bodies.inertia.empty()) measure_inertia(g, tolerance, report);
   const Eigen::VectorXd before = acceleration();
   const Eigen::VectorXd pushed = push_;
-  accelerate(find_one_sided(one_sided_, inertia() + air_, dt_, flow_.setup.spacing,
+  accelerate(find_one_sided(one_sided_, inertia() + air_, dt_, flow_.setup.scale.spacing,
                             before - (inertia() + air_).fullPivLu().solve(Eigen::VectorXd(g + pushed)), push_));
   const Eigen::VectorXd change = acceleration() - before;
   const SolveReport solved = solve_once(tolerance);
@@ -291,7 +292,7 @@ template <int Dim>
 SolveReport BodyCoupling<Dim>::solve(double tolerance) {
   SolveReport report = solve_once(tolerance);
   Eigen::VectorXd g = residual();
-  const double slack = tolerance * flow_.setup.spacing / dt_;
+  const double slack = tolerance * flow_.setup.scale.spacing / dt_;
   const auto is_settled = [&](double share) {
     return size(g) <= share * largest_force_ && std::ranges::all_of(one_sided_, [&](const OneSidedForce& one) {
              return !one.is_rigid() || one.speed_after(dt_, acceleration()) >= -slack;

@@ -34,24 +34,25 @@ std::vector<CoveredParticle<Dim>> find_covered(const Flow<Dim>& flow, const Floa
   std::vector<CoveredParticle<Dim>> covered;
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
-  const double width = widest_cover * setup.spacing;
+  const double width = widest_cover * setup.scale.spacing;
   std::vector<AffineMap<Dim>> placement;
   for (const BodyState<Dim>& body : flow.state.motion.bodies.each) placement.push_back(body.at(time));
-  const std::vector<Eigen::AlignedBox<double, Dim>> boxes = boxes_around(bodies, setup.spacing, placement);
+  const std::vector<Eigen::AlignedBox<double, Dim>> boxes = boxes_around(bodies, setup.scale.spacing, placement);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are covered
     if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) continue;
     const auto row = particles.wall_row[i];
     const Vec<Dim>& x = flow.walls.particles.position[row];
     if (std::ranges::none_of(boxes, [&](const auto& box) { return box.contains(x); })) continue;
     if (flow.walls.boundary.walls[flow.walls.particles.wall[row]].moves()) continue;
-    const NearestWall<Dim> wall = bodies.contact.each.front().boundary.nearest(x, reach_behind_walls * setup.spacing);
+    const NearestWall<Dim> wall =
+        bodies.contact.each.front().boundary.nearest(x, reach_behind_walls * setup.scale.spacing);
     if (wall.face < 0 || wall.signed_distance >= 0.0) continue;
     const Vec<Dim> normal = (x - wall.point) / wall.signed_distance;
     const Vec<Dim> in_front = wall.point + 0.5 * width * normal;
     for (const ContactSurface<Dim>& surface : bodies.contact.each) {
       if (surface.body < 0 || !boxes[surface.body].contains(x)) continue;
       const double share =
-          share_inside(surface, placement[surface.body], in_front, width, contact_reach * setup.spacing);
+          share_inside(surface, placement[surface.body], in_front, width, contact_reach * setup.scale.spacing);
       if (share > 0.0) covered.push_back({i, surface.body, normal, share});
     }
   }

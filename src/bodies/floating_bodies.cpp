@@ -35,7 +35,7 @@ FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setu
     : bodies(make_bodies<Dim>(spec)),
       moorings(make_moorings<Dim>(spec)),
       body_of_wall(bodies_of_walls(bodies, boundary.walls.size())),
-      contact(make_contact_surfaces(boundary, bodies, setup.spacing)) {}
+      contact(make_contact_surfaces(boundary, bodies, setup.scale.spacing)) {}
 
 template <int Dim>
 std::size_t FloatingBodies<Dim>::freedom_count() const {
@@ -78,7 +78,8 @@ void FloatingBodies<Dim>::begin_step(Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 void FloatingBodies<Dim>::write_rows(Flow<Dim>& flow) {
-  for (const std::size_t i : stagnant) flow.pressure_rows.row(i).finish_as_zero();  // no later pass corrects its pressure
+  for (const std::size_t i : stagnant)
+    flow.pressure_rows.row(i).finish_as_zero();  // no later pass corrects its pressure
 }
 
 template <int Dim>
@@ -96,9 +97,9 @@ void FloatingBodies<Dim>::add_work(const Flow<Dim>& flow, const std::vector<doub
                                    Works& works) const {
   const Particles<Dim>& particles = flow.state.particles;
   visit_forces_of_stagnant_water(flow, *this, on_walls, [&](std::size_t j, const Vec<Dim>& force) {
-    works.walls += dt * force.dot(particles.is_fluid(j)
-                                      ? particles.velocity[j]
-                                      : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
+    works.walls +=
+        dt * force.dot(particles.is_fluid(j) ? particles.velocity[j]
+                                             : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
   });
 }
 

@@ -1,7 +1,7 @@
 #include "bodies/forces.h"
 
-#include "pressure/operators.h"
 #include "air/pocket_pressure.h"
+#include "pressure/operators.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -83,7 +83,8 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<doubl
   visit_forces_of_stagnant_water(flow_, bodies_, pressure, [&](std::size_t j, const Vec<Dim>& force_of_water) {
     if (particles.is_fluid(j)) return;
     const auto row = particles.wall_row[j];
-    sums.add(bodies_.body_of_wall[flow_.walls.particles.wall[row]], flow_.walls.particles.position[row], -force_of_water);
+    sums.add(bodies_.body_of_wall[flow_.walls.particles.wall[row]], flow_.walls.particles.position[row],
+             -force_of_water);
   });
   return sums.gather();
 }
@@ -126,7 +127,8 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_guard() const {
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: all add to the same few sums
     const Vec<Dim>& force = flow_.wall_forces.pressure[i];
     if (!particles.is_fluid(i) || force.isZero(0.0)) continue;
-    const NearestWall<Dim> nearest = boundary.nearest(particles.position[i], search_distance * flow_.setup.spacing);
+    const NearestWall<Dim> nearest =
+        boundary.nearest(particles.position[i], search_distance * flow_.setup.scale.spacing);
     if (nearest.face < 0) continue;
     sums.add(bodies_.body_of_wall[boundary.faces[nearest.face].wall], nearest.point, force);
   }

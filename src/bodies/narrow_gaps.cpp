@@ -48,7 +48,7 @@ NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bo
 template <int Dim>
 void NarrowGaps<Dim>::find_pieces(double time) {
   const WallParticles<Dim>& table = flow_.walls.particles;
-  const double dx = flow_.setup.spacing;
+  const double dx = flow_.setup.scale.spacing;
   const ContactSurfaces<Dim>& contact = bodies_.contact;
   const Boundary<Dim>& resting = contact.each.front().boundary;
   for (const ContactSurface<Dim>& hull : contact.each) {
@@ -73,7 +73,7 @@ void NarrowGaps<Dim>::find_pieces(double time) {
 // and a side wall it is not.
 template <int Dim>
 void NarrowGaps<Dim>::find_rim(double time) {
-  const double dx = flow_.setup.spacing;
+  const double dx = flow_.setup.scale.spacing;
   const ContactSurfaces<Dim>& contact = bodies_.contact;
   std::vector<Vec<Dim>> places;
   for (const Piece& piece : pieces_) places.push_back(piece.x);
@@ -119,7 +119,7 @@ void NarrowGaps<Dim>::find_shares() {
 
 template <int Dim>
 bool NarrowGaps<Dim>::holds_water(const Piece& piece) const {
-  return piece.gap < closed_gap * flow_.setup.spacing;
+  return piece.gap < closed_gap * flow_.setup.scale.spacing;
 }
 
 // Water fills a gap in front of a piece as far as a hat of dx around its middle holds it, which a row of particles dx
@@ -128,7 +128,7 @@ template <int Dim>
 void NarrowGaps<Dim>::look_at_water() {
   const Particles<Dim>& particles = flow_.state.particles;
   const Pairs<Dim>& pairs = flow_.pairs();
-  const double dx = flow_.setup.spacing;
+  const double dx = flow_.setup.scale.spacing;
   for (const Piece& piece : pieces_) {
     middles_.push_back(flow_.neighbourhood.wrapped(piece.x - 0.5 * piece.gap * piece.normal));
   }
@@ -163,7 +163,7 @@ void NarrowGaps<Dim>::look_at_water() {
 template <int Dim>
 std::int32_t NarrowGaps<Dim>::piece_at(const Vec<Dim>& x) const {
   std::int32_t nearest = -1;
-  double least = reach_of_piece * flow_.setup.spacing;
+  double least = reach_of_piece * flow_.setup.scale.spacing;
   grid_.for_each_near(x, [&](std::int32_t n) {
     const double distance = (x - middles_[n]).norm();
     if (distance >= least) return;

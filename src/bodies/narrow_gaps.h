@@ -61,7 +61,7 @@ class NarrowGaps {
   Eigen::VectorXd find_pressure(const std::vector<double>& pressure) const;
   /// p - rho g.x [Pa] at each piece of the rim.
   Eigen::VectorXd find_rim_heads(const std::vector<double>& pressure) const;
-  double weight_of(const Vec<Dim>& x) const { return flow_.setup.density * flow_.setup.gravity.dot(x); }
+  double weight_of(const Vec<Dim>& x) const { return flow_.setup.liquid.density * flow_.setup.gravity.dot(x); }
 
   const Flow<Dim>& flow_;
   const FloatingBodies<Dim>& bodies_;

@@ -22,8 +22,8 @@ constexpr double skin_over_spacing = 0.6;
 /// around those that the water touches.
 template <int Dim>
 double reach_of_walls(const Setup<Dim>& setup) {
-  const double supports = setup.wall_traits.pairs == WallRows::all ? 2.0 : 1.0;
-  return supports * kernel_radius(setup.kernel) + setup.spacing;
+  const double supports = setup.formulation.walls->traits().pairs == WallRows::all ? 2.0 : 1.0;
+  return supports * kernel_radius(setup.scale.kernel) + setup.scale.spacing;
 }
 
 /// An equal share of all particles for each rank, wherever they stand: first its part of the fluid, then of the walls
@@ -73,12 +73,13 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
     : setup(spec, formulation, ranks, drawing),
       parts(make_parts(spec, setup, drawing.walls.boundary, makers)),
       decomposition(ranks, spec.parallel),
-      neighbourhood(setup.kernel, setup.spacing, skin_over_spacing * setup.spacing, setup.wall_traits.pairs,
-                    setup.domain, ranks),
+      neighbourhood(setup.scale.kernel, setup.scale.spacing, skin_over_spacing * setup.scale.spacing,
+                    setup.formulation.walls->traits().pairs, setup.domain, ranks),
       pair_workspace(std::make_shared<PairWorkspace>()),
       pressure_rows(ranks, pair_workspace),
-      pressure_solver(spec.pressure_solver,
-                      {.rows_deep = setup.rows_deep, .dimension = Dim, .solves = keeps_matrix() ? 3 : 2}),
+      pressure_solver(spec.pressure_solver, {.rows_deep = largest_depth(spec, drawing.fluid) / setup.scale.spacing,
+                                             .dimension = Dim,
+                                             .solves = keeps_matrix() ? 3 : 2}),
       walls(std::move(drawing.walls)),
       shared_rows(std::move(drawing.shared_rows)),
       near_walls(ranks, walls, setup.domain, reach_of_walls(setup)) {
@@ -90,7 +91,9 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   state.motion = initial_motion<Dim>(spec);
   setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
   pressure_rows.set_constant_is_free(setup.is_closed);
-  for (const auto& part : parts) setup.finds_wall_forces = setup.finds_wall_forces || part->needs_wall_forces();
+  wall_forces.pressure_is_requested = has_force_probe(spec);
+  wall_forces.are_requested =
+      has_force_probe(spec) || std::ranges::any_of(parts, [](const auto& part) { return part->needs_wall_forces(); });
   regather_walls(*this);
   assign_roles(*this);
   for (const auto& part : parts) part->begin(*this);

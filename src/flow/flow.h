@@ -100,19 +100,19 @@ struct Flow {
   WallScene<Dim> wall_scene() const { return {pairs(), state.particles, walls, surroundings}; }
 
   WallForce<Dim> wall_force(std::span<const Vec<Dim>> acceleration) const {
-    return {setup.density, setup.gravity, acceleration, wall_turn_acceleration};
+    return {setup.liquid.density, setup.gravity, acceleration, wall_turn_acceleration};
   }
 
   /// Whether statistics of the bulk count particle i.
   bool is_inside(std::size_t i) const { return role[i] == Role::water && surroundings.interior[i] > 0.5; }
   double kinetic_energy_of(std::size_t i) const {
-    return 0.5 * setup.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
+    return 0.5 * setup.liquid.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
   }
   /// The box around all walls, where they are now, and what parts have of the case's edges; empty if there is nothing.
   Eigen::AlignedBox<double, Dim> box() const;
   /// Relative to the origin; there is none along periodic directions.
   double potential_energy_of(std::size_t i) const {
-    return -setup.density * state.particles.volume[i] * setup.gravity_across.dot(state.particles.position[i]);
+    return -setup.liquid.density * state.particles.volume[i] * setup.gravity_across.dot(state.particles.position[i]);
   }
 };
 

@@ -19,8 +19,8 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
     if (with_gradient) surroundings.concentration_gradient[i].setZero();
     surroundings.first_moment[i] = packed_identity<Dim>();
     if (!has_equation(flow.role[i])) return;
-    const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.kernel_values);
-    surroundings.concentration[i] = sums.concentration / flow.setup.lattice.concentration;
+    const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.scale.kernel_values);
+    surroundings.concentration[i] = sums.concentration / flow.setup.scale.lattice.concentration;
     if (!particles.is_fluid(i)) return;
     if (with_gradient) surroundings.concentration_gradient[i] = sums.gradient;
     surroundings.first_moment[i] = packed<Dim>(sums.first_moment);
@@ -45,7 +45,8 @@ void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   Surroundings<Dim>& surroundings = flow.surroundings;
   surroundings.resize(particles.size(), setup.formulation.needs_concentration_gradient);
 
-  find_wet_walls<Dim>(pairs, particles, setup.kernel_values.W_0, surroundings.wall_fluid_weight, surroundings.is_wet);
+  find_wet_walls<Dim>(pairs, particles, setup.scale.kernel_values.W_0, surroundings.wall_fluid_weight,
+                      surroundings.is_wet);
   for_each(particles.owned,
            [&](std::size_t i) { surroundings.takes_part[i] = particles.is_fluid(i) || surroundings.is_wet[i]; });
   sum_kernel(flow, surroundings);

@@ -53,7 +53,8 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
   return sum_over(particles.owned, FluidSums{}, [&](std::size_t i) -> FluidSums {
     if (!particles.is_fluid(i)) return {};
     const double kinetic_energy = flow.kinetic_energy_of(i);
-    return {flow.setup.density * particles.volume[i], kinetic_energy, kinetic_energy + flow.potential_energy_of(i)};
+    return {flow.setup.liquid.density * particles.volume[i], kinetic_energy,
+            kinetic_energy + flow.potential_energy_of(i)};
   });
 }
 

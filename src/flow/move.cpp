@@ -36,13 +36,13 @@ std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   });
   place_walls(flow, flow.state.time + dt);
   flow.is_located = false;
-  const bool finds_forces = flow.setup.finds_wall_forces;
+  const bool finds_forces = flow.wall_forces.are_requested;
   const std::vector<Vec<Dim>> before = finds_forces ? particles.velocity : std::vector<Vec<Dim>>();
   const std::size_t stopped_at_walls =
-      keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, flow.setup.spacing, displacements_of_walls(flow, dt),
+      keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, flow.setup.scale.spacing, displacements_of_walls(flow, dt),
                           start.position, particles, particles.velocity);
   for_each(finds_forces ? particles.owned : 0, [&](std::size_t i) {
-    const double mass = flow.setup.density * particles.volume[i];
+    const double mass = flow.setup.liquid.density * particles.volume[i];
     if (particles.is_fluid(i)) flow.wall_forces.pressure[i] = mass / dt * (before[i] - particles.velocity[i]);
   });
   return stopped_at_walls;

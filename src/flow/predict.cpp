@@ -22,15 +22,15 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
   flow.wall_model().find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
   flow.halo().exchange(no_slip);
-  std::vector<double> viscosity(setup.finds_wall_forces ? particles.size() : 0);
+  std::vector<double> viscosity(flow.wall_forces.are_requested ? particles.size() : 0);
   add_wall_friction<Dim>(flow.wall_scene(), setup.friction_law, walls, no_slip, particles.velocity,
                          predicted.acceleration, viscosity);
-  if (setup.finds_wall_forces) {
+  if (flow.wall_forces.are_requested) {
     flow.halo().exchange(viscosity);
     std::vector<Vec<Dim>>& force = flow.wall_forces.friction;
     find_friction_on_walls<Dim>(flow.wall_scene(), setup.friction_law, V, no_slip, particles.velocity, viscosity,
                                 force);
-    for_each(force.size(), [&](std::size_t i) { force[i] *= setup.density; });
+    for_each(force.size(), [&](std::size_t i) { force[i] *= setup.liquid.density; });
   }
   for (const auto& part : flow.parts) part->follow_friction(flow, walls, predicted.velocity_gradient, dt);
 }
@@ -55,7 +55,7 @@ std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     gradient[i] =
-        particles.wall_distance[i] < kernel_radius(flow.setup.kernel)
+        particles.wall_distance[i] < kernel_radius(flow.setup.scale.kernel)
             ? gradient_in_water<Dim>(flow.pairs(), i, velocity)
             : corrected_gradient<Dim>(flow.pairs(), i, unpacked<Dim>(flow.surroundings.first_moment[i]), velocity);
   });
@@ -70,7 +70,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   const Setup<Dim>& setup = flow.setup;
   Particles<Dim>& particles = flow.state.particles;
   set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
-  if (setup.finds_wall_forces) flow.wall_forces.reset(particles.owned);
+  if (flow.wall_forces.are_requested) flow.wall_forces.reset(particles.owned);
 
   Prediction<Dim> predicted;
   std::vector<Vec<Dim>>& acceleration = predicted.acceleration;

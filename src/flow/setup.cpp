@@ -29,10 +29,6 @@ PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
 /// to find out which have room at its border.
 constexpr double cube_over_spacing = 32.0;
 
-bool has_force_probe(const CaseSpec& spec) {
-  return std::ranges::any_of(spec.probes, [](const ProbeTable& probe) { return probe.type == ProbeType::force; });
-}
-
 /// The walls with the rows in this rank's share of space.
 template <int Dim>
 Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks) {
@@ -84,9 +80,11 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   return fluid.extent_along(gravity.normalized()) + spacing;
 }
 
-/// Depth of the water [m] that there may be: at the start, and what open ends bring. Collective.
+}  // namespace
+
 template <int Dim>
-double depth_scale(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity) {
+double largest_depth(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
+  const Vec<Dim> gravity = to_vec<Dim>(spec.physics.gravity, "physics", "gravity");
   double depth = fluid_height(fluid, gravity, spec.particles.spacing);
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     depth = std::max(depth, end.largest_depth(spec.time.end));
@@ -94,7 +92,9 @@ double depth_scale(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const
   return depth;
 }
 
-}  // namespace
+bool has_force_probe(const CaseSpec& spec) {
+  return std::ranges::any_of(spec.probes, [](const ProbeTable& probe) { return probe.type == ProbeType::force; });
+}
 
 template <int Dim>
 Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks)
@@ -108,36 +108,31 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                   Drawing<Dim>& drawing)
     : ranks(all_ranks),
       formulation(chosen),
-      density(spec.physics.density),
-      spacing(spec.particles.spacing),
+      liquid{.density = spec.physics.density,
+             .viscosity = {.molecular = spec.physics.viscosity,
+                           .artificial = formulation.artificial_viscosity * spec.particles.spacing}},
+      scale(spec.particles.spacing, formulation.kernel),
       first_wall_id(drawing.fluid.all),
       gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
-      length(formulation.length > 0.0 ? formulation.length : depth_scale(spec, drawing.fluid, gravity)),
-      rows_deep(depth_scale(spec, drawing.fluid, gravity) / spacing),
+      length(formulation.length > 0.0 ? formulation.length : largest_depth(spec, drawing.fluid)),
       domain(periodic_domain<Dim>(spec.domain)),
       gravity_across(across<Dim>(domain, gravity)),
-      finds_wall_forces(has_force_probe(spec)),
-      finds_wall_pressure(has_force_probe(spec)),
       is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
-      wall_traits(formulation.walls->traits()),
       wall_motion(std::move(drawing.wall_motion)),
-      kernel(formulation.kernel),
-      lattice(lattice_sums(kernel, spacing)),
-      kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {
+      friction_law{.viscosity = spec.physics.viscosity,
+                   .spacing = scale.spacing,
+                   .exchange_length = 1.0 / scale.lattice.across_plane,
+                   .knows_layers = formulation.has_eddy_viscosity} {
   const double g = gravity.norm();
-  viscosity_law = {.molecular = spec.physics.viscosity, .artificial = formulation.artificial_viscosity * spacing};
-  friction_law = {.viscosity = spec.physics.viscosity,
-                  .spacing = spacing,
-                  .exchange_length = 1.0 / lattice.across_plane,
-                  .knows_layers = formulation.has_eddy_viscosity};
   const double reference_speed = std::sqrt(2.0 * g * length);
   time_step_rule = {.courant = formulation.courant,
-                    .spacing = spacing,
+                    .spacing = scale.spacing,
                     .reference_speed = reference_speed,
                     .viscous_share = formulation.viscous_share};
   if (reference_speed > 0.0) time_step_rule.fastest = formulation.fastest_over_reference * reference_speed;
 }
 
+TAILWATER_IN_2D_AND_3D(largest_depth);
 template struct Drawing<2>;
 template struct Drawing<3>;
 template struct Setup<2>;

@@ -4,12 +4,11 @@
 #include <vector>
 
 #include "closures/time_step.h"
-#include "closures/viscosity.h"
 #include "flow/formulation.h"
+#include "flow/liquid.h"
+#include "flow/scale.h"
 #include "motion/wall_motion.h"
 #include "neighbours/halo.h"
-#include "operators/concentration.h"
-#include "operators/lattice.h"
 #include "parallel/communicator.h"
 #include "sampling/fluid_particles.h"
 #include "walls/shared_rows.h"
@@ -31,6 +30,12 @@ struct Drawing {
   FluidParticles<Dim> fluid;
 };
 
+/// Depth of the water [m] that there may be: at the start, and by what open ends bring. Collective.
+template <int Dim>
+double largest_depth(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
+
+bool has_force_probe(const CaseSpec& spec);
+
 template <int Dim>
 struct Setup {
   /// Takes the motion of the walls out of `drawing`.
@@ -38,23 +43,15 @@ struct Setup {
 
   Communicator ranks;
   FlowFormulation<Dim> formulation;
-  double density;              ///< kg/m^3
-  double spacing;              ///< m
+  Liquid liquid;
+  Scale<Dim> scale;
   std::int64_t first_wall_id;  ///< of a wall particle of number 0
   Vec<Dim> gravity;            ///< m/s^2
-  double length;     ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
-  double rows_deep;  ///< the fluid's height along gravity at the start, in particles
+  double length;  ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   PeriodicDomain<Dim> domain;
-  Vec<Dim> gravity_across;   ///< m/s^2; across the periodic directions: along them water falls without end
-  bool finds_wall_forces;    ///< whether a probe or a floating body asks for friction and what the last guard does
-  bool finds_wall_pressure;  ///< whether a probe asks for the forces of the pressure too
-  bool is_closed;            ///< periodic in every direction: no surface anywhere, pressure known up to a constant
-  WallTraits wall_traits;
+  Vec<Dim> gravity_across;  ///< m/s^2; across the periodic directions: along them water falls without end
+  bool is_closed;           ///< periodic in every direction: no surface anywhere, pressure known up to a constant
   WallMotion<Dim> wall_motion;
-  Kernel<Dim> kernel;
-  LatticeSums lattice;
-  KernelValues kernel_values;
-  ViscosityLaw viscosity_law;
   FrictionLaw friction_law;
   TimeStepRule time_step_rule;
 
@@ -62,7 +59,7 @@ struct Setup {
   bool has_air() const { return formulation.surface_is_air && !is_closed; }
   /// Viscosity [m^2/s] of the noise dissipation when the largest speed is `speed`.
   double noise_viscosity(double speed) const {
-    return formulation.noise_viscosity * spacing * std::max(speed, time_step_rule.reference_speed);
+    return formulation.noise_viscosity * scale.spacing * std::max(speed, time_step_rule.reference_speed);
   }
 };
 

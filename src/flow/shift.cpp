@@ -15,7 +15,7 @@ Interventions shift(Flow<Dim>& flow, double dt) {
                                      particles.position.begin() + static_cast<std::ptrdiff_t>(particles.owned));
   for_each(particles.owned, [&](std::size_t i) { particles.position[i] += shift[i]; });
   interventions.stopped_at_walls =
-      keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, setup.spacing, {}, before, particles, {});
+      keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, setup.scale.spacing, {}, before, particles, {});
   flow.is_located = false;
   return interventions;
 }

@@ -66,11 +66,11 @@ template <int Dim>
 double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
   const Setup<Dim>& setup = flow.setup;
   const double speed = std::max(largest_speed(flow), limits.speed);
-  const double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed) + limits.viscosity;
+  const double viscosity = setup.liquid.viscosity.at_speed(speed) + setup.noise_viscosity(speed) + limits.viscosity;
   const double dt = setup.time_step_rule.largest(speed, viscosity);
   // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.
   const double approach = std::min(flow.state.approach, 2.0 * setup.time_step_rule.limiting_speed(speed));
-  return approach > 0.0 ? std::min(dt, largest_approach_in_step * setup.spacing / approach) : dt;
+  return approach > 0.0 ? std::min(dt, largest_approach_in_step * setup.scale.spacing / approach) : dt;
 }
 
 template <int Dim>
@@ -82,7 +82,7 @@ double next_time_step(const Flow<Dim>& flow) {
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
   // because a gate may start within the step.
-  const double largest = setup.time_step_rule.courant * setup.spacing;
+  const double largest = setup.time_step_rule.courant * setup.scale.spacing;
   for (double displacement = 0.0; (displacement = largest_displacement_within(flow, dt)) > largest;) {
     dt *= std::max(0.1, 0.99 * largest / displacement);
   }

@@ -65,7 +65,7 @@ struct Readings {
 template <int Dim>
 Readings read_end(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  const double spacing = flow.setup.spacing;
+  const double spacing = flow.setup.scale.spacing;
   Readings readings = sum_over(particles.owned, Readings{}, [&](std::size_t i) -> Readings {
     if (!particles.is_fluid(i)) return {};
     const Vec<Dim>& x = particles.position[i];
@@ -75,7 +75,7 @@ Readings read_end(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow
     const auto of_share = [&](double share) -> Reading {
       const double volume = share * particles.volume[i];
       const Vec<Dim> at_border = x + std::max(0.0, before) * end.opening.normal;
-      const double excess = particles.pressure[i] - end.pressure_at(state, at_border, flow.setup.density);
+      const double excess = particles.pressure[i] - end.pressure_at(state, at_border, flow.setup.liquid.density);
       return {volume, volume * u, volume * particles.pressure[i], volume * excess};
     };
     if (before < 0.0) return {{}, {}, of_share(1.0)};
@@ -95,11 +95,11 @@ double read_flow(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Reading& 
                  OpenEndState& state) {
   const double depth = reading.volume / (end.gauge * end.width);
   const bool was_wet = state.is_wet;
-  state.is_wet = depth > least_depth_over_spacing * flow.setup.spacing;
+  state.is_wet = depth > least_depth_over_spacing * flow.setup.scale.spacing;
   if (!state.is_wet) return 0.0;
   const double speed = reading.flux / reading.volume;
   // rho g h^2/2 is the force of the flow; before the first step there is no pressure yet.
-  const double push = std::max(0.0, reading.push) / (flow.setup.density * end.gauge * end.width);
+  const double push = std::max(0.0, reading.push) / (flow.setup.liquid.density * end.gauge * end.width);
   const double celerity_squared = push > 0.0 ? std::sqrt(2.0 * end.gravity * push) : end.gravity * depth;
   const double celerity = std::sqrt(celerity_squared);
   const double invariant = speed - 2.0 * celerity;
@@ -140,10 +140,10 @@ struct LevelBeyond {
 /// Remembers that the water before an end is off the level beyond by an `error` [m].
 template <int Dim>
 void watch_level(double error, const LevelBeyond& beyond, const Flow<Dim>& flow, double dt, LevelError& miss) {
-  const double depth = std::max(beyond.head, flow.setup.spacing);
+  const double depth = std::max(beyond.head, flow.setup.scale.spacing);
   const double window = depths_of_watch * std::sqrt(depth / beyond.gravity);
   miss.mean += (1.0 - std::exp(-dt / window)) * (error - miss.mean);
-  miss.lasts = std::abs(miss.mean) > flow.setup.spacing ? miss.lasts + dt : 0.0;
+  miss.lasts = std::abs(miss.mean) > flow.setup.scale.spacing ? miss.lasts + dt : 0.0;
   if (miss.lasts < windows_until_told * window) return;
   const bool is_new = miss.lasts - dt < windows_until_told * window;
   if (miss.since < 0.0) miss.since = std::max(0.0, flow.state.time - miss.lasts);
@@ -212,7 +212,7 @@ void hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Readings& 
     if (state.depth == 0.0) state.depth = std::min(stands, end.height);
   }
   deepen(end, dt, state);
-  state.border_speed = std::max(border_speed(end, readings, flow.setup.density, dt, state), -fastest);
+  state.border_speed = std::max(border_speed(end, readings, flow.setup.liquid.density, dt, state), -fastest);
   state.entry_speed = -state.border_speed + end.stretch * state.depth_rate / state.depth;
   const bool is_felt = state.speed < 0.0 || state.depth_at_gauge <= depth_at_speed(invariant, end.gravity, state.speed);
   watch_level(is_felt ? stands - beyond.mean_depth() : 0.0, beyond, flow, dt, state.miss);
@@ -274,13 +274,13 @@ void OpenEnds<Dim>::begin_step(Flow<Dim>& flow, double dt) {
     const Readings readings = read_end(end, state, flow);
     double change = 0.0;
     if (end.flow.feeds()) {
-      hold_inflow(end, readings.gauge, time, dt, flow.setup.spacing, state);
+      hold_inflow(end, readings.gauge, time, dt, flow.setup.scale.spacing, state);
     } else if (end.holds_level()) {
       hold_level(end, flow, readings, time, dt, state);
     } else {
       change = read_flow(end, flow, readings.gauge, dt, state);
     }
-    if (end.is_driven()) choose_rows(flow.setup.spacing, state);
+    if (end.is_driven()) choose_rows(flow.setup.scale.spacing, state);
     const Vec<Dim>& normal = end.opening.normal;
     const double mean = readings.inside.speed_or(0.0);
     for_each(particles.owned, [&](std::size_t i) {

@@ -55,7 +55,7 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   if (state.rows == 0 || state.entry_speed <= 0.0) return {};
   const double row_height = state.depth / static_cast<double>(state.rows);
   const double column_width = end.width / end.columns;
-  const double spacing = volume ? *volume / (row_height * column_width) : flow.setup.spacing;
+  const double spacing = volume ? *volume / (row_height * column_width) : flow.setup.scale.spacing;
   const std::vector<double> free = free_lengths(end, state, flow);
   std::vector<Entrant<Dim>> entrants;
   for (std::size_t cell = 0; cell < free.size(); ++cell) {
@@ -71,7 +71,7 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
     entrant.velocity =
         end.flow.feeds() ? end.inflow_at(state, entrant.position) : Vec<Dim>(-state.entry_speed * end.opening.normal);
     if (end.opening.normal.dot(entrant.velocity) >= 0.0) continue;
-    entrant.pressure = end.pressure_at(state, entrant.position, flow.setup.density);
+    entrant.pressure = end.pressure_at(state, entrant.position, flow.setup.liquid.density);
     entrant.volume = volume ? *volume : row_height * column_width * spacing;
     entrants.push_back(entrant);
   }
@@ -84,7 +84,7 @@ template <int Dim>
 std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow,
                                          const WaterAmount& sump) {
   const double number = static_cast<double>(sump.particles);
-  const double cell = power<Dim>(flow.setup.spacing);
+  const double cell = power<Dim>(flow.setup.scale.spacing);
   std::vector<Entrant<Dim>> entrants =
       find_entrants(end, state, flow, std::optional(sump.particles > 0 ? sump.volume / number : cell));
   const auto waiting = static_cast<std::size_t>(sump.particles);
@@ -134,7 +134,7 @@ bool OpenEnds<Dim>::bring_in(Flow<Dim>& flow) {
     for (const OpenEndState& any : states_) first_id += any.arrived.particles;
     add_water(flow, entrants, first_id);
     for (const Entrant<Dim>& entrant : entrants) {
-      const double mass = setup.density * entrant.volume;
+      const double mass = setup.liquid.density * entrant.volume;
       state.arrived +=
           {1, entrant.volume, mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
     }

@@ -191,13 +191,13 @@ void OpenEnds<Dim>::write_row(Flow<Dim>& flow, std::size_t i) const {
   LinearSystem::Row row = flow.pressure_rows.row(i);
   if (total == 0.0) {
     row.set_weights([](std::size_t) { return 0.0; });
-    row.finish(1.0, end.pressure_at(states_[end_of_[i]], particles.position[i], setup.density));
+    row.finish(1.0, end.pressure_at(states_[end_of_[i]], particles.position[i], setup.liquid.density));
     return;
   }
   double hydrostatic = 0.0;
   const double sum = row.set_weights([&](std::size_t k) {
     const double share = weight(k) / total;
-    hydrostatic += share * setup.density * setup.gravity.dot(pairs.d(i, k));
+    hydrostatic += share * setup.liquid.density * setup.gravity.dot(pairs.d(i, k));
     return share;
   });
   row.finish(sum, hydrostatic);
@@ -224,7 +224,7 @@ double OpenEnds<Dim>::work_of_driven_particle(const Flow<Dim>& flow, std::size_t
     return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
                     flow.surroundings.pair_vectors.at(pairs, i, k));
   });
-  const Vec<Dim> weight = flow.setup.density * flow.setup.gravity;
+  const Vec<Dim> weight = flow.setup.liquid.density * flow.setup.gravity;
   return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
 }
 
@@ -239,11 +239,11 @@ std::unique_ptr<Part<Dim>> make_open_ends_part(const CaseSpec& spec, const Setup
                                                const Boundary<Dim>& boundary) {
   std::vector<OpenEnd<Dim>> ends;
   for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
-    ends.emplace_back(std::move(end), setup.spacing, traits_of(spec).support * setup.spacing);
+    ends.emplace_back(std::move(end), setup.scale.spacing, traits_of(spec).support * setup.scale.spacing);
     ends.back().reach = reach_of(ends.back().opening, boundary);
   }
   if (ends.empty()) return nullptr;
-  return std::make_unique<OpenEnds<Dim>>(std::move(ends), setup.spacing);
+  return std::make_unique<OpenEnds<Dim>>(std::move(ends), setup.scale.spacing);
 }
 
 template class OpenEnds<2>;

@@ -17,6 +17,8 @@ struct WallForces {
   std::vector<Vec<Dim>> pressure;       ///< N; on a fluid particle the guard's
   std::vector<Vec<Dim>> through_water;  ///< N; pressure through a fluid particle, 0 on a wall particle
   std::vector<Vec<Dim>> friction;       ///< N
+  bool are_requested = false;           ///< whether a probe or a part needs friction and the guard's forces
+  bool pressure_is_requested = false;   ///< whether a probe needs the forces of the pressure too
 
   void reset(std::size_t owned) {
     pressure.assign(owned, Vec<Dim>::Zero());

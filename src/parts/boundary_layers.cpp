@@ -41,9 +41,9 @@ double next_layer_viscosity(const Flow<Dim>& flow, const FrictionWall<Dim>& wall
   namespace sa = spalart_allmaras;
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
-  const double molecular = setup.viscosity_law.molecular;
+  const double molecular = setup.liquid.viscosity.molecular;
   const double nu = particles.layer_viscosity[i];
-  const bool is_beside_wall = wall.is_turbulent() && d < setup.spacing;
+  const bool is_beside_wall = wall.is_turbulent() && d < setup.scale.spacing;
   const double seed = is_beside_wall ? sa::seed({molecular, wall.roughness}, wall.friction_velocity) : 0.0;
   double rate = 0.0;
   double destruction = 0.0;
@@ -56,7 +56,7 @@ double next_layer_viscosity(const Flow<Dim>& flow, const FrictionWall<Dim>& wall
     }
     destruction = sa::destruction_rate(rate, nu, d);
   }
-  const double diffusion = sa::diffusion(flow.pairs(), particles, molecular, setup.spacing, i);
+  const double diffusion = sa::diffusion(flow.pairs(), particles, molecular, setup.scale.spacing, i);
   const double next = (nu + dt * (sa::c_b1 * rate * nu + diffusion)) / (1.0 + dt * destruction);
   return next < least_layer_over_molecular * molecular ? seed : std::max(next, seed);
 }
@@ -74,7 +74,7 @@ StepLimits BoundaryLayers<Dim>::step_limits(const Flow<Dim>& flow) const {
 template <int Dim>
 void BoundaryLayers<Dim>::add_viscosity(const Flow<Dim>& flow, std::span<double> viscosity) const {
   const std::vector<double>& layer = flow.state.particles.layer_viscosity;
-  const double molecular = flow.setup.viscosity_law.molecular;
+  const double molecular = flow.setup.liquid.viscosity.molecular;
   for_each(viscosity.size(),
            [&](std::size_t i) { viscosity[i] += spalart_allmaras::eddy_viscosity(layer[i], molecular); });
 }

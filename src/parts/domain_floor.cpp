@@ -32,7 +32,7 @@ Floor<Dim> find_floor(const Flow<Dim>& flow) {
   }
   const Vec<Dim> down = setup.gravity.normalized();
   const Vec<Dim> lowest = (down.array() > 0.0).select(box.max(), box.min());
-  return {down, down.dot(lowest) + kernel_radius(setup.kernel)};
+  return {down, down.dot(lowest) + kernel_radius(setup.scale.kernel)};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
   const Vec<Dim> gravity = setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : setup.gravity;
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    particles.velocity[i] = predicted.velocity[i] + dt * (gravity - gradient[i] / setup.density);
+    particles.velocity[i] = predicted.velocity[i] + dt * (gravity - gradient[i] / setup.liquid.density);
   });
   for (const auto& part : flow.parts) part->correct(flow, dt);
   flow.state.wall_velocity = drive.velocity;

@@ -32,7 +32,7 @@ void limit_correction(const Flow<Dim>& flow, const std::vector<double>& allowed,
 
 template <int Dim>
 SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt) {
-  const double density = flow.setup.density;
+  const double density = flow.setup.liquid.density;
   Particles<Dim>& particles = flow.state.particles;
   const std::size_t fallback_rows = assemble_weights(flow, drive);
   set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);

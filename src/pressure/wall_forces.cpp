@@ -15,8 +15,8 @@ std::vector<double> shares_of_water(const Flow<Dim>& flow) {
   for_each(particles.size(), [&](std::size_t i) {
     if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) return;
     const auto row = static_cast<std::size_t>(particles.wall_row[i]);
-    share[i] =
-        rests ? flow.walls.share_of_water[row] : share_of_water(flow.walls, row, kernel_radius(flow.setup.kernel));
+    share[i] = rests ? flow.walls.share_of_water[row]
+                     : share_of_water(flow.walls, row, kernel_radius(flow.setup.scale.kernel));
   });
   return share;
 }
@@ -25,7 +25,7 @@ std::vector<double> shares_of_water(const Flow<Dim>& flow) {
 
 template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
-  if (!flow.setup.finds_wall_pressure) return;
+  if (!flow.wall_forces.pressure_is_requested) return;
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<double> share = shares_of_water(flow);
   std::vector<std::size_t> walls;

@@ -22,7 +22,7 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   if (flow.pressure_solver.needs_cells()) {
     const std::span positions(flow.state.particles.position);
     flow.pressure_rows.set_cells(
-        find_cells<Dim>(positions.first(flow.state.particles.owned), cell_edge * flow.setup.spacing,
+        find_cells<Dim>(positions.first(flow.state.particles.owned), cell_edge * flow.setup.scale.spacing,
                         [&](std::size_t i) { return has_equation(flow.role[i]) && flow.role[i] != Role::following; }));
   }
   flow.wall_model().assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);

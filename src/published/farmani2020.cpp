@@ -32,7 +32,7 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
     if (marks == SurfaceMarks::found) {
       mark_by_density<Dim>(flow.pairs(), particles, surroundings.concentration, surroundings.is_surface);
       flow.halo().exchange(surroundings.is_surface);
-      find_interior_by_marks<Dim>(flow.pairs(), particles, flow.setup.spacing, surroundings.is_surface,
+      find_interior_by_marks<Dim>(flow.pairs(), particles, flow.setup.scale.spacing, surroundings.is_surface,
                                   surroundings.interior);
     }
   }
@@ -46,7 +46,7 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
                          std::vector<Vec<Dim>>& acceleration) const override {  // (B9)
     const Particles<Dim>& particles = flow.state.particles;
     std::vector<double> viscosity(particles.size());
-    effective_viscosity<Dim>(flow.setup.viscosity_law, particles.velocity, viscosity);
+    effective_viscosity<Dim>(flow.setup.liquid.viscosity, particles.velocity, viscosity);
     add_shao_lo_viscosity<Dim>(flow.pairs(), particles, eta_squared_, flow.surroundings.concentration, viscosity,
                                particles.velocity, acceleration);
   }
@@ -70,7 +70,7 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
   PressureSource find_source(const Flow<Dim>& flow, std::span<const Vec<Dim>>, std::span<const double>,
                              double dt) const override {  // (B17)
     PressureSource source{std::vector<double>(flow.state.particles.owned, 0.0), {}};
-    const double unit = flow.setup.density / (dt * dt);
+    const double unit = flow.setup.liquid.density / (dt * dt);
     for_each(source.rows.size(),
              [&](std::size_t i) { source.rows[i] = unit * (flow.surroundings.concentration[i] - 1.0); });
     return source;

@@ -41,10 +41,11 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
     compute_renormalisation<Dim>(pairs, particles.volume, surroundings.takes_part, *tensors_);  // (F10), (F13)
     if (marks == SurfaceMarks::found) {
       mark_by_cone<Dim>(
-          {pairs, surroundings.concentration, surroundings.concentration_gradient, *tensors_, flow.setup.spacing},
+          {pairs, surroundings.concentration, surroundings.concentration_gradient, *tensors_, flow.setup.scale.spacing},
           particles, surroundings.is_surface);
       flow.halo().exchange(surroundings.is_surface);
-      find_interior_by_marks<Dim>(pairs, particles, flow.setup.spacing, surroundings.is_surface, surroundings.interior);
+      find_interior_by_marks<Dim>(pairs, particles, flow.setup.scale.spacing, surroundings.is_surface,
+                                  surroundings.interior);
     }
   }
 
@@ -57,11 +58,11 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
                          std::vector<Vec<Dim>>& acceleration) const override {  // (F2)
     const Particles<Dim>& particles = flow.state.particles;
     std::vector<double> viscosity(particles.size());
-    effective_viscosity<Dim>(flow.setup.viscosity_law, particles.velocity, viscosity);  // (F3)
-    add_consistent_viscosity<Dim>(flow.pairs(), particles, *tensors_, flow.surroundings.takes_part, flow.setup.spacing,
-                                  viscosity, particles.velocity, acceleration);
+    effective_viscosity<Dim>(flow.setup.liquid.viscosity, particles.velocity, viscosity);  // (F3)
+    add_consistent_viscosity<Dim>(flow.pairs(), particles, *tensors_, flow.surroundings.takes_part,
+                                  flow.setup.scale.spacing, viscosity, particles.velocity, acceleration);
     std::vector<Mat<Dim>> tau(particles.size());  // (F4)-(F6)
-    sub_particle_stress<Dim>(flow.pairs(), particles, stress, flow.setup.spacing, particles.velocity, tau);
+    sub_particle_stress<Dim>(flow.pairs(), particles, stress, flow.setup.scale.spacing, particles.velocity, tau);
     flow.halo().exchange(tau);
     add_stress_divergence<Dim>(flow.pairs(), particles, tau, acceleration);
   }
@@ -85,7 +86,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
       return row.set_weights([&](std::size_t k) {
         return flow.surroundings.takes_part[pairs.j[k]]
                    ? fallback_laplacian_weight(tensors, volume[pairs.j[k]], pairs.r(i, k), pairs.value(i, k),
-                                               flow.setup.spacing)
+                                               flow.setup.scale.spacing)
                    : 0.0;
       });
     });
@@ -96,7 +97,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
                              double dt) const override {  // (F15), (F22)
     PressureSource source{std::vector<double>(flow.state.particles.owned, 0.0), {}};
     find_divergence(flow, velocity, source.rows);
-    const double unit = flow.setup.density / dt;
+    const double unit = flow.setup.liquid.density / dt;
     for_each(source.rows.size(), [&](std::size_t i) {
       if (flow.role[i] == Role::water) source.rows[i] = -unit * (source.rows[i] - target[i]);
     });

@@ -24,7 +24,7 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
     density_error_.push_back(has_work_fields ? flow.surroundings.concentration[i] - 1.0 : 0.0);
     is_surface_.push_back(has_work_fields ? flow.surroundings.is_surface[i] : 0);
     eddy_viscosity_.push_back(
-        spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], flow.setup.viscosity_law.molecular));
+        spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], flow.setup.liquid.viscosity.molecular));
     id_.push_back(particles.id[i]);
   }
 }

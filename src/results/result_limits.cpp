@@ -29,10 +29,10 @@ ResultLimits::ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow)
       volume_{"the mean density of the water away from the surface was off by {:.3g} %",
               "the mean density of the water away from the surface was off by {:.3g} %", "volume",
               limits.volume_warning, limits.volume_stop},
-      volume_at_start_(flow.setup.ranks.sum(fluid_sums_of_rank(flow).mass) / flow.setup.density),
+      volume_at_start_(flow.setup.ranks.sum(fluid_sums_of_rank(flow).mass) / flow.setup.liquid.density),
       kinetic_at_start_(flow.setup.ranks.sum(fluid_sums_of_rank(flow).kinetic_energy)),
-      potential_scale_(0.5 * flow.setup.density * flow.setup.gravity.norm() * flow.setup.length),
-      unresolved_(resolved_lift * flow.setup.density * flow.setup.gravity.norm() * flow.setup.spacing) {}
+      potential_scale_(0.5 * flow.setup.liquid.density * flow.setup.gravity.norm() * flow.setup.length),
+      unresolved_(resolved_lift * flow.setup.liquid.density * flow.setup.gravity.norm() * flow.setup.scale.spacing) {}
 
 void ResultLimits::check(double time, double energy_rise, const FlowMeasures& measures) {
   const double density_error = std::abs(measures.density_error_mean);

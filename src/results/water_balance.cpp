@@ -69,11 +69,12 @@ template <int Dim>
 bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box, const Vec<Dim>& x) {
   const Vec<Dim>& gravity = flow.setup.gravity;
   if (gravity.norm() == 0.0) return false;
-  const double length = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.spacing;
+  const double length = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.scale.spacing;
   const Vec<Dim> fall = length * gravity.normalized();
   Landing first;
   for (const Vec<Dim>& place : images_along<Dim>(flow.setup.domain, x, fall)) {
-    const Landing landing = landing_of<Dim>(flow.walls.boundary, place, fall, corner_tolerance * flow.setup.spacing);
+    const Landing landing =
+        landing_of<Dim>(flow.walls.boundary, place, fall, corner_tolerance * flow.setup.scale.spacing);
     if (landing.share < first.share) first = landing;
   }
   return first.height > 0.0;
@@ -122,7 +123,7 @@ WaterAmount water_inside(const Flow<Dim>& flow) {
 
 template <int Dim>
 Json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
-  const double density = flow.setup.density;
+  const double density = flow.setup.liquid.density;
   const auto& ends = flow.template part<OpenEnds<Dim>>();
   return {{"start", summary_of(at_start, density)},
           {"in", summary_of(ends.arrived(), density)},

@@ -30,7 +30,7 @@ template <int Dim>
 double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_part, std::size_t i,
                    LinearSystem::Row& row) {
   const Pairs<Dim>& pairs = flow.pairs();
-  const double spacing = flow.setup.spacing;
+  const double spacing = flow.setup.scale.spacing;
   return row.write_weights([&](float* weights) {
     LaneSum sums;
     for_each_pair(pairs, i, [&](const auto& batch) {
@@ -47,10 +47,10 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
 /// a_i of a row whose weights sum to `sum`: air near the surface and on walls, open faces and softness inside.
 template <int Dim>
 double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) const {
-  const double air = laws_.air.weight(sum, flow.setup.lattice.morris);
+  const double air = laws_.air.weight(sum, flow.setup.scale.lattice.morris);
   const double interior = flow.surroundings.interior[i];
   if (interior == 0.0) return air;
-  const double spacing = flow.setup.spacing;
+  const double spacing = flow.setup.scale.spacing;
   const double inside = 4.0 * flow.surroundings.open_faces[i].squaredNorm() + softness / (spacing * spacing);
   return std::lerp(air, inside, interior);
 }

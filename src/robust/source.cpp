@@ -25,11 +25,11 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   const std::size_t owned = flow.state.particles.owned;
   const std::vector<double>& concentration = flow.surroundings.concentration;
   std::vector<double> source(owned, 0.0);
-  const double unit = setup.density / (dt * dt);
+  const double unit = setup.liquid.density / (dt * dt);
   std::vector<double> overlap(owned);
-  find_wall_overlap<Dim>(flow.pairs(), flow.walls.boundary, setup.spacing, flow.state.particles, overlap);
+  find_wall_overlap<Dim>(flow.pairs(), flow.walls.boundary, setup.scale.spacing, flow.state.particles, overlap);
   const double lift = flow.state.density_share;
-  const double courant = setup.time_step_rule.limiting_speed(largest_speed(flow)) * dt / setup.spacing;
+  const double courant = setup.time_step_rule.limiting_speed(largest_speed(flow)) * dt / setup.scale.spacing;
   const double share = relaxation * courant;
   for_each(owned, [&](std::size_t i) {
     const double error = concentration[i] - 1.0;
@@ -47,7 +47,7 @@ PressureSource RobustDiscretisation<Dim>::find_source(const Flow<Dim>& flow, std
   const std::size_t owned = flow.state.particles.owned;
   PressureSource source{std::vector<double>(owned, 0.0), find_density_source(flow, laws_.density_relaxation, dt)};
   find_divergence(flow, velocity, source.rows);
-  const double unit = flow.setup.density / dt;
+  const double unit = flow.setup.liquid.density / dt;
   for_each(owned, [&](std::size_t i) {
     if (flow.role[i] == Role::water) source.rows[i] = -unit * (source.rows[i] - target[i]);
   });

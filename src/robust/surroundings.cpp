@@ -11,11 +11,11 @@ template <int Dim>
 void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, SurfaceMarks /*marks*/) {
   Surroundings<Dim>& surroundings = flow.surroundings;
   const Particles<Dim>& particles = flow.state.particles;
-  find_interior<Dim>(flow.pairs(), particles, surroundings.concentration, flow.setup.kernel_values.W_0,
+  find_interior<Dim>(flow.pairs(), particles, surroundings.concentration, flow.setup.scale.kernel_values.W_0,
                      surroundings.interior);
   if (flow.walls.is_curved) {
     flow.halo().exchange(surroundings.interior);
-    see_water_in_front<Dim>(flow.wall_scene(), flow.setup.spacing, surroundings.interior);
+    see_water_in_front<Dim>(flow.wall_scene(), flow.setup.scale.spacing, surroundings.interior);
   }
   mark_thin_water<Dim>(particles, surroundings.concentration, surroundings.is_surface);  // for the field files
   flow.halo().exchange(surroundings.interior);
@@ -38,7 +38,7 @@ void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
   const CorrectionReach reach =
       laws_.pair_vectors == PairVectors::corrected_to_surface ? CorrectionReach::surface : CorrectionReach::inside;
   find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
-                                   {kernel_radius(flow.setup.kernel), particles.volume, particles.kind,
+                                   {kernel_radius(flow.setup.scale.kernel), particles.volume, particles.kind,
                                     surroundings.interior, surroundings.first_moment},
                                    reach, closing_sweeps(reach), flow.pair_workspace->take(pairs, pairs + pairs / 4),
                                    surroundings.pair_vectors, surroundings.open_faces, surroundings.mean_interior);

@@ -11,9 +11,9 @@ void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::sp
   std::vector<double> viscosity(particles.size());
   const bool damps_noise = setup.formulation.noise_viscosity > 0.0;
   const double noise_viscosity = damps_noise ? setup.noise_viscosity(largest_speed(flow)) : 0.0;
-  effective_viscosity<Dim>(setup.viscosity_law, particles.velocity, viscosity);
+  effective_viscosity<Dim>(setup.liquid.viscosity, particles.velocity, viscosity);
   for (const auto& part : flow.parts) part->add_viscosity(flow, viscosity);
-  add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.spacing, flow.surroundings.pair_vectors, viscosity,
+  add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.scale.spacing, flow.surroundings.pair_vectors, viscosity,
                                noise_viscosity, particles.velocity, velocity_gradient, acceleration);
 }
 

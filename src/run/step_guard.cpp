@@ -76,7 +76,7 @@ void StepGuard<Dim>::require_sound_step(double dt) {
   if (reference_step_ == 0.0) {
     // Without gravity no speed is too high for the water but by comparison with the start.
     const double speed = setup.time_step_rule.reference_speed > 0.0 ? 0.0 : largest_speed(flow_);
-    reference_step_ = setup.time_step_rule.largest(speed, setup.viscosity_law.at_speed(speed));
+    reference_step_ = setup.time_step_rule.largest(speed, setup.liquid.viscosity.at_speed(speed));
     if (!setup.wall_motion.moving().empty()) reference_step_ = std::min(reference_step_, dt);  // walls limit it too
   }
   if (!std::isfinite(reference_step_) || dt >= smallest_share * reference_step_) return;
@@ -89,7 +89,7 @@ void StepGuard<Dim>::require_sound_step(double dt) {
          std::nullopt);
   }
   const double speed = largest_speed(flow_);
-  const double viscosity = setup.viscosity_law.at_speed(speed) + setup.noise_viscosity(speed);
+  const double viscosity = setup.liquid.viscosity.at_speed(speed) + setup.noise_viscosity(speed);
   const bool is_viscous = setup.time_step_rule.largest(speed, viscosity) < setup.time_step_rule.largest(speed, 0.0);
   const Particles<Dim>& particles = flow_.state.particles;
   std::optional<std::size_t> culprit = fastest_particle(particles);

@@ -38,7 +38,7 @@ void start(Flow<Dim>& flow) {
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
   flow.state.approach = largest_approach(flow);
-  if (flow.setup.finds_wall_forces) flow.wall_forces.reset(flow.state.particles.owned);
+  if (flow.wall_forces.are_requested) flow.wall_forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   flow.setup.formulation.find_first_pressure(flow, start, dt);
 }

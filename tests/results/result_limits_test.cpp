@@ -20,7 +20,7 @@ class Limits {
     const double mass = fluid_sums_of_rank(flow_).mass;
     limits_.check(flow_.state.time, share * 0.5 * mass * flow_.setup.gravity.norm() * flow_.setup.length, {});
   }
-  double rows() const { return flow_.setup.length / flow_.setup.spacing; }
+  double rows() const { return flow_.setup.length / flow_.setup.scale.spacing; }
   ResultLimits& limits() { return limits_; }
   std::size_t count() const { return warnings().size() - before_; }
 

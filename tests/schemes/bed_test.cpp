@@ -45,13 +45,13 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
     EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
     ASSERT_LT(measure(flow).largest_speed, settling) << "t = " << flow.state.time;
   }
-  const double unit = flow.setup.density * g * dx;
+  const double unit = flow.setup.liquid.density * g * dx;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.state.particles.is_fluid(i)) continue;
     const Vec<2>& x = flow.state.particles.position[i];
     EXPECT_GT(flow.walls.boundary.nearest(x, 1.0).signed_distance, 0.0);
     // p = 0 is known to dx, the level to another: the polygon holds its area to a particle per row beside the slopes.
-    EXPECT_LT(std::abs(flow.state.particles.pressure[i] - flow.setup.density * g * (depth - x[1])), 2.0 * unit)
+    EXPECT_LT(std::abs(flow.state.particles.pressure[i] - flow.setup.liquid.density * g * (depth - x[1])), 2.0 * unit)
         << x.transpose();
   }
 }
@@ -65,7 +65,7 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   water.max = {0.4, depth};
   spec.fluid = {water};
   Flow<2> flow = make_flow<2>(spec);
-  const double reservoir = flow.setup.density * g * depth;
+  const double reservoir = flow.setup.liquid.density * g * depth;
   const double bore = 2.0 * std::sqrt(g * depth);  // at most
   std::size_t stopped_at_walls = 0;
   std::size_t steps = 0;

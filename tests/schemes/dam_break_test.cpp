@@ -87,7 +87,7 @@ TEST_P(DamBreak, IsBitIdenticalWhenRepeated) {
 
 TEST_P(DamBreak, HasAllWallsThatTheWaterFeels) {
   Flow<2> flow = make_flow<2>(dam_break(GetParam()));
-  const double support = kernel_radius(flow.setup.kernel);
+  const double support = kernel_radius(flow.setup.scale.kernel);
   const WallParticles<2>& table = flow.walls.particles;
   const std::size_t walls_at_start = flow.state.particles.owned - count_fluid(flow);
   EXPECT_LT(walls_at_start, table.size() / 2);  // most of the tank is dry

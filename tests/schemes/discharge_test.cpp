@@ -38,11 +38,11 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
     return reading
         .take({.particles = flow.state.particles,
                .grid = flow.neighbourhood.grid(),
-               .kernel = flow.setup.kernel,
+               .kernel = flow.setup.scale.kernel,
                .boundary = flow.walls.boundary,
-               .density = flow.setup.density,
+               .density = flow.setup.liquid.density,
                .gravity = flow.setup.gravity,
-               .spacing = flow.setup.spacing,
+               .spacing = flow.setup.scale.spacing,
                .time = flow.state.time,
                .totals = {.section_volumes = flow.part<SectionCounters<2>>().volumes()},
                .domain = flow.setup.domain})

@@ -214,7 +214,7 @@ TEST_P(Energy, ARiseFadesAndHoldsTheDensitySourceMeanwhile) {
   spec.scheme.integrator = GetParam();
   spec.study.energy_slack = 1.0;  // all that the settling lattice does is small
   Flow<2> flow = make_flow<2>(spec);
-  const double mass = flow.setup.density * 0.5 * 0.5;
+  const double mass = flow.setup.liquid.density * 0.5 * 0.5;
   flow.state.energy_rise = 0.8 * mass * g * flow.setup.length / 2.0;
   while (flow.state.time < 0.3) {
     const double density_share = step(flow).density_share;

@@ -87,7 +87,7 @@ TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
       Vec<Dim> sum = Vec<Dim>::Zero();
       const Particles<Dim>& particles = flow.state.particles;
       for (std::size_t i = 0; i < particles.owned; ++i) {
-        if (particles.is_fluid(i)) sum += flow.setup.density * particles.volume[i] * particles.velocity[i];
+        if (particles.is_fluid(i)) sum += flow.setup.liquid.density * particles.volume[i] * particles.velocity[i];
       }
       const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
       return Vec<Dim>(sum + bodies_of(flow).bodies[0].mass * body.linear_velocity() +

@@ -124,9 +124,9 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
       if (!flow.state.particles.is_fluid(i)) continue;
       const Vec<2> x = flow.state.particles.position[i] - Vec<2>(displacement, 0.0);
-      const double exact = flow.setup.density * (g * (0.55 - x[1]) - a * x[0]);
+      const double exact = flow.setup.liquid.density * (g * (0.55 - x[1]) - a * x[0]);
       // The surface of a lattice of squares is known to half a diagonal more than a level one.
-      EXPECT_LT(std::abs(flow.state.particles.pressure[i] - exact), 1.7 * flow.setup.density * felt * dx)
+      EXPECT_LT(std::abs(flow.state.particles.pressure[i] - exact), 1.7 * flow.setup.liquid.density * felt * dx)
           << "at " << x.transpose();
     }
   };
@@ -201,7 +201,7 @@ TEST_P(MovingWall, AGateLiftedBetweenEqualLevelsLeavesThemSo) {
   spec.fluid = {water_box({0.0, 0.0}, {0.5, depth}), water_box({0.65, 0.0}, {1.15, depth})};
   Flow<2> flow = make_flow<2>(spec);
   // What the water can win is the fall into the room of the gate.
-  const double won = flow.setup.density * g * depth * thickness * 0.5 * depth;
+  const double won = flow.setup.liquid.density * g * depth * thickness * 0.5 * depth;
   std::size_t stopped_at_walls = 0;
   while (flow.state.time < 1.5) {
     stopped_at_walls += step(flow).interventions.stopped_at_walls;

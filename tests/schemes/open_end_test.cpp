@@ -127,8 +127,8 @@ TEST(Outlet, EndStretchIsHydrostatic) {
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!is_claimed(flow.role[i])) continue;
     ++leaving;
-    EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.density * g * (0.5 - flow.state.particles.position[i][1]),
-                1e-6);
+    EXPECT_NEAR(flow.state.particles.pressure[i],
+                flow.setup.liquid.density * g * (0.5 - flow.state.particles.position[i][1]), 1e-6);
   }
   EXPECT_EQ(leaving, 4 * 10) << "the support and a spacing, in the whole depth";
 }
@@ -245,7 +245,7 @@ TYPED_TEST(OpenEndTest, WhatEntersIsWhatIsAskedFor) {
       const bool is_before = flow.state.particles.is_fluid(i) && flow.state.particles.position[i][0] <= 0.5 * width;
       if (is_before) before_section += flow.state.particles.volume[i];
     }
-    const double passed = flow.template part<SectionCounters<2>>().volumes()[0];
+    const double passed = flow.template part<SectionCounters<Dim>>().volumes()[0];
     EXPECT_NEAR(0.5 * volume_at_start + arrived.volume, before_section + passed, 1e-9);
   }
 }

@@ -30,7 +30,7 @@ TYPED_TEST(OutflowTest, WaterASupportBelowAllWallsIsBookedAndGone) {
   const CaseSpec spec = tank_case<Dim>(dx, 0.4, 0.2);
   Flow<Dim> flow = make_flow<Dim>(spec);
   Particles<Dim>& particles = flow.state.particles;
-  const double support = kernel_radius(flow.setup.kernel);
+  const double support = kernel_radius(flow.setup.scale.kernel);
   const std::size_t owned = particles.owned;
   const double energy = measure(flow).energy();
   EXPECT_FALSE(remove_outflow(flow));

@@ -44,7 +44,7 @@ TYPED_TEST(PlateTest, FillsEachSupportOnce) {
   locate(flow);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
-  const double support = kernel_radius(flow.setup.kernel);
+  const double support = kernel_radius(flow.setup.scale.kernel);
   std::size_t looked_at = 0;
   std::size_t apart = 0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
@@ -83,12 +83,12 @@ TYPED_TEST(PlateTest, HoldsWaterOfTwoDepthsApart) {
       EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
       ASSERT_LT(measure(flow).largest_speed, settling);
     }
-    const double unit = flow.setup.density * g * dx;
+    const double unit = flow.setup.liquid.density * g * dx;
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
       if (!flow.state.particles.is_fluid(i)) continue;
       const Vec<Dim>& x = flow.state.particles.position[i];
       const double depth = x[0] < 0.5 * width ? deep : shallow;
-      EXPECT_LT(std::abs(flow.state.particles.pressure[i] - flow.setup.density * g * (depth - x[Dim - 1])), unit)
+      EXPECT_LT(std::abs(flow.state.particles.pressure[i] - flow.setup.liquid.density * g * (depth - x[Dim - 1])), unit)
           << x.transpose();
     }
   }
@@ -189,13 +189,13 @@ TEST(MeshPlateAtRest, HoldsWaterApartWhenItBulges) {
     step(flow);
     ASSERT_LT(measure(flow).largest_speed, settling);
   }
-  const double unit = flow.setup.density * g * dx;
+  const double unit = flow.setup.liquid.density * g * dx;
   std::size_t before = 0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
     const Vec<3>& x = particles.position[i];
     EXPECT_EQ(is_before(x), was_before[particles.id[i]]) << x.transpose();
-    EXPECT_LT(std::abs(particles.pressure[i] - flow.setup.density * g * (depth - x[2])), unit) << x.transpose();
+    EXPECT_LT(std::abs(particles.pressure[i] - flow.setup.liquid.density * g * (depth - x[2])), unit) << x.transpose();
     before += is_before(x) ? 1 : 0;
   }
   EXPECT_GT(before, count_fluid(flow) / 2);

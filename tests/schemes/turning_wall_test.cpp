@@ -187,8 +187,8 @@ TEST(TurningWall, IsNoSurfaceForWaterThatHasLeftItByPartOfARow) {
   }
   locate(flow);
   std::vector<double> by_neighbours(flow.surroundings.interior.size());
-  find_interior<2>(flow.pairs(), flow.state.particles, flow.surroundings.concentration, flow.setup.kernel_values.W_0,
-                   by_neighbours);
+  find_interior<2>(flow.pairs(), flow.state.particles, flow.surroundings.concentration,
+                   flow.setup.scale.kernel_values.W_0, by_neighbours);
   double least = 1.0;
   double least_by_neighbours = 1.0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {

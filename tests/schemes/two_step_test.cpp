@@ -140,17 +140,17 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   const std::vector<Float4> velocity = as_float4<Dim>(predicted.velocity);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!has_equation(flow.role[i])) continue;
-    flow.pressure_rows.set_rhs(
-        i,
-        -flow.setup.density / dt * standard_divergence<Dim>(flow.pairs(), i, flow.surroundings.pair_vectors, velocity));
+    flow.pressure_rows.set_rhs(i,
+                               -flow.setup.liquid.density / dt *
+                                   standard_divergence<Dim>(flow.pairs(), i, flow.surroundings.pair_vectors, velocity));
   }
   solve(flow, equation, drive);
   int tested = 0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.state.particles.is_fluid(i) || flow.surroundings.is_surface[i]) continue;
     const double height = flow.state.particles.position[i][Dim - 1];
-    EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.density * g * (depth - height),
-                flow.setup.density * g * dx)
+    EXPECT_NEAR(flow.state.particles.pressure[i], flow.setup.liquid.density * g * (depth - height),
+                flow.setup.liquid.density * g * dx)
         << flow.state.particles.position[i].transpose();
     ++tested;
   }

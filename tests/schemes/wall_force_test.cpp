@@ -35,7 +35,7 @@ Momentum<Dim> momentum_of(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
-    const double mass = flow.setup.density * particles.volume[i];
+    const double mass = flow.setup.liquid.density * particles.volume[i];
     sum.mass += mass;
     sum.linear += mass * particles.velocity[i];
   }
@@ -218,7 +218,7 @@ void expect_buoyancy(const std::vector<Coordinates>& outline, double area) {
     mean_all += dt * on_all.force(dt)[1];
   }
   mean /= impulse;
-  const double weight = flow.setup.density * g * area;
+  const double weight = flow.setup.liquid.density * g * area;
   EXPECT_NEAR(mean[1], weight, 0.01 * weight);
   EXPECT_NEAR(mean[0], 0.0, 0.01 * weight);
   // All walls carry the water.

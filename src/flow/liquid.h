@@ -1,0 +1,13 @@
+// The liquid of a flow.
+#pragma once
+
+#include "closures/viscosity.h"
+
+namespace tailwater {
+
+struct Liquid {
+  double density;          ///< kg/m^3
+  ViscosityLaw viscosity;  ///< m^2/s
+};
+
+}  // namespace tailwater

@@ -1,0 +1,24 @@
+// The resolution of a flow: the particle spacing, and what follows from it and the kernel.
+#pragma once
+
+#include "kernel/kernel.h"
+#include "operators/concentration.h"
+#include "operators/lattice.h"
+
+namespace tailwater {
+
+template <int Dim>
+struct Scale {
+  Scale(double dx, const Kernel<Dim>& of_formulation)
+      : spacing(dx),
+        kernel(of_formulation),
+        lattice(lattice_sums(kernel, spacing)),
+        kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {}
+
+  double spacing;  ///< m; dx
+  Kernel<Dim> kernel;
+  LatticeSums lattice;
+  KernelValues kernel_values;
+};
+
+}  // namespace tailwater
