@@ -62,7 +62,7 @@ template <int Dim>
 WaterAmount amount_of(const Flow<Dim>& flow, std::span<const std::size_t> water) {
   WaterAmount amount = sum_over(water.size(), WaterAmount{}, [&](std::size_t n) -> WaterAmount {
     const std::size_t i = water[n];
-    return {1, flow.state.particles.volume[i], flow.kinetic_energy_of(i) + flow.potential_energy_of(i)};
+    return {1, flow.state.particles.volume[i], flow.potential_energy_of(i) + flow.kinetic_energy_of(i)};
   });
   flow.setup.ranks.sum_each(amount.particles, amount.volume, amount.energy);
   return amount;
