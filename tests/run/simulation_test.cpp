@@ -69,6 +69,19 @@ TYPED_TEST(SimulationTest, LoadsActInOneStep) {
   for (const Vec<Dim>& velocity : simulation.flow().state.particles.velocity) EXPECT_NEAR(velocity[0], dt, 1e-13 * dt);
 }
 
+TYPED_TEST(SimulationTest, AFlowWithLoadsGoesOnFromASavedFlowWithoutThem) {
+  constexpr int Dim = TypeParam::value;
+  Simulation<Dim> alone(this->spec);
+  alone.start();
+  alone.step();
+  Simulation<Dim> loaded(this->spec);
+  script_loads(loaded.flow());
+  SavedFlow<Dim> saved;
+  alone.flow().save(saved);
+  ASSERT_TRUE(loaded.flow().restore(std::move(saved)));
+  EXPECT_EQ(loaded.flow().state.time, alone.flow().state.time);
+}
+
 TYPED_TEST(SimulationTest, FailsWithoutAFolderToo) {
   constexpr int Dim = TypeParam::value;
   Simulation<Dim> simulation(this->spec);
