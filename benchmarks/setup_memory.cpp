@@ -41,7 +41,7 @@ void set_up(const CaseSpec& spec, const Communicator& ranks) {
     const FluidParticles<Dim> fluid = make_fluid_particles(spec, boundary, ranks);
     tell(ranks, "water", start);
     for (const Finding& finding : check_geometry(spec, boundary, fluid)) {
-      if (ranks.is_root()) fmt::print("{}\n", finding.message);
+      if (ranks.is_root()) fmt::print("{}\n", finding.message());
     }
     tell(ranks, "checks", start);
   }

@@ -164,7 +164,7 @@ void PythonSimulation<Dim>::steer(const std::string& name, std::function<std::ve
         "moves in the case, as with displacement = [{}\"0*t\"]",
         name, Dim == 2 ? "0, " : "0, 0, "));
   }
-  const std::string label = wall_label(flow.walls.boundary, wall->wall);
+  const std::string label = wall_label(flow.walls.boundary, wall->wall).text();
   if (wall->maker >= 0 && spec_.wave_makers[static_cast<std::size_t>(wall->maker)].absorption == Absorption::active) {
     throw InputError(fmt::format("{}: the water moves it too; remedy: absorption = \"none\"", label));
   }

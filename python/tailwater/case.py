@@ -37,7 +37,8 @@ class TemporaryFolder:
 class Check:
     """What `check` finds in a case; true if a run may begin.
 
-    `findings` is a list of dicts with "severity" ("error" or "warning"), "line" and "column" (0: none) and "message";
+    `findings` is a list of dicts with "severity" ("error" or "warning"), "line" and "column" (0: none), "message", "places"
+    (lists of coordinates, m) and, where they are known, "table", "index", "key", "value", "unit" and "remedy";
     `particles` (of fluid) and `memory` (bytes) are None where they cannot be known."""
 
     def __init__(self, case: "Case"):

@@ -56,11 +56,11 @@ AirWatch<Dim>::AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Di
   const bool repeats = std::ranges::all_of(domain, [](const auto& range) { return range.has_value(); });
   if (spec.air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
   if (!(cells_over<Dim>(box, spacing_, domain) <= most_cells_of_map)) {
-    throw InputError(
-        "air.pockets: air is looked for in cells of half a particle spacing, and the walls and openings, wherever they "
-        "go, span more than {:g} of them; leave out what is far away, use a larger particles.spacing, or choose "
-        "\"none\"",
-        most_cells_of_map);
+    throw CaseError(
+        {"{}: air is searched for in cells of half a particle spacing, and the walls and openings, wherever "
+         "they move, span more than {:g} of them",
+         CaseLabel("air").with_key("pockets"), most_cells_of_map},
+        {"leave out what is far away, use a larger particles.spacing, or choose \"none\""});
   }
   grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing_, domain);
 }
@@ -180,19 +180,17 @@ std::vector<PocketWall<Dim>> AirWatch<Dim>::walls_beside(const Boundary<Dim>& bo
 
 template <int Dim>
 void AirWatch<Dim>::set_start_pressures(AirState& state) const {
-  std::map<int, std::string> given;
+  std::map<int, CaseLabel> given;
   for (const PocketTable& start : starts_) {
-    const std::string owner = fmt::format("pocket '{}'", start.name);
+    const CaseLabel owner("pocket", start.name);
     const Vec<Dim> x = to_vec<Dim>(start.at, owner, "at");
     const int k = space_.pocket_at(x);
     if (k < 0) {
-      throw InputError(
-          "{}: at {} there is no air at the start that water and walls enclose; give a point in such air, or close the "
-          "walls around it",
-          owner, place(x));
+      throw CaseError({"{}: at {} there is no air at the start that water and walls enclose", owner, place(x)},
+                      {"give a point in such air, or close the walls around it"});
     }
     if (const auto [other, is_new] = given.emplace(k, owner); !is_new) {
-      throw InputError("{} is in the same air as {}; remove one of them", owner, other->second);
+      throw CaseError({"{} is in the same air as {}", owner, other->second}, {"remove one of them"});
     }
     AirPocket& pocket = state.pockets[k];
     const double gas = law_.gas(start.overpressure, pocket.volume);

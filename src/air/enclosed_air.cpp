@@ -47,7 +47,7 @@ template <int Dim>
 std::vector<VentPlace<Dim>> make_vents(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   std::vector<VentPlace<Dim>> vents;
   for (const VentTable& vent : spec.vents) {
-    const Vec<Dim> at = to_vec<Dim>(vent.at, "vent '" + vent.name + "'", "at");
+    const Vec<Dim> at = to_vec<Dim>(vent.at, CaseLabel("vent", vent.name), "at");
     const NearestWall<Dim> wall = boundary.nearest(at, 0.5 * spec.particles.spacing);
     vents.push_back({at, wall.face < 0 ? -1 : boundary.faces[wall.face].wall});
   }

@@ -93,16 +93,16 @@ void write_previews(const CaseSpec& spec, const CheckOptions& options, const Bou
   }
 }
 
-/// Draws what can be drawn of a case whose shapes are wrong, if the message says where.
+/// Draws what can be drawn of a case whose shapes are wrong, if the findings have places.
 template <int Dim>
-void show_bad_places(const CaseSpec& spec, const CheckOptions& options, std::string_view message) {
-  const std::vector<Vec<Dim>> places = places_in<Dim>(message);
+void show_bad_places(const CaseSpec& spec, const CheckOptions& options, const Findings& findings) {
+  const std::vector<Vec<Dim>> places = places_of<Dim>(findings);
   if (places.empty()) return;
   try {
     const BrokenCase<Dim> drawing = draw_broken_case<Dim>(spec);
     write_previews<Dim>(spec, options, drawing.boundary, drawing.fluid, {}, places);
   } catch (const InputError&) {
-    // Nothing can be drawn, for the reason that the message itself gives.
+    // Nothing can be drawn, for the reason that the findings give.
   } catch (const IoError& problem) {
     warn("no preview: {}", problem.what());
   }
@@ -112,8 +112,8 @@ template <int Dim>
 void check_in(const CaseSpec& spec, const CheckOptions& options) {
   try {
     require_sound_geometry(spec);
-  } catch (const InputError& error) {
-    if (!options.draws_nothing) show_bad_places<Dim>(spec, options, error.what());
+  } catch (const CaseError& error) {
+    if (!options.draws_nothing) show_bad_places<Dim>(spec, options, error.findings());
     throw;
   }
   const LinearSession session;

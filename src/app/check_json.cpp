@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string_view>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "app/case_text.h"
-#include "base/text.h"
 #include "case/formulation.h"
 #include "case/reader.h"
 #include "checks/broken_case.h"
@@ -29,71 +25,47 @@ namespace {
 
 constexpr std::size_t most_drawn_particles = 20000;
 
-std::optional<int> take_place_number(std::string_view& text) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end == text.data() + text.size() || *end != ':') return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()) + 1);
-  return number;
+/// `origin`: what messages call the case.
+Json json_of(const Finding& finding, const std::string& origin) {
+  const auto& [file, line, column, end_column] = finding.position;
+  const bool is_of_text = file.empty() || file == origin;  // else of an override
+  Json json{{"severity", finding.severity == Severity::error ? "error" : "warning"},
+            {"line", line},
+            {"column", column},
+            {"message", is_of_text ? finding.message() : finding.line()},
+            {"places", Json::array()}};
+  if (end_column > 0) json["end_column"] = end_column;
+  if (const CaseLabel& about = finding.about; !about.table.empty()) {
+    json["table"] = about.table;
+    if (about.index) json["index"] = *about.index;
+    json["key"] = about.key.empty() ? about.table : about.table + "." + about.key;
+  }
+  for (const MarkedPlace& place : finding.places) {
+    json["places"].push_back(std::vector(place.x.begin(), place.x.begin() + place.dimension));
+  }
+  if (finding.value) json.update({{"value", finding.value->number}, {"unit", finding.value->unit}});
+  if (!finding.remedy.empty()) json["remedy"] = finding.remedy;
+  return json;
 }
 
-/// The text of a case, and what messages call it.
-struct CaseText {
-  std::string_view text;
-  std::string origin;
-};
-
-/// A line "ORIGIN:12:1: message", or one that tells no place.
-Json finding_of(std::string_view line, const CaseText& of, std::string_view severity) {
-  int row = 0;
-  int column = 0;
-  std::string_view message = line;
-  if (message.starts_with(of.origin + ":")) {
-    message.remove_prefix(of.origin.size() + 1);
-    std::string_view rest = message;
-    const std::optional<int> first = take_place_number(rest);
-    const std::optional<int> second = first ? take_place_number(rest) : std::nullopt;
-    if (second) {
-      row = *first;
-      column = *second;
-      message = rest;
-    }
-  }
-  while (message.starts_with(' ')) message.remove_prefix(1);
-  Json finding{{"severity", severity}, {"line", row}, {"column", column}, {"message", message}};
-  if (row > 0) {
-    finding["end_column"] = end_column(of.text, row, column);
-    finding["key"] = key_at(of.text, row);
-  }
-  return finding;
+void add_findings(Json& answer, const Findings& findings, const std::string& origin) {
+  for (const Finding& finding : findings) answer["findings"].push_back(json_of(finding, origin));
 }
 
-void add_findings(Json& findings, std::string_view message, const CaseText& of, std::string_view severity) {
-  for (const std::string_view line : lines_of(message)) {
-    if (!line.empty()) findings.push_back(finding_of(line, of, severity));
-  }
-}
-
-/// Adds to each thing of the drawing the lines of its table. Walls of gates and wave makers stand behind those of
-/// walls.
-void add_lines(Json& drawing, std::string_view text) {
-  auto tables = lines_of_tables(text);
-  const auto put = [&](Json& thing, const std::string& table, std::size_t index) {
-    const std::vector<std::pair<int, int>>& lines = tables[table];
-    if (index < lines.size()) thing["lines"] = {lines[index].first, lines[index].second};
+/// Adds to each thing of the drawing the lines of its table.
+void add_lines(Json& drawing, const CaseSources& sources) {
+  const auto add = [&](Json& thing, const std::string& table) {
+    if (const auto lines = sources.lines(CaseLabel(table, thing["name"].get<std::string>()))) thing["lines"] = *lines;
   };
-  std::map<std::string, std::size_t> count;
   for (Json& wall : drawing["walls"]) {
-    std::string table = wall["kind"];
-    if (table == "body") table = "wall";
-    put(wall, table, count[table]++);
+    const std::string kind = wall["kind"];
+    add(wall, kind == "body" ? "wall" : kind);
   }
   const std::pair<const char*, const char*> lists[] = {
       {"bodies", "body"}, {"inlets", "inlet"}, {"outlets", "outlet"}, {"pockets", "pocket"},
       {"vents", "vent"},  {"probes", "probe"}, {"fluid", "fluid"}};
   for (const auto& [list, table] : lists) {
-    std::size_t index = 0;
-    for (Json& thing : drawing[list]) put(thing, table, index++);
+    for (Json& thing : drawing[list]) add(thing, table);
   }
 }
 
@@ -115,13 +87,12 @@ Json particles_json(const FluidParticles<Dim>& fluid) {
 }
 
 template <int Dim>
-Json drawing_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
-                std::string_view text) {
+Json drawing_of(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Json drawing = scene_json<Dim>(spec, boundary);
   drawing["fluid"] = Json::array();
   for (const FluidTable& block : spec.fluid) drawing["fluid"].push_back({{"name", block.name}});
   drawing["particles"] = particles_json(fluid);
-  add_lines(drawing, text);
+  add_lines(drawing, spec.sources);
   return drawing;
 }
 
@@ -140,22 +111,18 @@ void add_time(const CaseSpec& spec, Json& answer) {
 }
 
 template <int Dim>
-void check_sound(const CaseSpec& spec, const CaseText& of, TrialSteps trial, Json& answer) {
-  const auto add = [&](const Finding& finding) {
-    add_findings(answer["findings"], spec.sources.placed(finding.message), of,
-                 finding.severity == Severity::error ? "error" : "warning");
-  };
+void check_sound(const CaseSpec& spec, const std::string& origin, TrialSteps trial, Json& answer) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
   const Findings memory = check_memory(spec, boundary, available_memory());
-  for (const Finding& finding : memory) add(finding);
+  add_findings(answer, spec.sources.located(memory), origin);
   if (has_error(memory)) {
-    answer["drawing"] = drawing_of<Dim>(spec, boundary, {}, of.text);
+    answer["drawing"] = drawing_of<Dim>(spec, boundary, {});
     return;
   }
   const FluidParticles<Dim> fluid = make_fluid_particles(spec, boundary);
-  answer["drawing"] = drawing_of<Dim>(spec, boundary, fluid, of.text);
+  answer["drawing"] = drawing_of<Dim>(spec, boundary, fluid);
   const Findings geometry = check_geometry(spec, boundary, fluid);
-  for (const Finding& finding : geometry) add(finding);
+  add_findings(answer, spec.sources.located(geometry), origin);
   const ParticleCount count = expected_particle_count(spec, boundary);
   const double memory_bytes = memory_estimate<Dim>(count, neighbours_in_support<Dim>(traits_of(spec).support));
   answer["cost"] = {{"fluid", fluid.position.size()}, {"wall", count.wall}, {"memory_bytes", memory_bytes}};
@@ -168,24 +135,24 @@ void check_sound(const CaseSpec& spec, const CaseText& of, TrialSteps trial, Jso
 
 /// What can be drawn of walls that cannot be made.
 template <int Dim>
-Json broken_drawing(const CaseSpec& spec, std::string_view text) {
+Json broken_drawing(const CaseSpec& spec) {
   try {
     const BrokenCase<Dim> broken = draw_broken_case<Dim>(spec);
-    return drawing_of<Dim>(spec, broken.boundary, broken.fluid, text);
+    return drawing_of<Dim>(spec, broken.boundary, broken.fluid);
   } catch (const InputError&) {
     return {};
   }
 }
 
 template <int Dim>
-void check_what_can_be(const CaseSpec& spec, const CaseText& of, TrialSteps trial, Json& answer) {
+void check_what_can_be(const CaseSpec& spec, const std::string& origin, TrialSteps trial, Json& answer) {
   try {
-    check_sound<Dim>(spec, of, trial, answer);
-  } catch (const InputError& error) {
-    add_findings(answer["findings"], spec.sources.placed(error.what()), of, "error");
-    if (answer["drawing"].is_null()) answer["drawing"] = broken_drawing<Dim>(spec, of.text);
+    check_sound<Dim>(spec, origin, trial, answer);
+  } catch (const CaseError& error) {
+    add_findings(answer, spec.sources.located(error.findings()), origin);
+    if (answer["drawing"].is_null()) answer["drawing"] = broken_drawing<Dim>(spec);
   } catch (const SolverError& failure) {
-    add_findings(answer["findings"], fmt::format("a trial step fails: {}", failure.what()), of, "error");
+    add_findings(answer, {Finding::error({"a trial step fails: {}", failure.what()}, {})}, origin);
   }
 }
 
@@ -194,16 +161,17 @@ void check_what_can_be(const CaseSpec& spec, const CaseText& of, TrialSteps tria
 Json check_as_json(const std::string& text, const std::string& origin, const std::filesystem::path& folder,
                    const std::vector<std::string>& overrides, TrialSteps trial) {
   Json answer{{"findings", Json::array()}, {"drawing", nullptr}, {"summary", Json::array()}, {"cost", nullptr}};
-  const CaseText of{text, origin};
   try {
     const CaseSpec spec = read_case_text(text, origin, overrides, folder);
     if (spec.general.dimension == 2) {
-      check_what_can_be<2>(spec, of, trial, answer);
+      check_what_can_be<2>(spec, origin, trial, answer);
     } else {
-      check_what_can_be<3>(spec, of, trial, answer);
+      check_what_can_be<3>(spec, origin, trial, answer);
     }
+  } catch (const CaseError& error) {
+    add_findings(answer, error.findings(), origin);
   } catch (const InputError& error) {
-    add_findings(answer["findings"], error.what(), of, "error");
+    add_findings(answer, {Finding::error({"{}", error.what()}, {})}, origin);
   }
   return answer;
 }

@@ -13,7 +13,6 @@
 
 #include "base/error.h"
 #include "base/json.h"
-#include "base/text.h"
 #include "case/overrides.h"
 #include "case/reader.h"
 #include "geometry/from_spec.h"
@@ -115,13 +114,13 @@ CaseSpec read_member(const std::filesystem::path& case_file, const std::vector<s
   return spec;
 }
 
-/// A line about a member's case with the option of the command line that it comes from, or else with the member.
-std::string told_of_sweep(std::string_view line, const std::vector<std::string>& swept, const std::string& folder) {
+/// A finding about a member's case with the option of the command line that it comes from, or else with the member.
+std::string line_of_sweep(const Finding& finding, const std::vector<std::string>& swept, const std::string& folder) {
   for (const std::string& text : swept) {
-    const std::string origin = fmt::format("{}{}", override_prefix, text);
-    if (line.starts_with(origin)) return fmt::format("--sweep {}{}", text, line.substr(origin.size()));
+    if (finding.position.file != fmt::format("{}{}", override_prefix, text)) continue;
+    return fmt::format("--sweep {}: {}", text, finding.message());
   }
-  return fmt::format("{} (with {})", line, folder);
+  return fmt::format("{} (with {})", finding.line(), folder);
 }
 
 }  // namespace
@@ -171,10 +170,10 @@ std::vector<CaseSpec> cases_of_sweep(const std::filesystem::path& case_file, con
     all.insert(all.end(), swept.begin(), swept.end());
     try {
       cases.push_back(read_member(case_file, all));
-    } catch (const InputError& error) {
-      for (const std::string_view line : lines_of(error.what())) {
-        const std::string told = told_of_sweep(line, swept, member.folder);
-        if (std::find(problems.begin(), problems.end(), told) == problems.end()) problems.push_back(told);
+    } catch (const CaseError& error) {
+      for (const Finding& finding : error.findings()) {
+        const std::string line = line_of_sweep(finding, swept, member.folder);
+        if (std::find(problems.begin(), problems.end(), line) == problems.end()) problems.push_back(line);
       }
     }
   }

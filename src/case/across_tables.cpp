@@ -18,44 +18,47 @@ namespace tailwater {
 namespace {
 
 /// A series must last to the end of the run; `start` [s] is the time of the run at which it begins.
-void check_end_of_series(const TimeSeries& series, double start, double end, std::string_view key,
+void check_end_of_series(const TimeSeries& series, double start, double end, const CaseLabel& key,
                          const toml::node* node, Problems& problems) {
   const double last = series.empty() ? end : start + series.time.back();
   if (node == nullptr || last >= end) return;
-  problems.add(&node->source(),
-               fmt::format("{} = {}: {}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add "
-                           "lines (the last values again, if it then rests), or end the run before",
-                           key, value_text(*node), series.file, series.line.back(), last, end));
+  problems.wrong(
+      key, *node,
+      fmt::format("{}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add lines (the "
+                  "last values again, if it then rests), or end the run before",
+                  series.file, series.line.back(), last, end));
 }
 
 void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   for (std::size_t k = 0; k < spec.walls.size(); ++k) {
-    check_end_of_series(spec.walls[k].series, 0.0, spec.time.end, fmt::format("wall[{}].motion", k),
+    check_end_of_series(spec.walls[k].series, 0.0, spec.time.end, CaseLabel("wall", k).with_key("motion"),
                         root["wall"][k]["motion"].node(), problems);
   }
   for (std::size_t k = 0; k < spec.gates.size(); ++k) {
-    check_end_of_series(spec.gates[k].series, spec.gates[k].start, spec.time.end, fmt::format("gate[{}].file", k),
+    check_end_of_series(spec.gates[k].series, spec.gates[k].start, spec.time.end, CaseLabel("gate", k).with_key("file"),
                         root["gate"][k]["file"].node(), problems);
   }
 }
 
 /// A mistyped interval would fill the disk, or make the run crawl.
-void check_interval(double interval, double end, double most, std::string_view key, const toml::node* node,
+void check_interval(double interval, double end, double most, const CaseLabel& key, const toml::node* node,
                     std::string_view what, std::string_view remedy, Problems& problems) {
   if (node == nullptr || interval <= 0.0 || end / interval <= most) return;
-  problems.add(&node->source(), fmt::format("{} = {}: makes {:.3g} {} until time.end; give at least {:.3g} s, or 0: {}",
-                                            key, value_text(*node), end / interval, what, end / most, remedy));
+  problems.wrong(key, *node,
+                 fmt::format("makes {:.3g} {} until time.end; give at least {:.3g} s, or 0: {}", end / interval, what,
+                             end / most, remedy));
 }
 
 void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   constexpr double most_lines = 1e8;
   constexpr double most_files = 1e6;
-  check_interval(spec.output.fields_interval, spec.time.end, most_files, "output.fields_interval",
-                 root["output"]["fields_interval"].node(), "field files", "a hundred files", problems);
-  check_interval(spec.output.view_interval, spec.time.end, most_files, "output.view_interval",
+  check_interval(spec.output.fields_interval, spec.time.end, most_files,
+                 CaseLabel("output").with_key("fields_interval"), root["output"]["fields_interval"].node(),
+                 "field files", "a hundred files", problems);
+  check_interval(spec.output.view_interval, spec.time.end, most_files, CaseLabel("output").with_key("view_interval"),
                  root["output"]["view_interval"].node(), "frames", "four hundred frames", problems);
   for (std::size_t i = 0; i < spec.probes.size(); ++i) {
-    check_interval(spec.probes[i].interval, spec.time.end, most_lines, fmt::format("probe[{}].interval", i),
+    check_interval(spec.probes[i].interval, spec.time.end, most_lines, CaseLabel("probe", i).with_key("interval"),
                    root["probe"][i]["interval"].node(), "lines", "a line at every step", problems);
   }
 }
@@ -69,10 +72,10 @@ void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Proble
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
     const toml::node* node = root["fluid"][k]["level"].node();
     if (spec.fluid[k].shape != BlockShape::fill || node == nullptr) continue;
-    problems.add(&node->source(),
-                 fmt::format("fluid[{0}].level = {1}: is a {2}, but physics.gravity does not point down along {2}; "
-                             "turn the case so that it does, or draw the water as a box or a {3}",
-                             k, value_text(*node), dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
+    problems.wrong(CaseLabel("fluid", k).with_key("level"), *node,
+                   fmt::format("is a {0}, but physics.gravity does not point down along {0}; turn the case so that it "
+                               "does, or draw the water as a box or a {1}",
+                               dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
   }
 }
 
@@ -80,12 +83,13 @@ void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Proble
 void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   std::set<std::string_view> names;
   for (const WallTable& wall : spec.walls) names.insert(wall.name);
-  const auto add_names = [&](std::string_view table, const auto& tables) {
+  const auto add_names = [&](const char* table, const auto& tables) {
     for (std::size_t k = 0; k < tables.size(); ++k) {
       if (names.insert(tables[k].name).second) continue;
-      problems.add(&root[table][k].node()->source(),
-                   fmt::format("{}[{}].name = \"{}\": a wall has this name too; give each a name of its own", table, k,
-                               tables[k].name));
+      const CaseLabel key = CaseLabel(table, k).with_key("name");
+      problems.add(
+          &root[table][k].node()->source(), key,
+          fmt::format("{} = \"{}\": a wall has this name too; give each a name of its own", key, tables[k].name));
     }
   };
   add_names("gate", spec.gates);
@@ -95,12 +99,11 @@ void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, 
 /// Reports a `name` under `key`, as in "mooring[0].body", that none of `targets`, tables of one kind, has.
 template <class Target>
 void check_name(const std::string& name, const std::vector<Target>& targets, std::string_view kind,
-                std::string_view key, const toml::node& node, Problems& problems) {
+                const CaseLabel& key, const toml::node& node, Problems& problems) {
   std::vector<std::string_view> names;
   for (const Target& target : targets) names.push_back(target.name);
   if (std::ranges::find(names, name) != names.end()) return;
-  problems.add(&node.source(), fmt::format("{} = {}: there is no {} \"{}\"; {}", key, value_text(node), kind, name,
-                                           unknown_name_hint(name, names)));
+  problems.wrong(key, node, fmt::format("there is no {} \"{}\"; {}", kind, name, unknown_name_hint(name, names)));
 }
 
 /// A body is made of walls that nothing else moves.
@@ -108,15 +111,14 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
   std::map<std::string_view, std::string_view> body_of_wall;
   for (std::size_t k = 0; k < spec.bodies.size(); ++k) {
     const BodyTable& body = spec.bodies[k];
+    const CaseLabel key = CaseLabel("body", k).with_key("walls");
     const auto wrong = [&](const std::string& message) {
-      const toml::node& node = *root["body"][k]["walls"].node();
-      problems.add(&node.source(), fmt::format("body[{}].walls = {}: {}", k, value_text(node), message));
+      problems.wrong(key, *root["body"][k]["walls"].node(), message);
     };
     for (const std::string& name : body.walls) {
       const auto wall = std::ranges::find(spec.walls, name, &WallTable::name);
       if (wall == spec.walls.end()) {
-        check_name(name, spec.walls, "wall", fmt::format("body[{}].walls", k), *root["body"][k]["walls"].node(),
-                   problems);
+        check_name(name, spec.walls, "wall", key, *root["body"][k]["walls"].node(), problems);
         continue;
       }
       const auto varies = [](const Varying& value) { return value != Varying(0.0); };
@@ -137,7 +139,7 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
   }
   const std::string_view why_not = traits_of(spec).no_floating;
   if (!spec.bodies.empty() && !why_not.empty()) {
-    problems.add(&root["body"][0].node()->source(),
+    problems.add(&root["body"][0].node()->source(), CaseLabel("body", 0),
                  fmt::format("body[0]: bodies float only with scheme.formulation = \"{}\" and scheme.name = \"{}\": "
                              "{}; choose these, or give the walls a motion",
                              name_of(Formulation::robust), name_of(SchemeName::farzin2014), why_not));
@@ -146,9 +148,9 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
 
 /// Without a gas in enclosed air there is nothing to start at another pressure, or to let out.
 void check_no_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  const auto check_none = [&](std::string_view table, const auto& tables) {
+  const auto check_none = [&](const char* table, const auto& tables) {
     if (tables.empty()) return;
-    problems.add(&root[table][0].node()->source(),
+    problems.add(&root[table][0].node()->source(), CaseLabel(table, 0),
                  fmt::format("{}[0]: enclosed air is not computed in this case; give pockets = \"{}\" or \"{}\" in "
                              "[air], or remove the table",
                              table, name_of(AirPockets::adiabatic), name_of(AirPockets::isothermal)));
@@ -163,21 +165,19 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
   for (std::size_t k = 0; k < spec.pockets.size(); ++k) {
     const toml::node* node = root["pocket"][k]["overpressure"].node();
     if (node == nullptr || spec.pockets[k].overpressure > -spec.air.pressure) continue;
-    problems.add(&node->source(), fmt::format("pocket[{}].overpressure = {}: leaves no pressure of the atmosphere's "
-                                              "{:.9g} Pa (air.pressure); give more than {:.9g} Pa",
-                                              k, value_text(*node), spec.air.pressure, -spec.air.pressure));
+    problems.wrong(
+        CaseLabel("pocket", k).with_key("overpressure"), *node,
+        fmt::format("leaves no pressure of the atmosphere's {:.9g} Pa (air.pressure); give more than {:.9g} Pa",
+                    spec.air.pressure, -spec.air.pressure));
   }
   const toml::node* node = root["air"]["pockets"].node();
   if (spec.air.pockets == AirPockets::none || node == nullptr) return;
-  const auto wrong = [&](const std::string& message) {
-    problems.add(&node->source(), fmt::format("air.pockets = {}: {}", value_text(*node), message));
-  };
   const std::string_view why_not = traits_of(spec).no_pockets;
-  if (!why_not.empty()) {
-    wrong(fmt::format("is not possible with scheme.formulation = \"{}\": {}; choose \"{}\", or \"{}\" pockets",
-                      name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust),
-                      name_of(AirPockets::none)));
-  }
+  if (why_not.empty()) return;
+  problems.wrong(
+      CaseLabel("air").with_key("pockets"), *node,
+      fmt::format("is not possible with scheme.formulation = \"{}\": {}; choose \"{}\", or \"{}\" pockets",
+                  name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust), name_of(AirPockets::none)));
 }
 
 /// Studies change parts of the robust formulations; the published ones have none of these.
@@ -189,14 +189,14 @@ void check_study(const CaseSpec& spec, const toml::table& root, Problems& proble
                                  : fmt::format("formulation = \"{}\"", name_of(spec.scheme.formulation));
   for (const auto& [key, node] : *study) {
     if (has_study(spec.scheme, key.str())) continue;
-    problems.add(&node.source(), fmt::format("study.{} = {}: is not used with scheme.{}; remove it", key.str(),
-                                             value_text(node), scheme));
+    problems.wrong(CaseLabel("study").with_key(key.str()), node,
+                   fmt::format("is not used with scheme.{}; remove it", scheme));
   }
 }
 
 void check_names_of_others(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   for (std::size_t k = 0; k < spec.moorings.size(); ++k) {
-    const std::string key = fmt::format("mooring[{}].body", k);
+    const CaseLabel key = CaseLabel("mooring", k).with_key("body");
     for (const std::string& name : spec.moorings[k].bodies) {
       check_name(name, spec.bodies, "body", key, *root["mooring"][k]["body"].node(), problems);
     }
@@ -204,7 +204,7 @@ void check_names_of_others(const CaseSpec& spec, const toml::table& root, Proble
   for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
     const std::string& name = spec.inlets[k].water_from;
     if (name.empty()) continue;
-    check_name(name, spec.outlets, "outlet", fmt::format("inlet[{}].water_from", k),
+    check_name(name, spec.outlets, "outlet", CaseLabel("inlet", k).with_key("water_from"),
                *root["inlet"][k]["water_from"].node(), problems);
   }
 }

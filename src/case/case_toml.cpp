@@ -9,7 +9,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "base/error.h"
+#include "base/finding.h"
 #include "case/toml_text.h"
 
 namespace tailwater {
@@ -38,8 +38,8 @@ std::string read_case_file(const std::filesystem::path& path, std::uintmax_t lar
 
 toml::table parse_case(std::string_view text, const std::string& file) {
   if (const auto line = line_of_deep_key(text)) {
-    throw InputError("{}:{}: a key has too many dots; keys are written as in fluid[0].max: a table and a name in it",
-                     file, *line);
+    throw CaseError({"a key has too many dots"}, {"write keys as in fluid[0].max: a table and a name in it"},
+                    {file, static_cast<int>(*line)});
   }
   try {
     return toml::parse(text, file);
@@ -48,8 +48,9 @@ toml::table parse_case(std::string_view text, const std::string& file) {
     std::string description(error.description());  // it quotes letters as they are, ends of lines too
     std::ranges::replace_if(
         description, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
-    throw InputError("{}:{}:{}: not valid TOML: {}; correct the line (texts are written in quotes, lists in [ ])", file,
-                     where.line, where.column, description);
+    throw CaseError({"not valid TOML: {}", description},
+                    {"correct the line (texts are written in quotes, lists in [ ])"},
+                    {file, static_cast<int>(where.line), static_cast<int>(where.column)});
   }
 }
 

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
 #include "case/case_toml.h"
 #include "case/expression.h"
 #include "case/named_numbers.h"
@@ -30,8 +29,8 @@ class NamedNumbersReader {
   NamedNumbersReader(CaseSpec& spec, Context& context, const toml::table& root)
       : spec_(spec),
         context_(context),
-        particles_(context, root["particles"].as_table(), "particles"),
-        physics_(context, root["physics"].as_table(), "physics") {
+        particles_(context, root["particles"].as_table(), CaseLabel("particles")),
+        physics_(context, root["physics"].as_table(), CaseLabel("physics")) {
     find_parameters(root.get("parameters"));
     open_["dx"] = particles_.given("spacing");
     open_["g"] = physics_.given("gravity");
@@ -157,12 +156,11 @@ class NamedNumbersReader {
   }
 
   void report(const std::string& name, const toml::node& node, const std::string& message) {
-    const std::string key = name.empty()   ? "parameters"
-                            : name == "dx" ? "particles.spacing"
-                            : name == "g"  ? "physics.gravity"
-                                           : "parameters." + name;
-    context_.problems.add(&node.source(), fmt::format("{} = {}: {}", key, value_text(node), message));
-    context_.keys_done.insert(key);
+    const CaseLabel key = name == "dx"  ? CaseLabel("particles").with_key("spacing")
+                          : name == "g" ? CaseLabel("physics").with_key("gravity")
+                                        : CaseLabel("parameters").with_key(name);
+    context_.problems.wrong(key, node, message);
+    context_.keys_done.insert(key.text());
   }
 
   CaseSpec& spec_;
@@ -177,13 +175,13 @@ class NamedNumbersReader {
 }  // namespace
 
 void read_foundations(CaseSpec& spec, Context& context, const toml::table& root) {
-  TableReader general(context, root["case"].as_table(), "case");
+  TableReader general(context, root["case"].as_table(), CaseLabel("case"));
   general.read_ahead(spec.general, {"format", "dimension"});
   if (spec.general.format > case_format) {
     // What else seems wrong may be right in that format.
     general.wrong("format", *general.given("format"),
                   fmt::format("this program reads case files up to format {}; use a newer version of it", case_format));
-    throw InputError(context.problems.text());
+    throw CaseError(context.problems.findings());
   }
   context.dimension = general.is_wrong("dimension") ? 0 : spec.general.dimension;
   if (context.dimension == 3) spec.physics.gravity = {0.0, 0.0, -9.81};

@@ -10,7 +10,7 @@ namespace tailwater {
 
 /// Reads case.format, case.dimension, [parameters], particles.spacing and physics.gravity into `spec`, and into
 /// `context` the dimension and the named numbers. Parameters, dx and g may use one another in any order. Throws
-/// InputError for a format of a newer program.
+/// CaseError for a format of a newer program.
 void read_foundations(CaseSpec& spec, Context& context, const toml::table& root);
 
 }  // namespace tailwater

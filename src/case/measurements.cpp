@@ -26,12 +26,12 @@ class Reporter {
   Reporter(std::size_t k, const toml::table& root, Problems& problems) : k_(k), root_(root), problems_(problems) {}
 
   void wrong(const char* key, const std::string& message) const {
+    const CaseLabel label = CaseLabel("measurement", k_).with_key(key);
     const toml::node* node = root_["measurement"][k_][key].node();
     if (node == nullptr) {
-      problems_.add(&root_["measurement"][k_].node()->source(),
-                    fmt::format("measurement[{}].{}: {}", k_, key, message));
+      problems_.add(&root_["measurement"][k_].node()->source(), label, fmt::format("{}: {}", label, message));
     } else {
-      problems_.add(&node->source(), fmt::format("measurement[{}].{} = {}: {}", k_, key, value_text(*node), message));
+      problems_.wrong(label, *node, message);
     }
   }
 

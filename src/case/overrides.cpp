@@ -157,17 +157,15 @@ void apply(toml::table& root, std::string_view text, const std::string& origin) 
 
 }  // namespace
 
-std::vector<std::string> apply_overrides(toml::table& root, const std::vector<std::string>& overrides) {
-  std::vector<std::string> problems;
+void apply_overrides(toml::table& root, const std::vector<std::string>& overrides, Problems& problems) {
   for (const std::string& text : overrides) {
     const std::string origin = fmt::format("{}{}", override_prefix, text);
     try {
       apply(root, text, origin);
     } catch (const Misplaced& misplaced) {
-      problems.push_back(fmt::format("{}: {}", origin, misplaced.reason));
+      problems.add_override(origin, misplaced.reason);
     }
   }
-  return problems;
 }
 
 }  // namespace tailwater

@@ -1,12 +1,10 @@
 #include "case/problems.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "base/text.h"
 #include "case/overrides.h"
 #include "case/toml_text.h"
 
@@ -45,35 +43,36 @@ std::string value_text(const toml::node& node) {
   return end == text.size() ? text : fmt::format("{}...", text.substr(0, end));
 }
 
-std::string place_text(const std::string& file, const toml::source_region* source) {
-  if (source == nullptr || !source->begin) return file;
-  if (source->path && source->path->starts_with(override_prefix)) return *source->path;
-  return fmt::format("{}:{}:{}", file, source->begin.line, source->begin.column);
+FilePosition position_of(const std::string& file, const toml::source_region* source) {
+  if (source == nullptr || !source->begin) return {file};
+  if (source->path && source->path->starts_with(override_prefix)) return {*source->path};
+  const auto& [begin, end, path] = *source;
+  const auto end_column = begin.line == end.line ? end.column : 0;
+  return {file, static_cast<int>(begin.line), static_cast<int>(begin.column), static_cast<int>(end_column)};
 }
 
-void Problems::add(const toml::source_region* source, const std::string& message) {
-  const std::string line = printable(fmt::format("{}: {}", place_text(file_, source), message));
-  if (source == nullptr || !source->begin) {
-    lines_.push_back({std::numeric_limits<unsigned>::max(), line});
-  } else if (source->path && source->path->starts_with(override_prefix)) {
-    add_override(line);
-  } else {
-    lines_.push_back({source->begin.line, line});
-  }
+void Problems::add(const toml::source_region* source, const CaseLabel& about, const std::string& message) {
+  findings_.emplace_back(Severity::error, Clause("{}", printable(message)), Clause(), position_of(file_, source));
+  findings_.back().about = about;
 }
 
-void Problems::add_override(const std::string& line) { lines_.push_back({0, printable(line)}); }
+void Problems::wrong(const CaseLabel& key, const toml::node& node, const std::string& message, std::string_view part) {
+  const CaseLabel shown = part.empty() ? key : key.with_key(part);
+  add(&node.source(), key, fmt::format("{} = {}: {}", shown, value_text(node), message));
+}
 
-std::string Problems::text() const {
-  std::vector<Line> sorted = lines_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Line& a, const Line& b) { return a.number < b.number; });
-  constexpr std::size_t most_shown = 50;
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < std::min(sorted.size(), most_shown); ++i) texts.push_back(sorted[i].text);
-  if (sorted.size() > most_shown) {
-    texts.push_back(fmt::format("{}: and {} more problems", file_, sorted.size() - most_shown));
-  }
-  return fmt::format("{}", fmt::join(texts, "\n"));
+void Problems::add_override(const std::string& origin, const std::string& message) {
+  findings_.emplace_back(Severity::error, Clause("{}", printable(message)), Clause(), FilePosition{printable(origin)});
+}
+
+Findings Problems::findings() const {
+  const auto order = [&](const Finding& finding) {
+    const FilePosition& at = finding.position;
+    return at.line > 0 ? at.line : at.file == file_ ? std::numeric_limits<int>::max() : 0;
+  };
+  Findings sorted = findings_;
+  std::ranges::stable_sort(sorted, {}, order);
+  return sorted;
 }
 
 }  // namespace tailwater

@@ -2,41 +2,41 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <toml++/toml.h>
+
+#include "base/finding.h"
+#include "base/text.h"
 
 namespace tailwater {
 
 /// A value as messages show it: TOML on one line, cut off if it is long.
 std::string value_text(const toml::node& node);
 
-/// "case.toml:12:1", or the override that the value came from; just the file if `source` is null or unknown.
-std::string place_text(const std::string& file, const toml::source_region* source);
+/// The position in the file, or the override that the value came from; just the file if `source` is null or unknown.
+FilePosition position_of(const std::string& file, const toml::source_region* source);
 
 class Problems {
  public:
-  explicit Problems(std::string file) : file_(std::move(file)) {}
+  explicit Problems(const std::string& file) : file_(printable(file)) {}
 
   /// `source` is where the thing is, in the file or in an override; null: the file as a whole.
-  void add(const toml::source_region* source, const std::string& message);
+  void add(const toml::source_region* source, const CaseLabel& about, const std::string& message);
 
-  /// A complete line about an override whose key does not exist in the file.
-  void add_override(const std::string& line);
+  /// Adds "wall[0].points[1] = 3: MESSAGE" about a value; `part` names a part of the key, such as "points[1]".
+  void wrong(const CaseLabel& key, const toml::node& node, const std::string& message, std::string_view part = "");
 
-  bool none() const { return lines_.empty(); }
+  /// An override whose key does not exist in the file.
+  void add_override(const std::string& origin, const std::string& message);
 
-  /// One line per problem: overrides, then the file from top to bottom, then what is missing.
-  std::string text() const;
+  bool none() const { return findings_.empty(); }
+
+  /// Overrides, then the file from top to bottom, then what is missing.
+  Findings findings() const;
 
  private:
-  struct Line {
-    unsigned number;  ///< in the file
-    std::string text;
-  };
-
   std::string file_;
-  std::vector<Line> lines_;
+  Findings findings_;
 };
 
 }  // namespace tailwater

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <map>
 
-#include "base/error.h"
 #include "case/across_tables.h"
 #include "case/case_toml.h"
 #include "case/driven_walls.h"
@@ -44,16 +43,21 @@ const toml::table* find_table(const toml::table& root, std::string_view name) { 
 /// Visitor for CaseSpec::describe.
 class CaseReader {
  public:
-  CaseReader(Context& context, const toml::table& root) : context_(context), root_(root) {}
+  CaseReader(Context& context, const toml::table& root, const std::string& file)
+      : context_(context), root_(root), file_(file) {}
 
   template <class Table>
   void table(std::string_view name, Table& table, std::string_view) {
     names_.push_back(name);
     if (const toml::node* node = root_.get(name); node != nullptr && !node->is_table()) {
-      report(*node, name, fmt::format("not a table; write its keys below a line [{}]", name));
+      context_.problems.wrong(CaseLabel(std::string(name)), *node,
+                              fmt::format("not a table; write its keys below a line [{}]", name));
     }
-    TableReader reader(context_, find_table(root_, name), std::string(name));
+    const CaseLabel label{std::string(name)};
+    const toml::table* source = find_table(root_, name);
+    TableReader reader(context_, source, label);
     read(name, table, reader);
+    if (source != nullptr) add_source(label, *source);
   }
 
   template <class Table>
@@ -65,17 +69,21 @@ class CaseReader {
     const bool are_tables =
         list != nullptr && std::all_of(list->begin(), list->end(), [](const toml::node& n) { return n.is_table(); });
     if (!are_tables) {
-      report(*node, name, fmt::format("not a list of tables; write each below a line [[{}]] (two brackets)", name));
+      context_.problems.wrong(CaseLabel(std::string(name)), *node,
+                              fmt::format("not a list of tables; write each below a line [[{}]] (two brackets)", name));
       return;
     }
     std::vector<TableReader> readers;
     tables.resize(list->size());
     for (std::size_t i = 0; i < list->size(); ++i) {
-      readers.emplace_back(context_, (*list)[i].as_table(), fmt::format("{}[{}]", name, i));
+      readers.emplace_back(context_, (*list)[i].as_table(), CaseLabel(std::string(name), i));
       read(name, tables[i], readers.back());
       if (tables[i].name.empty() && !std::is_same_v<Table, ProbeTable>) {
         tables[i].name = default_name(std::string(name), i);
       }
+      CaseLabel label(std::string(name), tables[i].name);
+      label.index = static_cast<int>(i);
+      add_source(label, *(*list)[i].as_table());
     }
     check_names(tables, readers);
   }
@@ -83,10 +91,13 @@ class CaseReader {
   void report_unknown_tables() {
     for (const auto& [name, node] : root_) {
       if (std::find(names_.begin(), names_.end(), name.str()) == names_.end()) {
-        report(node, name.str(), fmt::format("unknown table; {}", unknown_name_hint(name.str(), names_)));
+        context_.problems.wrong(CaseLabel(std::string(name.str())), node,
+                                fmt::format("unknown table; {}", unknown_name_hint(name.str(), names_)));
       }
     }
   }
+
+  CaseSources take_sources() { return std::move(sources_); }
 
  private:
   template <class Table>
@@ -100,69 +111,46 @@ class CaseReader {
     read_linked_files(table, reader);
   }
 
-  void report(const toml::node& node, std::string_view key, const std::string& message) {
-    context_.problems.add(&node.source(), fmt::format("{} = {}: {}", key, value_text(node), message));
+  void add_source(const CaseLabel& label, const toml::table& table) {
+    const FilePosition head = position_of(file_, &table.source());
+    int last_line = head.line;
+    for (const auto& [key, node] : table) {
+      const FilePosition position = position_of(file_, &node.source());
+      if (position.file == file_) last_line = std::max(last_line, static_cast<int>(node.source().end.line));
+      sources_.add(label.with_key(key.str()), position);
+    }
+    sources_.add(label, head, last_line);
   }
 
   Context& context_;
   const toml::table& root_;
+  const std::string& file_;
+  CaseSources sources_;
   std::vector<std::string_view> names_{"parameters"};
 };
-
-/// Where the tables and keys are that messages about shapes, probes and steps name.
-CaseSources find_sources(const CaseSpec& spec, const toml::table& root, const std::string& file) {
-  CaseSources sources;
-  const auto add_keys = [&](const toml::table& table, const std::string& start) {
-    for (const auto& [key, node] : table) sources.add(start + std::string(key.str()), place_text(file, &node.source()));
-  };
-  const auto add_tables = [&](std::string_view name, const auto& tables) {
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-      const toml::table* table = root[name][i].as_table();
-      const std::string label = fmt::format("{} '{}'", name, tables[i].name);
-      sources.add(label, place_text(file, &table->source()));
-      add_keys(*table, label + ": ");
-    }
-  };
-  add_tables("pocket", spec.pockets);
-  add_tables("vent", spec.vents);
-  add_tables("fluid", spec.fluid);
-  add_tables("wall", spec.walls);
-  add_tables("gate", spec.gates);
-  add_tables("wave_maker", spec.wave_makers);
-  add_tables("body", spec.bodies);
-  add_tables("mooring", spec.moorings);
-  add_tables("damping", spec.damping);
-  add_tables("inlet", spec.inlets);
-  add_tables("outlet", spec.outlets);
-  add_tables("probe", spec.probes);
-  add_tables("measurement", spec.measurements);
-  for (const auto& [name, node] : root) {
-    if (const toml::table* table = node.as_table()) add_keys(*table, fmt::format("{}.", name.str()));
-  }
-  return sources;
-}
 
 /// `folder`: that of the case, for files it names.
 CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text, const std::string& origin,
                       const std::vector<std::string>& overrides) {
   Context context(origin, folder);
   toml::table root = parse_case(text, origin);
-  for (const std::string& problem : apply_overrides(root, overrides)) context.problems.add_override(problem);
+  apply_overrides(root, overrides, context.problems);
   CaseSpec spec;
   read_foundations(spec, context, root);
-  CaseReader reader(context, root);
+  CaseReader reader(context, root, origin);
   CaseSpec::describe(spec, reader);
   reader.report_unknown_tables();
   const bool has_no_fluid = root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty());
   const bool comes_in = root.get("inlet") != nullptr || std::ranges::any_of(spec.outlets, may_bring_water);
   if (has_no_fluid && !comes_in) {
     context.problems.add(
-        nullptr, "there is no fluid; add at least one table [[fluid]], an [[inlet]], or the level of an [[outlet]]");
+        nullptr, {},
+        "there is no fluid; add at least one table [[fluid]], an [[inlet]], or the level of an [[outlet]]");
   }
   if (context.problems.none()) check_across_tables(spec, root, context.problems);
   if (context.problems.none()) read_measurements(spec, root, context.problems);
-  if (!context.problems.none()) throw InputError(context.problems.text());
-  spec.sources = find_sources(spec, root, origin);
+  if (!context.problems.none()) throw CaseError(context.problems.findings());
+  spec.sources = reader.take_sources();
   append_driven_walls(spec);
   return spec;
 }

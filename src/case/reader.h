@@ -16,8 +16,8 @@ namespace tailwater {
 /// Numbers may be expressions (expression.h) of [parameters], of `dx` = particles.spacing and of `g` = |gravity|.
 /// Parameters, dx and g may use one another in any order.
 ///
-/// Throws IoError if the file cannot be read, else InputError with one line per problem: place, key, value, what is
-/// allowed and the remedy.
+/// Throws IoError if the file cannot be read, else CaseError with a finding for each problem: position, key, value,
+/// what is allowed and the remedy.
 CaseSpec read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
 /// The same for the case that a run has left in its folder, which may be longer than what its user wrote.

@@ -1,33 +1,31 @@
 #include "case/sources.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "base/text.h"
-
 namespace tailwater {
 
-std::string_view CaseSources::place_of(std::string_view line) const {
-  const Entry* first = nullptr;
-  std::size_t where = std::string_view::npos;
-  for (const Entry& entry : entries_) {
-    const std::size_t found = line.find(entry.name);
-    if (found == std::string_view::npos || found > where) continue;
-    // "wall 'tank': points" begins where "wall 'tank'" does, and says more.
-    if (first != nullptr && found == where && entry.name.size() < first->name.size()) continue;
-    first = &entry;
-    where = found;
-  }
-  return first == nullptr ? std::string_view() : std::string_view(first->place);
+void CaseSources::add(const CaseLabel& label, FilePosition position, int last_line) {
+  entries_[{label.table, label.name, label.key}] = {label.index, std::move(position), last_line};
 }
 
-std::string CaseSources::placed(std::string_view message) const {
-  std::vector<std::string> lines;
-  for (const std::string_view line : split(message, '\n')) {
-    const std::string_view place = place_of(line);
-    lines.push_back(place.empty() ? std::string(line) : fmt::format("{}: {}", place, line));
+const CaseSources::Entry* CaseSources::find(const CaseLabel& label) const {
+  const auto entry = entries_.find({label.table, label.name, label.key});
+  return entry == entries_.end() ? nullptr : &entry->second;
+}
+
+Findings CaseSources::located(Findings findings) const {
+  for (Finding& finding : findings) {
+    const Entry* entry = find(finding.about);
+    if (entry == nullptr) entry = find(finding.about.with_key(""));
+    if (entry == nullptr) continue;
+    finding.position = entry->position;
+    finding.about.index = entry->index;
   }
-  return fmt::format("{}", fmt::join(lines, "\n"));
+  return findings;
+}
+
+std::optional<std::array<int, 2>> CaseSources::lines(const CaseLabel& table) const {
+  const Entry* entry = find(table);
+  if (entry == nullptr || entry->position.line == 0) return std::nullopt;
+  return std::array{entry->position.line, entry->last_line};
 }
 
 }  // namespace tailwater

@@ -1,33 +1,37 @@
-// Where the tables and keys of a case stand in its file, for what is found wrong after it has been read.
+// Positions of the tables and keys of a case in its file, for findings after it has been read.
 #pragma once
 
+#include <array>
+#include <map>
 #include <string>
-#include <string_view>
-#include <vector>
+
+#include "base/finding.h"
 
 namespace tailwater {
 
 class CaseSources {
  public:
-  /// What messages call a thing, "wall 'tank'" or "particles.spacing", and its place, "case.toml:12:1".
-  void add(std::string name, std::string place) { entries_.push_back({std::move(name), std::move(place)}); }
+  /// Adds a table with its last line, or a key. The label of a table in a list has its index and its name.
+  void add(const CaseLabel& label, FilePosition position, int last_line = 0);
 
-  /// Each line of the message behind the place of what it names first; a line that names nothing stays as it is. In
-  /// "wall 'tank': points[0] ..." the key `points` of that wall is named.
-  std::string placed(std::string_view message) const;
+  /// The findings with the position of their key, else of their table, and with the index of the table.
+  Findings located(Findings findings) const;
+
+  /// First and last line of a table in the file; empty for a table that an override gives.
+  std::optional<std::array<int, 2>> lines(const CaseLabel& table) const;
 
   /// Where a value was written is no part of the case.
   bool operator==(const CaseSources&) const { return true; }
 
  private:
   struct Entry {
-    std::string name;
-    std::string place;
+    std::optional<int> index;
+    FilePosition position;
+    int last_line;
   };
+  const Entry* find(const CaseLabel& label) const;
 
-  std::string_view place_of(std::string_view line) const;
-
-  std::vector<Entry> entries_;
+  std::map<std::array<std::string, 3>, Entry> entries_;  ///< by table, name and key
 };
 
 }  // namespace tailwater

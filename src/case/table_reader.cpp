@@ -198,13 +198,12 @@ std::filesystem::path TableReader::linked(const std::string& file) const {
 void TableReader::wrong(std::string_view key, const toml::node& node, const std::string& message,
                         std::string_view place) {
   context_.keys_wrong.insert(full(key));
-  context_.problems.add(&node.source(),
-                        fmt::format("{} = {}: {}", full(place.empty() ? key : place), value_text(node), message));
+  context_.problems.wrong(table_.with_key(key), node, message, place);
 }
 
 void TableReader::missing(std::string_view key, const std::string& message) {
   context_.keys_wrong.insert(full(key));
-  context_.problems.add(source_ == nullptr ? nullptr : &source_->source(),
+  context_.problems.add(source_ == nullptr ? nullptr : &source_->source(), table_.with_key(key),
                         fmt::format("{} is missing; {}", full(key), message));
 }
 
@@ -214,7 +213,7 @@ void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
   for (const KeyInfo& info : keys) valid.push_back(info.key);
   for (const auto& [key, node] : *source_) {
     if (std::find(valid.begin(), valid.end(), key.str()) == valid.end()) {
-      const std::string fate = fate_of(std::string_view(name_).substr(0, name_.find('[')), key.str());
+      const std::string fate = fate_of(table_.table, key.str());
       wrong(key.str(), node,
             fate.empty() ? fmt::format("unknown key; {}{}", home_of(key.str()), unknown_name_hint(key.str(), valid))
                          : fate);
@@ -229,7 +228,7 @@ const toml::node* TableReader::find(std::string_view key, std::string_view doc, 
   const toml::node* node = given(key);
   if (node == nullptr && presence == Presence::required) {
     missing(key,
-            fmt::format("add it to {}: {}{}{}{}", name_, doc, allowed.empty() ? "" : "; ", allowed, in_unit(unit)));
+            fmt::format("add it to {}: {}{}{}{}", table_, doc, allowed.empty() ? "" : "; ", allowed, in_unit(unit)));
   }
   return node;
 }

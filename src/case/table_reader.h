@@ -41,9 +41,9 @@ struct Context {
 /// Visitor for `describe` that reads one table of the file. Keys that are absent keep their value.
 class TableReader {
  public:
-  /// `source` is null if the file does not have the table; `name` is its name in messages and overrides, `fluid[0]`.
-  TableReader(Context& context, const toml::table* source, std::string name)
-      : context_(context), source_(source), name_(std::move(name)) {}
+  /// `source` is null if the file does not have the table.
+  TableReader(Context& context, const toml::table* source, CaseLabel table)
+      : context_(context), source_(source), table_(std::move(table)) {}
 
   void text(std::string_view key, std::string& value, std::string_view doc, Presence presence = Presence::optional);
   void integer(std::string_view key, int& value, std::string_view unit, const Range& range, std::string_view doc,
@@ -106,7 +106,7 @@ class TableReader {
   void report_unknown_keys(std::span<const KeyInfo> keys);
 
  private:
-  std::string full(std::string_view key) const { return name_ + "." + std::string(key); }
+  std::string full(std::string_view key) const { return table_.with_key(key).text(); }
 
   /// The value given for a key; null if it was read ahead or is absent. Reports it if it is required.
   const toml::node* find(std::string_view key, std::string_view doc, std::string_view unit, std::string_view allowed,
@@ -142,7 +142,7 @@ class TableReader {
 
   Context& context_;
   const toml::table* source_;
-  std::string name_;
+  CaseLabel table_;
   std::vector<std::string_view> only_;
 };
 

@@ -276,8 +276,8 @@ MeshTriangles read_ply(Source& source) {
 
 }  // namespace
 
-MeshTriangles read_mesh(const std::filesystem::path& path, const std::string& owner) {
-  const std::string start = fmt::format("{}: file {}: ", owner, path.string());
+MeshTriangles read_mesh(const std::filesystem::path& path) {
+  const std::string start = fmt::format("file {}: ", path.string());
   const std::string kind = lower_case(path.extension().string());
   if (kind != ".stl" && kind != ".obj" && kind != ".ply") {
     throw InputError(start +

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "base/vec.h"
@@ -15,9 +14,8 @@ struct MeshTriangles {
   std::vector<std::array<int, 3>> triangles;  ///< indices into `points`, counter-clockwise as their front sees them
 };
 
-/// The triangles of a file, in its order. Throws InputError, which begins with the `owner` ("wall 'pier'") and names
-/// the file and the remedy, for a file of another kind, one that is empty or cut off, and for a coordinate that is not
-/// a number.
-MeshTriangles read_mesh(const std::filesystem::path& path, const std::string& owner);
+/// The triangles of a file, in its order. Throws InputError, which names the file and the remedy, for a file of another
+/// kind, one that is empty or cut off, and for a coordinate that is not a number.
+MeshTriangles read_mesh(const std::filesystem::path& path);
 
 }  // namespace tailwater

@@ -10,21 +10,21 @@ Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
   const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
   const double tolerance = 0.5 * spec.particles.spacing;
-  const auto check = [&](const std::string& owner, const Coordinates& at) {
+  const auto check = [&](const CaseLabel& owner, const Coordinates& at) {
     const Vec<Dim> x = to_vec<Dim>(at, owner, "at");
     const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
     if (wall.face >= 0 && wall.signed_distance < -tolerance) {
       findings.push_back(Finding::error(
-          "{}: {} is in {}, {:.4g} m behind its surface at {}; move it into the air, or onto the surface", owner,
-          place(x), wall_label(boundary, boundary.faces[wall.face].wall), -wall.signed_distance, place(wall.point)));
+          {"{}: {} is in {}, {:.4g} behind its surface at {}", owner, place(x),
+           wall_label(boundary, boundary.faces[wall.face].wall), Amount{-wall.signed_distance, "m"}, place(wall.point)},
+          {"move it into the air, or onto the surface"}));
     } else if (wall.face < 0 || box.exteriorDistance(x) > tolerance) {
-      findings.push_back(Finding::error(
-          "{}: {} is outside of all walls, where air is open; give a point in air that water and walls enclose", owner,
-          place(x)));
+      findings.push_back(Finding::error({"{}: {} is outside of all walls, where air is open", owner, place(x)},
+                                        {"give a point in air that water and walls enclose"}));
     }
   };
-  for (const PocketTable& pocket : spec.pockets) check("pocket '" + pocket.name + "'", pocket.at);
-  for (const VentTable& vent : spec.vents) check("vent '" + vent.name + "'", vent.at);
+  for (const PocketTable& pocket : spec.pockets) check(CaseLabel("pocket", pocket.name), pocket.at);
+  for (const VentTable& vent : spec.vents) check(CaseLabel("vent", vent.name), vent.at);
   return findings;
 }
 

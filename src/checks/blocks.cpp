@@ -7,45 +7,44 @@ namespace tailwater {
 namespace {
 
 template <int Dim>
-void check_polygon(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
+void check_polygon(const FluidTable& block, const CaseLabel& label, double particles, double dx, Findings& findings) {
   const double area = std::abs(signed_area(block.points));
   if (particles > 0.0 && area >= 0.5 * dx * dx) return;
   findings.push_back(
-      Finding::error("{} at {} holds no particle: its area is {:.3g} m^2 and the spacing is {:.6g} m; use a smaller "
-                     "spacing, or correct the block's points",
-                     label, place(to_vec<Dim>(block.points[0], label, "points[0]")), area, dx));
+      Finding::error({"{} at {} holds no particle: its area is {:.3g} and the spacing is {:.6g} m", label,
+                      place(to_vec<Dim>(block.points[0], label, "points[0]")), Amount{area, "m^2"}, dx},
+                     {"use a smaller spacing, or correct the block's points"}));
 }
 
 template <int Dim>
-void check_box(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
+void check_box(const FluidTable& block, const CaseLabel& label, double particles, double dx, Findings& findings) {
   const Vec<Dim> low = to_vec<Dim>(block.min, label, "min");
   const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - low;
   int smallest = 0;
   extent.minCoeff(&smallest);
   if (particles == 0.0 || extent[smallest] < (1.0 - corner_tolerance) * dx) {
-    findings.push_back(
-        Finding::error("{} at {} is {:.6g} m long in {}, so it holds no particle of spacing {:.6g} m: use a spacing of "
-                       "at most {:.6g} m, or a larger block",
-                       label, place(low), extent[smallest], "xyz"[smallest], dx, extent[smallest]));
+    findings.push_back(Finding::error({"{} at {} is {:.6g} long in {}, so it holds no particle of spacing {:.6g} m",
+                                       label, place(low), Amount{extent[smallest], "m"}, "xyz"[smallest], dx},
+                                      {"use a spacing of at most {:.6g} m, or a larger block", extent[smallest]}));
   }
 }
 
 template <int Dim>
-void check_mesh(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
+void check_mesh(const FluidTable& block, const CaseLabel& label, double particles, double dx, Findings& findings) {
   if (particles > 0.0) return;
   findings.push_back(
-      Finding::error("{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in "
-                     "walls and bodies; use a smaller spacing, or move it (translate)",
-                     label, dx, block.file));
+      Finding::error({"{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in "
+                      "walls and bodies",
+                      label, dx, block.file},
+                     {"use a smaller spacing, or move it (translate)"}));
 }
 
 template <int Dim>
-void check_fill(const FluidTable& block, const std::string& label, double particles, double dx, Findings& findings) {
+void check_fill(const FluidTable& block, const CaseLabel& label, double particles, double dx, Findings& findings) {
   if (particles > 0.0) return;
-  findings.push_back(
-      Finding::error("{} holds no particle of spacing {:.6g} m between the walls around its seed {}: use a smaller "
-                     "spacing, or move the seed",
-                     label, dx, place(to_vec<Dim>(block.seed, label, "seed"))));
+  findings.push_back(Finding::error({"{} holds no particle of spacing {:.6g} m between the walls around its seed {}",
+                                     label, dx, place(to_vec<Dim>(block.seed, label, "seed"))},
+                                    {"use a smaller spacing, or move the seed"}));
 }
 
 }  // namespace
@@ -53,7 +52,8 @@ void check_fill(const FluidTable& block, const std::string& label, double partic
 template <int Dim>
 Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   if (spec.fluid.empty() && spec.inlets.empty() && std::ranges::none_of(spec.outlets, may_bring_water)) {
-    return {Finding::error("there is no fluid: add a [[fluid]] or an [[inlet]] table, or the level of an [[outlet]]")};
+    return {Finding::error({"there is no fluid"},
+                           {"add a [[fluid]] or an [[inlet]] table, or the level of an [[outlet]]"})};
   }
   std::vector<double> particles(spec.fluid.size(), 0.0);
   for (const int block : fluid.block) particles[block] += 1.0;

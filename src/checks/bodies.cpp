@@ -27,11 +27,12 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const Eigen::AlignedBox<double, Dim> box = box_of_body(body, boundary);
     if (box.isEmpty()) continue;
     const Vec<Dim>& centre = body.drawn.centre;
+    const CaseLabel label("body", body.name);
     if (box.exteriorDistance(centre) > corner_tolerance * spec.particles.spacing) {
-      findings.push_back(Finding::warning(
-          "body '{}' has its centre of mass at {}, outside of its walls, which lie between {} and {}: `centre` is a "
-          "place of the case, where the body is drawn, not one on the body",
-          body.name, place(centre), place<Dim>(box.min()), place<Dim>(box.max())));
+      findings.push_back(
+          Finding::warning({"{} has its centre of mass at {}, outside of its walls, which lie between {} and {}", label,
+                            place(centre), place<Dim>(box.min()), place<Dim>(box.max())},
+                           {"give `centre` in coordinates of the case, where the body is drawn"}));
       continue;
     }
     const bool turns_freely = std::ranges::any_of(body.free, [](int entry) { return entry >= Dim; });
@@ -39,9 +40,10 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const double farthest = (centre - box.min()).cwiseMax(box.max() - centre).norm();
     if (turns_freely && radius > farthest) {
       findings.push_back(Finding::warning(
-          "body '{}' has an inertia of {:.4g} kg m^2, as if its {:.4g} kg were {:.4g} m away from their centre, but "
-          "the farthest point of its walls is {:.4g} m away: give the moment of inertia about the centre, in kg m^2{}",
-          body.name, body.inertia.maxCoeff(), body.mass, radius, farthest, Dim == 2 ? " per metre of width" : ""));
+          {"{} has an inertia of {:.4g}, as if its {:.4g} kg were {:.4g} m away from their centre, but the farthest "
+           "point of its walls is {:.4g} m away",
+           label, Amount{body.inertia.maxCoeff(), "kg m^2"}, body.mass, radius, farthest},
+          {"give the moment of inertia about the centre, in kg m^2{}", Dim == 2 ? " per metre of width" : ""}));
     }
   }
   return findings;
@@ -57,9 +59,11 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const double away = box.isEmpty() ? 0.0 : box.exteriorDistance(x);
     if (away <= box.diagonal().norm()) return;
     findings.push_back(Finding::error(
-        "mooring '{}' is fastened at {}, {:.4g} m from body '{}', which lies between {} and {}: `at` is a place of the "
-        "first of its bodies as that is drawn, `anchor` the other end, on the second body if there is one",
-        name, place(x), away, body.name, place<Dim>(box.min()), place<Dim>(box.max())));
+        {"{} is fastened at {}, {:.4g} from {}, which lies between {} and {}", CaseLabel("mooring", name), place(x),
+         Amount{away, "m"}, CaseLabel("body", body.name), place<Dim>(box.min()), place<Dim>(box.max())},
+        {"give as `at` a place on the first of its bodies as that is drawn, and as `anchor` the other end, on the "
+         "second "
+         "body if there is one"}));
   };
   const std::vector<Mooring<Dim>> moorings = make_moorings<Dim>(spec);
   for (std::size_t m = 0; m < moorings.size(); ++m) {

@@ -1,9 +1,5 @@
 #include "checks/broken_case.h"
 
-#include <charconv>
-#include <cmath>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -17,7 +13,7 @@ namespace {
 void append_triangles(const PlacedFile& file, int wall, Boundary<3>& boundary) {
   if (file.file.empty()) return;
   try {
-    const TriangleMesh mesh = read_placed_mesh(file, file.file);
+    const TriangleMesh mesh = read_placed_mesh(file, {});
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
       boundary.faces.push_back(
           {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).stableNormalized(), wall});
@@ -52,21 +48,6 @@ Boundary<Dim> draw_walls_one_by_one(const CaseSpec& spec) {
   return all;
 }
 
-/// The place that a text begins with, as in "0.5, -2e-05)".
-template <int Dim>
-std::optional<Vec<Dim>> place_at_start_of(std::string_view text) {
-  Vec<Dim> x;
-  for (int axis = 0; axis < Dim; ++axis) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x[axis]);
-    if (error != std::errc() || !std::isfinite(x[axis])) return std::nullopt;  // "1e999" too, which a name may hold
-    text.remove_prefix(end - text.data());
-    const std::string_view next = axis + 1 < Dim ? ", " : ")";
-    if (!text.starts_with(next)) return std::nullopt;
-    text.remove_prefix(next.size());
-  }
-  return x;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -86,15 +67,15 @@ BrokenCase<Dim> draw_broken_case(const CaseSpec& spec) {
 }
 
 template <int Dim>
-std::vector<Vec<Dim>> places_in(std::string_view message) {
+std::vector<Vec<Dim>> places_of(const Findings& findings) {
   std::vector<Vec<Dim>> places;
-  for (std::size_t open = message.find('('); open != message.npos; open = message.find('(', open + 1)) {
-    if (const auto x = place_at_start_of<Dim>(message.substr(open + 1))) places.push_back(*x);
+  for (const Finding& finding : findings) {
+    for (const MarkedPlace& place : finding.places) places.emplace_back(place.x.data());
   }
   return places;
 }
 
 TAILWATER_IN_2D_AND_3D(draw_broken_case);
-TAILWATER_IN_2D_AND_3D(places_in);
+TAILWATER_IN_2D_AND_3D(places_of);
 
 }  // namespace tailwater

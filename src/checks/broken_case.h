@@ -1,9 +1,9 @@
 // What can be drawn of a case whose geometry is wrong, so that its user sees where.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
+#include "base/finding.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
 #include "sampling/fluid_particles.h"
@@ -22,9 +22,8 @@ struct BrokenCase {
 template <int Dim>
 BrokenCase<Dim> draw_broken_case(const CaseSpec& spec);
 
-/// The places "(0.5, 1.25)" with Dim coordinates that a message names, as `place` in from_spec.h writes them. A picture
-/// then marks exactly what its user reads.
+/// The places that a picture marks: those that the findings name.
 template <int Dim>
-std::vector<Vec<Dim>> places_in(std::string_view message);
+std::vector<Vec<Dim>> places_of(const Findings& findings);
 
 }  // namespace tailwater

@@ -42,9 +42,9 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     append(findings, check_damping(spec, boundary, fluid));
     append(findings, check_probes(spec, boundary, fluid));
   }
-  // Both faces of a plate, for one, say the same.
-  std::set<std::string> told;
-  std::erase_if(findings, [&](const Finding& finding) { return !told.insert(finding.message).second; });
+  // Both faces of a plate, for one, have the same finding.
+  std::set<std::string> reported;
+  std::erase_if(findings, [&](const Finding& finding) { return !reported.insert(finding.problem).second; });
   return findings;
 }
 

@@ -1,8 +1,8 @@
 // Finds errors in a case's geometry before anything runs.
 #pragma once
 
+#include "base/finding.h"
 #include "case/spec.h"
-#include "checks/finding.h"
 #include "geometry/boundary.h"
 #include "sampling/fluid_particles.h"
 

@@ -2,8 +2,8 @@
 // check.cpp, or in check_moving_walls if it is about moving walls.
 #pragma once
 
+#include "base/finding.h"
 #include "case/spec.h"
-#include "checks/finding.h"
 #include "geometry/boundary.h"
 #include "sampling/fluid_particles.h"
 
@@ -117,7 +117,7 @@ template <int Dim>
 Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
 /// Error: a motion from a file that jumps between two of its lines. Warning: one that overshoots what its lines say.
-/// Messages name file and lines.
+/// Findings name file and lines.
 template <int Dim>
 Findings check_motion_files(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 

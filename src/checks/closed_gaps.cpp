@@ -213,20 +213,22 @@ std::vector<Gap<Dim>> gaps_of(const Boundary<Dim>& boundary, double dx) {
 }
 
 template <int Dim>
-Finding told(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx) {
-  const std::string a = wall_label(boundary, gap.wall);
-  const std::string b = wall_label(boundary, gap.other);
+Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx) {
+  const CaseLabel a = wall_label(boundary, gap.wall);
+  const CaseLabel b = wall_label(boundary, gap.other);
+  const Amount width{gap.width, "m"};
   const double good_spacing = gap.width / rows_of_good_gap;
   if (gap.width <= closed * dx) {
     return Finding::warning(
-        "the gap of {:.3g} m between {} and {} at {} counts as closed, because it is narrower than half a spacing: let "
-        "them touch if that is meant; for water that passes use a spacing of at most {:.3g} m",
-        gap.width, a, b, place(gap.where), good_spacing);
+        {"the gap of {:.3g} between {} and {} at {} counts as closed, because it is narrower than half a spacing",
+         width, a, b, place(gap.where)},
+        {"let them touch, or for water that passes use a spacing of at most {:.3g} m", good_spacing});
   }
   return Finding::warning(
-      "the gap of {:.3g} m between {} and {} at {} is {:.1f} spacings wide, so less water passes than should, by about "
-      "20 % at half a spacing and 4 % at four: use a spacing of at most {:.3g} m",
-      gap.width, a, b, place(gap.where), gap.width / dx, good_spacing);
+      {"the gap of {:.3g} between {} and {} at {} is {:.1f} spacings wide, so less water passes than should, by about "
+       "20 % at half a spacing and 4 % at four",
+       width, a, b, place(gap.where), gap.width / dx},
+      {"use a spacing of at most {:.3g} m", good_spacing});
 }
 
 }  // namespace
@@ -240,7 +242,7 @@ Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary) 
   std::set<std::pair<int, int>> reported;
   for (const Gap<Dim>& gap : gaps) {
     if (!reported.insert(std::minmax(gap.wall, gap.other)).second) continue;
-    findings.push_back(told(boundary, gap, dx));
+    findings.push_back(finding_of(boundary, gap, dx));
   }
   return findings;
 }

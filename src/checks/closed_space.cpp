@@ -40,12 +40,12 @@ void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, con
     const int wall = boundary.faces[f].wall;
     if (!reached.met[f]) continue;
     if (boundary.walls[wall].moves()) return;  // it may open
-    walls.insert(wall_label(boundary, wall));
+    walls.insert(wall_label(boundary, wall).text());
   }
   findings.push_back(Finding::error(
-      "{} brings {:.3g} m^{} by t = {:.6g} s into a space without a way out that holds {:.3g} m^{} at most, closed by "
-      "{}: open it (of a box: open = [...]), give it an outlet, or let less enter",
-      end.opening.label(), inflow, Dim, last, room, Dim, fmt::join(walls, " and ")));
+      {"{} brings {:.3g} by t = {:.6g} s into a space without a way out that holds {:.3g} m^{} at most, closed by {}",
+       end.opening.label(), Amount{inflow, fmt::format("m^{}", Dim)}, last, room, Dim, fmt::join(walls, " and ")},
+      {"open it (of a box: open = [...]), give it an outlet, or let less enter"}));
 }
 
 }  // namespace

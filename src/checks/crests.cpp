@@ -42,7 +42,7 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary) {
   const std::vector<Opening<2>> open_ends = make_open_ends<2>(spec);
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (spec.walls[w].shape != WallShape::polyline) continue;
-    const std::string label = wall_label(boundary, static_cast<int>(w));
+    const CaseLabel label = wall_label(boundary, static_cast<int>(w));
     std::vector<Vec<2>> points;
     for (const Coordinates& point : spec.walls[w].points) points.push_back(to_vec<2>(point, label, "points"));
     const std::optional<double> rim = rim_height(points, open_ends, spec.particles.spacing, up);
@@ -53,10 +53,10 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary) {
         const bool is_end =
             (corner - points.front()).norm() <= tolerance || (corner - points.back()).norm() <= tolerance;
         if (is_end || up.dot(corner) < *rim) continue;
-        return {
-            Finding::error("{} has a crest at {}, {:.6g} m higher than the higher of its ends: water would run over "
-                           "the ends before it passes the crest; raise the ends, or lower the crest",
-                           label, place(corner), up.dot(corner) - *rim)};
+        return {Finding::error({"{} has a crest at {}, {:.6g} higher than the higher of its ends: water would run over "
+                                "the ends before it passes the crest",
+                                label, place(corner), Amount{up.dot(corner) - *rim, "m"}},
+                               {"raise the ends, or lower the crest"})};
       }
     }
   }

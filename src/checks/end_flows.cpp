@@ -43,19 +43,19 @@ class EndFlowCheck {
   }
 
  private:
-  template <class... Args>
-  void error(fmt::format_string<Args...> text, Args&&... args) {
-    findings_.push_back(Finding::error("{}", fmt::format(text, std::forward<Args>(args)...)));
+  void error(Clause problem, Clause remedy) {
+    findings_.push_back(Finding::error(std::move(problem), std::move(remedy)));
   }
 
   Vec<Dim> top() const { return end_.low + end_.height * end_.rise + 0.5 * end_.width * end_.aside; }
 
   void look_at_gravity() {
     if (end_.flow.level && end_.gravity == 0.0) {
-      error("{}: level needs gravity along the opening, which has none there: give a discharge or a velocity instead",
-            label_);
+      error({"{} needs gravity along the opening, which has none there", label_.with_key("level")},
+            {"give a discharge or a velocity instead"});
     } else if (end_.gravity > 0.0 && end_.up.dot(end_.rise) < least_cosine) {
-      error("{}: gravity is oblique to its edges, so it has no bed: turn the case so that one edge is upright", label_);
+      error({"{}: gravity is oblique to its edges, so it has no bed", label_},
+            {"turn the case so that one edge is upright"});
     }
   }
 
@@ -68,10 +68,9 @@ class EndFlowCheck {
       const double from = series->times().front();
       const double to = series->times().back();
       if (from > 0.0 || to < last_) {
-        error(
-            "{}: file covers t = {:.6g} to {:.6g} s, but the run lasts from 0 to time.end = {:.6g} s: add rows, or end "
-            "the run earlier",
-            label_, from, to, last_);
+        error({"{} covers t = {:.6g} to {:.6g} s, but the run lasts from 0 to time.end = {:.6g} s",
+               label_.with_key("file"), from, to, last_},
+              {"add rows, or end the run earlier"});
         return;
       }
     }
@@ -81,8 +80,8 @@ class EndFlowCheck {
       const double time = last_ * k / count;
       const double value = quantity->at(time);
       if (!std::isfinite(value)) {
-        error("{}: {} has no finite value at t = {:.6g} s: give an expression that has one during the whole run",
-              label_, key, time);
+        error({"{} has no finite value at t = {:.6g} s", label_.with_key(key), time},
+              {"give an expression that has one during the whole run"});
         return;
       }
       largest = std::max(largest, std::abs(value));
@@ -93,10 +92,9 @@ class EndFlowCheck {
       const double next = std::min(last_, time + std::min(crossing_, last_ / count));
       const double change = quantity->at(next) - quantity->at(time);
       if (std::abs(change) <= most_of_range * scale) continue;
-      error(
-          "{}: {} jumps by {:.4g} {} between t = {:.6g} and {:.6g} s, faster than a wave crosses the end of the "
-          "channel: let it change over {:.2g} s or more",
-          label_, key, change, unit, time, next, 4.0 * crossing_);
+      error({"{} jumps by {:.4g} between t = {:.6g} and {:.6g} s, faster than a wave crosses the end of the channel",
+             label_.with_key(key), Amount{change, unit}, time, next},
+            {"let it change over {:.2g} s or more", 4.0 * crossing_});
       return;
     }
   }
@@ -116,11 +114,11 @@ class EndFlowCheck {
     if (end_.flow.level) {
       look_at_froude(time, q, depth);
     } else if (critical > end_.height) {
-      error(
-          "{}: at t = {:.6g} s more water enters than the opening can pass: the flow is critical at a depth of {:.4g} "
-          "m, and the opening is {:.4g} m high: make it higher, or let less enter ({}); a supercritical flow needs its "
-          "level too",
-          label_, time, critical, end_.height, unit_hint);
+      error({"{}: at t = {:.6g} s more water enters than the opening can pass: the flow is critical at a depth of "
+             "{:.4g}, "
+             "and the opening is {:.4g} m high",
+             label_, time, Amount{critical, "m"}, end_.height},
+            {"make it higher, let less enter ({}), or give a supercritical flow its level too", unit_hint});
     }
   }
 
@@ -129,23 +127,23 @@ class EndFlowCheck {
     if (end_.flow.level || !end_.flow.feeds() || end_.gravity == 0.0 || has_lid_) return;
     const double critical = end_.largest_depth(last_);
     if (critical == 0.0 || critical >= dx_) return;
-    findings_.push_back(
-        Finding::warning("{}: the flow is critical at a depth of {:.3g} m at most, less than the spacing of {:.3g} m: "
-                         "where nothing dams it, it enters one spacing deep and slower; use a smaller spacing",
-                         label_, critical, dx_));
+    findings_.push_back(Finding::warning(
+        {"{}: the flow is critical at a depth of {:.3g} at most, less than the spacing of {:.3g} m: where nothing dams "
+         "it, it enters one spacing deep and slower",
+         label_, Amount{critical, "m"}, dx_},
+        {"use a smaller spacing"}));
   }
 
   void look_at_level(double time, double level) {
     if (level < end_.floor) {
-      error(
-          "{}: level = {:.6g} m at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are heights "
-          "above the origin, not depths; give one above the bed there",
-          label_, level, time, end_.floor);
+      error({"{} = {:.6g} at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are heights above "
+             "the origin, not depths",
+             label_.with_key("level"), Amount{level, "m"}, time, end_.floor},
+            {"give one above the bed there"});
     } else if (level > end_.floor + end_.height) {
-      error(
-          "{}: level = {:.6g} m at t = {:.6g} s is above the top of the opening, {:.6g} m: make the opening and the "
-          "walls beside it higher, or lower the level",
-          label_, level, time, end_.floor + end_.height);
+      error({"{} = {:.6g} at t = {:.6g} s is above the top of the opening, {:.6g} m", label_.with_key("level"),
+             Amount{level, "m"}, time, end_.floor + end_.height},
+            {"make the opening and the walls beside it higher, or lower the level"});
     }
   }
 
@@ -153,20 +151,19 @@ class EndFlowCheck {
     const double speed = depth > 0.0 ? std::abs(q) / depth : 0.0;
     const double froude = depth > 0.0 ? speed / std::sqrt(end_.gravity * depth) : 0.0;
     if (froude > most_froude) {
-      error(
-          "{}: at t = {:.6g} s water would enter at {:.4g} m/s, which is implausible (Froude number {:.3g}): check the "
-          "units; {}",
-          label_, time, speed, froude, unit_hint);
+      error({"{}: at t = {:.6g} s water would enter at {:.4g}, which is implausible (Froude number {:.3g})", label_,
+             time, Amount{speed, "m/s"}, froude},
+            {"check the units: {}", unit_hint});
     } else if (q < 0.0 || froude < 1.0) {
-      error(
-          "{}: level is given with a flow that is subcritical at t = {:.6g} s (Froude number {:.3g}), where the level "
-          "follows from the water inside: remove the level, or the discharge and the velocity",
-          label_, time, froude);
+      error({"{} is given with a flow that is subcritical at t = {:.6g} s (Froude number {:.3g}), where the level "
+             "follows from the water inside",
+             label_.with_key("level"), time, froude},
+            {"remove the level, or the discharge and the velocity"});
     }
   }
 
   const ChannelEnd<Dim>& end_;
-  std::string label_;
+  CaseLabel label_;
   double dx_, last_;
   double crossing_;  ///< s; of a wave, of the end stretch
   bool has_lid_;

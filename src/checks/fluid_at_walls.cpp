@@ -148,25 +148,26 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
 
   Findings findings;
   for (const auto& [key, contact] : contacts.by_wall) {
-    const std::string wall = wall_label(boundary, key.first);
-    const std::string block = fluid_label(spec, key.second);
+    const CaseLabel wall = wall_label(boundary, key.first);
+    const CaseLabel block = fluid_label(spec, key.second);
     if (contact.behind > 0 && in_front[key.first] > 0) {
-      findings.push_back(Finding::error(
-          "{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} m deep at {}; where the water "
-          "starts inside a bed, let the block end on the bed (shape = \"polygon\"); where a wall stands in water, draw "
-          "it with two faces at least {} spacings apart",
-          wall, contact.behind, block, contact.deepest, place(contact.deepest_at), dummy_layers(spec) + 1));
-    } else if (contact.behind > 0) {
       findings.push_back(
-          Finding::error("{} lies behind {}: {} particles, up to {:.6g} m deep at {}; give the wall the other "
-                         "fluid_side, or move the block",
-                         block, wall, contact.behind, contact.deepest, place(contact.deepest_at)));
+          Finding::error({"{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} deep at {}", wall,
+                          contact.behind, block, Amount{contact.deepest, "m"}, place(contact.deepest_at)},
+                         {"end the block on the bed (shape = \"polygon\"), or draw a wall that stands in water with "
+                          "two faces at least {} "
+                          "spacings apart",
+                          dummy_layers(spec) + 1}));
+    } else if (contact.behind > 0) {
+      findings.push_back(Finding::error({"{} lies behind {}: {} particles, up to {:.6g} deep at {}", block, wall,
+                                         contact.behind, Amount{contact.deepest, "m"}, place(contact.deepest_at)},
+                                        {"give the wall the other fluid_side, or move the block"}));
     }
     if (contact.too_near > 0) {
-      findings.push_back(
-          Finding::error("{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} m at {}; put "
-                         "the block's edge on the wall or a whole number of spacings ({:.6g} m) from it",
-                         block, wall, contact.too_near, least, contact.nearest, place(contact.nearest_at), dx));
+      findings.push_back(Finding::error(
+          {"{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} at {}", block, wall,
+           contact.too_near, least, Amount{contact.nearest, "m"}, place(contact.nearest_at)},
+          {"put the block's edge on the wall or a whole number of spacings ({:.6g} m) from it", dx}));
     }
   }
   std::set<std::pair<int, int>> reported;  // wall and block
@@ -175,10 +176,10 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
     const bool is_gap = approach.distance > gap_from && approach.distance < gap_to;
     if (!is_gap || !reported.insert({wall, key.second}).second) continue;
     findings.push_back(Finding::warning(
-        "there is a gap between {} and {}: the nearest particle stands {:.2f} spacings from the wall, at {}, instead "
-        "of {:.2f}; put the block's edge on the wall, or at least two spacings away from it",
-        fluid_label(spec, key.second), wall_label(boundary, wall), approach.distance / dx, place(approach.at),
-        regular));
+        {"there is a gap between {} and {}: the nearest particle stands {:.2f} from the wall, at {}, instead of {:.2f}",
+         fluid_label(spec, key.second), wall_label(boundary, wall), Amount{approach.distance / dx, "spacings"},
+         place(approach.at), regular},
+        {"put the block's edge on the wall, or at least two spacings away from it"}));
   }
   return findings;
 }

@@ -76,11 +76,12 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
     if (connected.is_at_end || !has_surface) continue;
     const double above = connected.ceiling - connected.surface;
     if (above < least_height * space.edge()) continue;
-    const std::string wall = wall_label(boundary, boundary.faces[connected.face_above].wall);
     findings.push_back(Finding::warning(
-        "the water below {} at {} stands {:.3g} m above its own surface, as in a siphon, and will come off, because "
-        "water here cannot pull: fill it no higher, or set air.pockets, with which most of it stays",
-        wall, place(space.centre(space.cell(connected.cell_below))), above));
+        {"the water below {} at {} stands {:.3g} above its own surface, as in a siphon, and will separate, because the "
+         "model sustains no tension there",
+         wall_label(boundary, boundary.faces[connected.face_above].wall),
+         place(space.centre(space.cell(connected.cell_below))), Amount{above, "m"}},
+        {"fill it no higher, or set air.pockets, with which most of it stays"}));
   }
   return findings;
 }

@@ -4,16 +4,15 @@ namespace tailwater {
 
 Findings check_late_starts(const CaseSpec& spec) {
   Findings findings;
-  const auto check = [&](const std::string& what, double start) {
+  const auto check = [&](const CaseLabel& owner, double start) {
     if (start < spec.time.end) return;
-    findings.push_back(Finding::warning(
-        "{} begins to move at {:.6g} s, and the run ends at {:.6g} s: it rests; end the run later, or let it start "
-        "earlier",
-        what, start, spec.time.end));
+    findings.push_back(Finding::warning({"{} begins to move at {:.6g}, and the run ends at {:.6g} s: it rests", owner,
+                                         Amount{start, "s"}, spec.time.end},
+                                        {"end the run later, or let it start earlier"}));
   };
-  for (const GateTable& gate : spec.gates) check("gate '" + gate.name + "'", gate.start);
+  for (const GateTable& gate : spec.gates) check(CaseLabel("gate", gate.name), gate.start);
   for (const WaveMakerTable& maker : spec.wave_makers) {
-    if (maker.waves != WaveKind::none) check("wave_maker '" + maker.name + "'", maker.start);
+    if (maker.waves != WaveKind::none) check(CaseLabel("wave_maker", maker.name), maker.start);
   }
   return findings;
 }

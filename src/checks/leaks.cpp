@@ -22,18 +22,18 @@ Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached)
     const std::optional<Vec<Dim>>& place_behind = reached.behind[f];
     if (!place_behind || boundary.walls[wall].is_plate || !reported.insert(wall).second) continue;
     findings.push_back(
-        Finding::error("the water can reach the back of {}, at {}, where nothing would hold it: draw a wall that has "
-                       "water on both sides with shape = \"plate\", or with two faces",
-                       wall_label(boundary, wall), place(*place_behind)));
+        Finding::error({"the water can reach the back of {}, at {}, where nothing would hold it",
+                        wall_label(boundary, wall), place(*place_behind)},
+                       {"draw a wall that has water on both sides with shape = \"plate\", or with two faces"}));
   }
   return findings;
 }
 
-/// The name of the wall or open end nearest to a place.
+/// The wall or open end nearest to a place.
 template <int Dim>
-std::string nearest_label(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends, const Vec<Dim>& x) {
+CaseLabel nearest_label(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends, const Vec<Dim>& x) {
   const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
-  std::string label = wall_label(boundary, boundary.faces[wall.face].wall);
+  CaseLabel label = wall_label(boundary, boundary.faces[wall.face].wall);
   double nearest = std::abs(wall.signed_distance);
   for (const Opening<Dim>& end : ends) {
     for (const WallFace<Dim>& face : end.as_faces()) {
@@ -73,8 +73,9 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   add_cells_at_ends(spec, space, wet);
   const Spread<Dim> reached = spread(space, wet, Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return water_behind(boundary, reached);
-  return {Finding::error("the water would pour out of the case at {}, near {}: close it there, or make it higher",
-                         place(*reached.way_out), nearest_label(boundary, ends, *reached.way_out))};
+  return {Finding::error({"the water would pour out of the case at {}, near {}", place(*reached.way_out),
+                          nearest_label(boundary, ends, *reached.way_out)},
+                         {"close it there, or make it higher"})};
 }
 
 TAILWATER_IN_2D_AND_3D(check_leaks);

@@ -18,21 +18,19 @@ constexpr double largest_share_of_case = 2.0;
 /// Walls back to back are a plate where they differ by less than 8 degrees from parallel; else a sharp edge.
 constexpr double least_facing_of_plate = 0.99;
 
-Findings check_size(const CaseSpec& spec, const std::string& label, const MeshSurface& surface,
+Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurface& surface,
                     const Eigen::AlignedBox<double, 3>& water) {
   const double dx = spec.particles.spacing;
   const double length = (surface.high() - surface.low()).maxCoeff();
   if (length < dx) {
-    return {Finding::error(
-        "{} is {:.3g} m long, less than a spacing of {:.6g} m: correct its scale, or use a smaller spacing", label,
-        length, dx)};
+    return {Finding::error({"{} is {:.3g} long, less than a spacing of {:.6g} m", label, Amount{length, "m"}, dx},
+                           {"correct its scale, or use a smaller spacing"})};
   }
   const double water_length = water.isEmpty() ? 0.0 : water.sizes().maxCoeff() + dx;
   if (water_length == 0.0 || length <= largest_share_of_water * water_length) return {};
   return {
-      Finding::error("{} is {:.6g} m long and the water {:.6g} m: if its file is in millimetres, give scale = 0.001; "
-                     "else cut off what the water does not reach",
-                     label, length, water_length)};
+      Finding::error({"{} is {:.6g} long and the water {:.6g} m", label, Amount{length, "m"}, water_length},
+                     {"give scale = 0.001 if its file is in millimetres, else cut off what the water does not reach"})};
 }
 
 /// The box around the water and all walls but one.
@@ -52,22 +50,24 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
   const Eigen::AlignedBox<double, 3> own(surface.low(), surface.high());
   const Eigen::AlignedBox<double, 3> others = box_of_others(boundary, wall, water);
   if (boundary.walls[wall].moves() || others.isEmpty()) return {};
-  const std::string label = wall_label(boundary, wall);
+  const CaseLabel label = wall_label(boundary, wall);
   if (!own.intersects(others)) {
-    return {
-        Finding::warning("{}: file {} reaches from {} to {}, and the water and all other walls from {} to {}, so it "
-                         "stands beside them: correct translate, or scale = {:g} (0.001 for a file in millimetres)",
-                         label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()),
-                         place<3>(others.max()), table.scale)};
+    return {Finding::warning(
+        {"{}: file {} reaches from {} to {}, and the water and all other walls from {} to {}, so it stands beside them",
+         label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()), place<3>(others.max())},
+        {"correct translate, or scale = {:g} (0.001 for a file in millimetres)", table.scale})};
   }
   if (table.fluid_side != FluidSide::outside) return {};
   const double length = own.sizes().maxCoeff();
   const double length_of_others = others.sizes().maxCoeff();
   if (length <= largest_share_of_case * length_of_others) return {};
-  return {Finding::warning(
-      "{}: file {} is a body {:.6g} m long among water and walls of {:.6g} m, of which it takes what it encloses: "
-      "correct scale = {:g} (0.001 for a file in millimetres), or cut off what the water does not reach",
-      label, table.file, length, length_of_others, table.scale)};
+  return {
+      Finding::warning({"{}: file {} is a body {:.6g} long among water and walls of {:.6g} m, of which it takes what "
+                        "it encloses",
+                        label, table.file, Amount{length, "m"}, length_of_others},
+                       {"correct scale = {:g} (0.001 for a file in millimetres), or cut off what the water does not "
+                        "reach",
+                        table.scale})};
 }
 
 Findings check_size_and_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const MeshSurface& surface,
@@ -92,7 +92,7 @@ std::optional<Vec<3>> crossing_of_triangles(const WallFace<3>& a, const WallFace
   return std::nullopt;
 }
 
-Findings check_self_crossing(const MeshSurface& surface, const std::string& label, double tolerance) {
+Findings check_self_crossing(const MeshSurface& surface, const CaseLabel& label, double tolerance) {
   const TriangleMesh& mesh = surface.mesh();
   for (int one = 0; one < static_cast<int>(mesh.triangles.size()); ++one) {
     const WallFace<3> face = face_of(mesh, one);
@@ -102,10 +102,9 @@ Findings check_self_crossing(const MeshSurface& surface, const std::string& labe
       if (other <= one || found || share_a_point(mesh, one, other)) return;
       const auto where = crossing_of_triangles(face, face_of(mesh, other), tolerance);
       if (!where) return;
-      found = Finding::error(
-          "{} crosses itself at {}, where triangles {} and {} pass through each other: unite the bodies of the file "
-          "where they overlap, or correct the triangles",
-          label, place(*where), one + 1, other + 1);
+      found = Finding::error({"{} crosses itself at {}, where triangles {} and {} pass through each other", label,
+                              place(*where), one + 1, other + 1},
+                             {"unite the bodies of the file where they overlap, or correct the triangles"});
     });
     if (found) return {*found};
   }
@@ -114,7 +113,7 @@ Findings check_self_crossing(const MeshSurface& surface, const std::string& labe
 
 /// Looks straight back from the middle of triangles at least dx apart.
 Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, const WallMesh& mesh,
-                         const std::string& label) {
+                         const CaseLabel& label) {
   const double dx = spec.particles.spacing;
   const double tolerance = corner_tolerance * dx;
   const double needed = dummy_layers(spec) * dx;
@@ -130,10 +129,10 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
     if (behind < 0 || share_a_point(surface.mesh(), t - mesh.first_face, behind)) continue;
     const WallFace<3>& other = boundary.faces[mesh.first_face + behind];
     if (-face.normal.dot(other.normal) < least_facing_of_plate) continue;
-    return {Finding::error(
-        "{} is only {:.3g} m thick at {}, with the water on its other side: the water on one side would feel that on "
-        "the other, because {} layers of wall particles need {:.6g} m; make it thicker, or the spacing smaller",
-        label, -other.height(middle), place(middle), dummy_layers(spec), needed)};
+    return {Finding::error({"{} is only {:.3g} thick at {}, with the water on its other side: its {} layers of wall "
+                            "particles need {:.6g} m, or the water on one side would interact with that on the other",
+                            label, Amount{-other.height(middle), "m"}, place(middle), dummy_layers(spec), needed},
+                           {"make it thicker, or the spacing smaller"})};
   }
   return {};
 }
@@ -145,14 +144,14 @@ Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const F
   const Eigen::AlignedBox<double, 3> water = fluid.box();
   Findings findings;
   for (const WallMesh& mesh : boundary.meshes) {
-    const std::string label = wall_label(boundary, mesh.wall);
+    const CaseLabel label = wall_label(boundary, mesh.wall);
     append(findings, check_size_and_place(spec, boundary, mesh.wall, *mesh.surface, water));
     append(findings, check_self_crossing(*mesh.surface, label, tolerance));
     append(findings, check_thickness(spec, boundary, mesh, label));
   }
   for (const WallPlate& plate : boundary.plates) {
     if (!plate.sheet) continue;
-    const std::string label = wall_label(boundary, plate.wall);
+    const CaseLabel label = wall_label(boundary, plate.wall);
     append(findings, check_size_and_place(spec, boundary, plate.wall, *plate.sheet, water));
     append(findings, check_self_crossing(*plate.sheet, label, tolerance));
   }

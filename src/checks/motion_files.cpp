@@ -64,18 +64,20 @@ class FileWalk {
     }
     if (worst <= std::max(0.25 * dx_, largest_overshoot * largest_displacement)) return {};
     return {
-        Finding::warning("{} moves {:.3g} m beyond what lines {} and {} of {} say, because its speed changes more "
-                         "suddenly than these lines can tell; give more lines there",
-                         label_, worst, series_.line[worst_at], series_.line[worst_at + 1], series_.file)};
+        Finding::warning({"{} moves {:.3g} beyond lines {} and {} of {}, because its speed changes more suddenly "
+                          "than these lines resolve",
+                          label_, Amount{worst, "m"}, series_.line[worst_at], series_.line[worst_at + 1], series_.file},
+                         {"give more lines there"})};
   }
 
  private:
   Finding jump(std::size_t k, double displacement, double duration, double fastest) const {
     return Finding::error(
-        "{} jumps between lines {} and {} of {}: it moves {:.3g} m in {:.3g} s, at {:.3g} m/s, which is more than "
-        "{:.0f} times as fast as the water falls ({:.3g} m/s); correct the lines, or the units in the file's header",
-        label_, series_.line[k], series_.line[k + 1], series_.file, displacement, duration, displacement / duration,
-        fastest_over_water, fastest / fastest_over_water);
+        {"{} jumps between lines {} and {} of {}: it moves {:.3g} m in {:.3g} s, at {:.3g}, which is more than {:.0f} "
+         "times as fast as the water falls ({:.3g} m/s)",
+         label_, series_.line[k], series_.line[k + 1], series_.file, displacement, duration,
+         Amount{displacement / duration, "m/s"}, fastest_over_water, fastest / fastest_over_water},
+        {"correct the lines, or the units in the file's header"});
   }
 
   /// How far a corner gets from the straight line between two samples, along that line and beyond its ends; for a
@@ -95,7 +97,7 @@ class FileWalk {
 
   const TimeSeries& series_;
   double start_;
-  std::string label_;
+  CaseLabel label_;
   WallPath<Dim> path_;
   double dx_;
   std::vector<Vec<Dim>> corners_;

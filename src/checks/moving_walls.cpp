@@ -20,10 +20,11 @@ bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, 
     if (face.wall != wall) continue;
     const Vec<Dim> displacement = start(face.corners[0]) - face.corners[0];
     if (displacement.norm() <= corner_tolerance * spec.particles.spacing) continue;
-    findings.push_back(
-        Finding::error("{} is not where it is drawn at t = 0: its point {} has moved by {} m; displacement and "
-                       "rotation{} must begin with 0, so subtract their start or draw the wall elsewhere",
-                       wall_label(drawn, wall), place(face.corners[0]), place(displacement), file_of(spec, wall)));
+    findings.push_back(Finding::error(
+        {"{} is not where it is drawn at t = 0: its point {} has moved by {} m, but displacement and "
+         "rotation{} must begin with 0",
+         wall_label(drawn, wall), place(face.corners[0]), vector_text(displacement), file_of(spec, wall)},
+        {"subtract their start, or draw the wall elsewhere"}));
     return false;
   }
   return true;

@@ -71,10 +71,9 @@ void check_direction(const CaseSpec& spec, const Opening<Dim>& end, Findings& fi
   for (int axis = 0; axis < Dim; ++axis) {
     if (periodic_range(spec.domain, axis).empty() || std::abs(end.normal[axis]) <= corner_tolerance) continue;
     findings.push_back(
-        Finding::error("{} at {} lets water {} in {}, but periodic_{} brings water back in that direction: remove the "
-                       "open end or periodic_{}",
-                       end.label(), place(end.corner), end.kind == OpeningKind::inlet ? "in" : "out", "xyz"[axis],
-                       "xyz"[axis], "xyz"[axis]));
+        Finding::error({"{} at {} lets water {} in {}, but periodic_{} returns water in that direction", end.label(),
+                        place(end.corner), end.kind == OpeningKind::inlet ? "in" : "out", "xyz"[axis], "xyz"[axis]},
+                       {"remove the open end or periodic_{}", "xyz"[axis]}));
   }
 }
 
@@ -84,15 +83,17 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
   for (const Vec<Dim>& x : closed_rim(end, gravity_of<Dim>(spec), dx)) {
     const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
     if (wall.face < 0) {
-      findings.push_back(Finding::error("{} has its rim at {}, but the case has no wall: draw a bed that ends there",
-                                        end.label(), place(x)));
+      findings.push_back(Finding::error({"{} has its rim at {}, but the case has no wall", end.label(), place(x)},
+                                        {"draw a bed that ends there"}));
       return;
     }
     if (std::abs(wall.signed_distance) <= rim_tolerance * dx) continue;
-    findings.push_back(Finding::error(
-        "{} {} at {}: the nearest point of {} is {}, {:.6g} m away; put its end on the wall there", end.label(),
-        wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
-        wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), std::abs(wall.signed_distance)));
+    findings.push_back(
+        Finding::error({"{} {} at {}: the nearest point of {} is {}, {:.6g} away", end.label(),
+                        wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
+                        wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point),
+                        Amount{std::abs(wall.signed_distance), "m"}},
+                       {"put its end on the wall there"}));
     return;
   }
 }
@@ -105,9 +106,9 @@ void check_way_out(const CaseSpec& spec, const Boundary<Dim>& boundary, const Op
     const NearestWall<Dim> wall = boundary.nearest(x, wall_clearance * dx);
     if (wall.face < 0) continue;
     findings.push_back(
-        Finding::error("{} overlaps {} at {}: no wall may stand in it, nor in the last {:.6g} m before it; leave that "
-                       "piece of wall out (of a box: open = [...]), or move the open end",
-                       end.label(), wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), depth));
+        Finding::error({"{} overlaps {} at {}: no wall may stand in it, nor in the last {:.6g} m before it",
+                        end.label(), wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), depth},
+                       {"leave that piece of wall out (of a box: open = [...]), or move the open end"}));
     return;
   }
 }
@@ -124,9 +125,11 @@ void check_pit(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
     const NearestWall<Dim> wall = boundary.nearest(x - depth * end.normal, std::numeric_limits<double>::infinity());
     if (wall.face >= 0 && std::abs(wall.signed_distance) <= least_flush * depth) continue;
     findings.push_back(Finding::error(
-        "{} is a hole in the floor without walls above its edge at {}: water that comes to it from the sides would be "
-        "crushed; draw a pit below the hole, with upright walls {:.3g} m deep or more, and put the {} on its floor",
-        end.label(), place(x), depth, end.kind == OpeningKind::inlet ? "inlet" : "outlet"));
+        {"{} is a hole in the floor without walls above its edge at {}: water that comes to it from the sides would be "
+         "crushed",
+         end.label(), place(x)},
+        {"draw a pit below the hole, with upright walls {:.3g} m deep or more, and put the {} on its floor", depth,
+         end.kind == OpeningKind::inlet ? "inlet" : "outlet"}));
     return;
   }
 }
@@ -149,10 +152,9 @@ bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const Flu
   const std::int64_t beyond = fluid.ranks.sum(own);
   if (beyond == 0) return true;
   first = gather_on_all(fluid.ranks, first);
-  findings.push_back(
-      Finding::error("{} cuts through {}: {} particles lie beyond it at the start, the first at {}; end the block "
-                     "there, move the open end, or give it the opposite direction",
-                     end.label(), fluid_label(spec, first[0].block), beyond, place(first[0].place)));
+  findings.push_back(Finding::error({"{} cuts through {}: {} particles lie beyond it at the start, the first at {}",
+                                     end.label(), fluid_label(spec, first[0].block), beyond, place(first[0].place)},
+                                    {"end the block there, move the open end, or give it the opposite direction"}));
   return false;
 }
 
@@ -167,9 +169,9 @@ void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Ope
   };
   if (has_walls(-2.0 * dx) || !has_walls(2.0 * dx)) return;
   findings.push_back(
-      Finding::error("{} at {} faces the wrong way: the walls are on the side that is outside by its direction {}; "
-                     "give the opposite direction",
-                     end.label(), place(end.corner), place(end.direction())));
+      Finding::error({"{} at {} faces the wrong way: the walls are on the side that is outside by its direction {}",
+                      end.label(), place(end.corner), vector_text(end.direction())},
+                     {"give the opposite direction"}));
 }
 
 }  // namespace

@@ -73,10 +73,11 @@ Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, cons
   Findings findings;
   for (const auto& [blocks, overlap] : overlaps) {
     findings.push_back(
-        Finding::error("{} and {} overlap, first at {}: {} particles of the second are nearer than {:.6g} m to "
-                       "particles of the first; move the blocks apart, or leave their common part out of one of them",
-                       fluid_label(spec, blocks.first), fluid_label(spec, blocks.second), place(overlap.where),
-                       overlap.particles, least));
+        Finding::error({"{} and {} overlap, first at {}: {} particles of the second are nearer than {:.6g} m to "
+                        "particles of the first",
+                        fluid_label(spec, blocks.first), fluid_label(spec, blocks.second), place(overlap.where),
+                        overlap.particles, least},
+                       {"move the blocks apart, or leave their common part out of one of them"}));
   }
   return findings;
 }

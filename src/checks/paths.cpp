@@ -91,9 +91,9 @@ class PathWalk {
     for (int k = 0; k < least_samples; ++k) {
       if (looks_ > most_looks) {
         findings_.push_back(
-            Finding::warning("{} moves so far, or others do, that paths were followed only to t = {:.6g} s: what walls "
-                             "meet later is not known",
-                             wall_label(drawn_, movers_.front().wall), end * k / least_samples));
+            Finding::warning({"{} or another wall moves so far that collisions are only checked up to t = {:.6g}",
+                              label(movers_.front().wall), Amount{end * k / least_samples, "s"}},
+                             {"check the paths after that time by eye"}));
         break;
       }
       const double to = end * (k + 1) / least_samples;
@@ -108,7 +108,7 @@ class PathWalk {
  private:
   using Places = std::vector<AffineMap<Dim>>;  ///< of all movers
 
-  std::string label(int wall) const { return wall_label(drawn_, wall); }
+  CaseLabel label(int wall) const { return wall_label(drawn_, wall); }
 
   Places places_at(double time) {
     Places places(movers_.size());
@@ -135,13 +135,14 @@ class PathWalk {
   /// wall.
   bool accepts_displacement(Mover<Dim>& mover, const Vec<Dim>& where, double length, double from, double to) {
     if (!std::isfinite(length)) {
-      findings_.push_back(Finding::error(
-          "{} is at no finite place at t = {:.6g} s: correct its displacement or rotation", label(mover.wall), to));
+      findings_.push_back(Finding::error({"{} is at no finite place at t = {:.6g}", label(mover.wall), Amount{to, "s"}},
+                                         {"correct its displacement or rotation"}));
     } else if (length > 0.25 * dx_ && length > largest_speed_of_case * (to - from)) {
       findings_.push_back(Finding::error(
-          "{} is too fast: its point {} moves {:.3g} m in the {:.3g} s after t = {:.6g} s, but water is treated as "
-          "incompressible, which limits walls to {:.0f} m/s; correct its displacement or rotation",
-          label(mover.wall), place(where), length, to - from, from, largest_speed_of_case));
+          {"{} is too fast: its point {} moves {:.3g} in the {:.3g} s after t = {:.6g} s, but water is treated as "
+           "incompressible, which limits walls to {:.0f} m/s",
+           label(mover.wall), place(where), Amount{length, "m"}, to - from, from, largest_speed_of_case},
+          {"correct its displacement or rotation"}));
     } else {
       return true;
     }
@@ -206,11 +207,14 @@ class PathWalk {
         collided_.insert(std::minmax(wall, other));
         findings_.push_back(
             found->is_crossing
-                ? Finding::error("{} crosses {} at t = {:.6g} s at {}: change its path, or draw it shorter",
-                                 label(wall), label(other), time, place(found->where))
-                : Finding::error("{} comes nearer than a spacing to {} at t = {:.6g} s at {}: the water between them "
-                                 "would be crushed; end its path at least {:.6g} m before",
-                                 label(wall), label(other), time, place(found->where), dx_));
+                ? Finding::error({"{} crosses {} at t = {:.6g} at {}", label(wall), label(other), Amount{time, "s"},
+                                  place(found->where)},
+                                 {"change its path, or draw it shorter"})
+                : Finding::error(
+                      {"{} comes nearer than a spacing to {} at t = {:.6g} at {}: the water between them would "
+                       "be crushed",
+                       label(wall), label(other), Amount{time, "s"}, place(found->where)},
+                      {"end its path at least {:.6g} m before", dx_}));
         return;
       }
     }
@@ -238,9 +242,10 @@ class PathWalk {
       Vec<Dim> middle = Vec<Dim>::Zero();
       for (const Vec<Dim>& corner : faces_[f].corners) middle += corner / Dim;
       findings_.push_back(
-          Finding::error("{} crushes the water at t = {:.6g} s, when it is at {}: the walls leave {:.3g} m^{} to "
-                         "{:.3g} m^{} of water that cannot get out; end its path before, or leave the water a way out",
-                         label(wall), time, place(middle), enclosed->volume, Dim, room_->water(), Dim));
+          Finding::error({"{} crushes the water at t = {:.6g}, when it is at {}: the walls leave {:.3g} m^{} to {:.3g} "
+                          "m^{} of water that cannot get out",
+                          label(wall), Amount{time, "s"}, place(middle), enclosed->volume, Dim, room_->water(), Dim},
+                         {"end its path before, or leave the water a way out"}));
       return;
     }
   }

@@ -14,10 +14,11 @@ Findings walls_longer_than(double period, int axis, const CaseSpec& spec, const 
   for (std::size_t w = 0; w < boxes.size(); ++w) {
     const double length = boxes[w].isEmpty() ? 0.0 : boxes[w].sizes()[axis];
     if (length <= period + 0.5 * spec.particles.spacing) continue;
-    findings.push_back(
-        Finding::error("{} is {:.6g} m long in {}, in which the case repeats itself every {:.6g} m "
-                       "(domain.periodic_{}), so it would lie in itself: draw one period of it",
-                       wall_label(boundary, static_cast<int>(w)), length, "xyz"[axis], period, "xyz"[axis]));
+    findings.push_back(Finding::error(
+        {"{} is {:.6g} long in {}, in which the case repeats itself every {:.6g} m (domain.periodic_{}), "
+         "so it would lie in itself",
+         wall_label(boundary, static_cast<int>(w)), Amount{length, "m"}, "xyz"[axis], period, "xyz"[axis]},
+        {"draw one period of it"}));
   }
   return findings;
 }
@@ -34,10 +35,13 @@ Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundar
     const double width = range[1] - range[0];
     append(findings, walls_longer_than(width, axis, spec, boundary));
     if (width >= (4.0 - corner_tolerance) * support) continue;
-    findings.push_back(Finding::error(
-        "domain.periodic_{} from {:.6g} to {:.6g} is {:.6g} m wide, less than four kernel supports of {:.6g} m, so a "
-        "particle would meet its own image: make it at least {:.6g} m wide, or the spacing at most {:.6g} m",
-        "xyz"[axis], range[0], range[1], width, support, 4.0 * support, width / (4.0 * traits_of(spec).support)));
+    findings.push_back(Finding::error({"{} from {:.6g} to {:.6g} is {:.6g} wide, less than four kernel supports of "
+                                       "{:.6g} m, so a particle would meet "
+                                       "its own image",
+                                       CaseLabel("domain").with_key(fmt::format("periodic_{}", "xyz"[axis])), range[0],
+                                       range[1], Amount{width, "m"}, support},
+                                      {"make it at least {:.6g} m wide, or the spacing at most {:.6g} m", 4.0 * support,
+                                       width / (4.0 * traits_of(spec).support)}));
   }
   return findings;
 }

@@ -55,7 +55,7 @@ Eigen::AlignedBox<double, Dim> reach_of_water(const CaseSpec& spec, Eigen::Align
 
 template <int Dim>
 Eigen::AlignedBox<double, Dim> box_of_probe(const ProbeTable& probe) {
-  const std::string owner = "probe '" + probe.name + "'";
+  const CaseLabel owner = label(probe);
   Eigen::AlignedBox<double, Dim> box;
   if (probe.type == ProbeType::pressure || probe.type == ProbeType::velocity) {
     box.extend(to_vec<Dim>(probe.at, owner, "at"));
@@ -71,24 +71,24 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
   const auto is_late = [&](double time) { return time > spec.time.end; };
   const auto late = std::ranges::count_if(probe.times, is_late);
   if (late == 0) return;
-  findings.push_back(
-      Finding::warning("probe '{}': {} of its {} times are after time.end = {:.6g} s, the last at {:.6g} s, and are "
-                       "not taken: end the run later, or leave them out",
-                       probe.name, late, probe.times.size(), spec.time.end, *std::ranges::max_element(probe.times)));
+  findings.push_back(Finding::warning(
+      {"{}: {} of its {} times are after time.end = {:.6g} s, the last at {:.6g}, and are not taken", label(probe),
+       late, probe.times.size(), spec.time.end, Amount{*std::ranges::max_element(probe.times), "s"}},
+      {"end the run later, or leave them out"}));
 }
 
 /// Adds a warning of a probe that reads on a wall farther away than a spacing.
 template <int Dim>
 void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const ProbeTable& probe, Findings& findings) {
   if (probe.type != ProbeType::wall_pressure) return;
-  const Vec<Dim> at = to_vec<Dim>(probe.at, "probe '" + probe.name + "'", "at");
+  const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
   const NearestWall<Dim> wall = drawn.nearest(at, std::numeric_limits<double>::infinity());
   const double away = (at - wall.point).norm();
   if (wall.face < 0 || away <= spec.particles.spacing) return;
   findings.push_back(Finding::warning(
-      "probe '{}' at {} reads the pressure on the nearest wall, at {}, {:.4g} m away: move it onto the wall that is "
-      "meant, or take type = \"pressure\" for that in the water",
-      probe.name, place(at), place(wall.point), away));
+      {"{} at {} reads the pressure on the nearest wall, at {}, {:.4g} away", label(probe), place(at),
+       place(wall.point), Amount{away, "m"}},
+      {"move it onto the wall that is meant, or take type = \"pressure\" for the pressure in the water"}));
 }
 
 }  // namespace
@@ -99,13 +99,14 @@ Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const F
   if (spec.damping.empty() || drawn.faces.empty()) return findings;
   const Eigen::AlignedBox<double, Dim> box = box_of_case(spec, drawn, fluid);
   for (const DampingTable& zone : spec.damping) {
-    const Eigen::AlignedBox<double, Dim> where(to_vec<Dim>(zone.min, zone.name, "min"),
-                                               to_vec<Dim>(zone.max, zone.name, "max"));
+    const CaseLabel owner("damping", zone.name);
+    const Eigen::AlignedBox<double, Dim> where(to_vec<Dim>(zone.min, owner, "min"),
+                                               to_vec<Dim>(zone.max, owner, "max"));
     if (box.intersects(where)) continue;
     findings.push_back(Finding::error(
-        "damping from {} to {} is outside of the case, whose walls and water lie between {} and {}: it would damp "
-        "nothing; move it to where the waves shall die out",
-        place<Dim>(where.min()), place<Dim>(where.max()), place<Dim>(box.min()), place<Dim>(box.max())));
+        {"{} from {} to {} is outside of the case, whose walls and water lie between {} and {}: it would damp nothing",
+         owner, place<Dim>(where.min()), place<Dim>(where.max()), place<Dim>(box.min()), place<Dim>(box.max())},
+        {"move it to where the waves are to decay"}));
   }
   return findings;
 }
@@ -119,10 +120,10 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
     check_is_on_wall(spec, drawn, probe, findings);
     const Eigen::AlignedBox<double, Dim> where = box_of_probe<Dim>(probe);
     if (drawn.faces.empty() || where.isEmpty() || reach_of_water(spec, box).intersects(where)) continue;
-    findings.push_back(
-        Finding::error("probe '{}' at {} is outside of the case, whose walls and water lie between {} and {}: no water "
-                       "comes there; move it",
-                       probe.name, place<Dim>(where.min()), place<Dim>(box.min()), place<Dim>(box.max())));
+    findings.push_back(Finding::error(
+        {"{} at {} is outside of the case, whose walls and water lie between {} and {}: no water comes there",
+         label(probe), place<Dim>(where.min()), place<Dim>(box.min()), place<Dim>(box.max())},
+        {"move it"}));
   }
   return findings;
 }

@@ -13,10 +13,11 @@ Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const std::string source =
         manning > 0.0 ? fmt::format(", which is that of manning = {:.6g} s/m^(1/3),", manning) : "";
     findings.push_back(
-        Finding::warning("{}: its roughness k_s = {:.3g} m{} is larger than the spacing, {:.3g} m, and the law of "
-                         "rough walls does not hold for particles between its grains; draw what sticks out of the wall "
-                         "and give a smaller roughness, or a larger spacing",
-                         wall_label(boundary, static_cast<int>(w)), roughness, source, dx));
+        Finding::warning({"{}: its roughness k_s = {:.3g}{} is larger than the spacing, {:.3g} m, and the law of rough "
+                          "walls does not hold "
+                          "for particles between its grains",
+                          wall_label(boundary, static_cast<int>(w)), Amount{roughness, "m"}, source, dx},
+                         {"draw what sticks out of the wall and give a smaller roughness, or a larger spacing"}));
   }
   return findings;
 }

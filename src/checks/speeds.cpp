@@ -19,9 +19,10 @@ void check_speed_of_end(const ChannelEnd<Dim>& end, double last, double spacing,
     const double speed = end.largest_speed(time, spacing);
     if (std::abs(speed) <= largest_speed_of_case) continue;
     findings.push_back(
-        Finding::error("{}: at t = {:.6g} s water would enter at {:.4g} m/s, but it is treated as incompressible, "
-                       "which limits it to {:g} m/s: check the units, or make the opening larger",
-                       end.opening.label(), time, speed, largest_speed_of_case));
+        Finding::error({"{}: at t = {:.6g} s water would enter at {:.4g}, but it is treated as incompressible, which "
+                        "limits it to {:g} m/s",
+                        end.opening.label(), time, Amount{speed, "m/s"}, largest_speed_of_case},
+                       {"check the units, or make the opening larger"}));
     return;
   }
 }
@@ -35,9 +36,9 @@ Findings check_speeds(const CaseSpec& spec) {
     const double speed = body.drawn.linear_velocity().norm();
     if (speed <= largest_speed_of_case) continue;
     findings.push_back(
-        Finding::error("body '{}': its velocity is {:.4g} m/s, but water is treated as incompressible, which limits "
-                       "bodies to {:g} m/s: correct it",
-                       body.name, speed, largest_speed_of_case));
+        Finding::error({"{} is {:.4g}, but water is treated as incompressible, which limits bodies to {:g} m/s",
+                        CaseLabel("body", body.name).with_key("velocity"), Amount{speed, "m/s"}, largest_speed_of_case},
+                       {"correct it"}));
   }
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     if (end.flow.feeds()) check_speed_of_end(end, spec.time.end, spec.particles.spacing, findings);

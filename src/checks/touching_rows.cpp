@@ -21,9 +21,9 @@ Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
         const auto [moving, near] = std::minmax(
             face.wall, other.wall, [&](int a, int b) { return drawn.walls[a].moves() && !drawn.walls[b].moves(); });
         return {
-            Finding::error("{} is {:.3g} m from {} at {}, and the formulation puts particles on both: draw it {:.6g} m "
-                           "away, or choose scheme.formulation = \"robust\"",
-                           wall_label(drawn, moving), distance, wall_label(drawn, near), place(corner), dx)};
+            Finding::error({"{} is {:.3g} from {} at {}, and the formulation puts particles on both",
+                            wall_label(drawn, moving), Amount{distance, "m"}, wall_label(drawn, near), place(corner)},
+                           {"draw it {:.6g} m away, or choose scheme.formulation = \"robust\"", dx})};
       }
     }
   }

@@ -120,10 +120,10 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
       if (reported.contains(walls) || !is_wet(f) || !is_wet(g)) continue;
       reported.insert(walls);
       findings.push_back(Finding::error(
-          "{} is only {:.3g} m thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m; "
-          "make it thicker, or the spacing smaller, or draw it without thickness, with shape = \"plate\"",
-          wall_label(boundary, face.wall), thickness, place(*foot),
-          face.wall == other.wall ? "the water" : wall_label(boundary, other.wall), dummy_layers(spec), needed));
+          {"{} is only {:.3g} thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m",
+           wall_label(boundary, face.wall), Amount{thickness, "m"}, place(*foot),
+           face.wall == other.wall ? "the water" : wall_label(boundary, other.wall).text(), dummy_layers(spec), needed},
+          {"make it thicker, or the spacing smaller, or draw it without thickness, with shape = \"plate\""}));
     }
   });
   return findings;

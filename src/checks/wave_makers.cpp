@@ -36,9 +36,10 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
     const std::optional<double> depth = depth_at(WavePlate<Dim>(spec, maker), fluid, dx);
     if (!depth || std::abs(*depth - maker.depth) <= std::max(most_error * maker.depth, most_columns * dx)) continue;
     findings.push_back(
-        Finding::error("wave_maker '{}': depth = {:.4g} m, but the water in front of it is {:.4g} m deep at the start: "
-                       "its waves would not have the height that is asked for; correct depth or the water",
-                       maker.name, maker.depth, *depth));
+        Finding::error({"{} = {:.4g}, but the water in front of it is {:.4g} m deep at the start: its waves would not "
+                        "have the prescribed height",
+                        CaseLabel("wave_maker", maker.name).with_key("depth"), Amount{maker.depth, "m"}, *depth},
+                       {"correct depth or the water"}));
   }
   return findings;
 }

@@ -84,7 +84,7 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
 
 template <int Dim>
 double largest_depth(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
-  const Vec<Dim> gravity = to_vec<Dim>(spec.physics.gravity, "physics", "gravity");
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
   double depth = fluid_height(fluid, gravity, spec.particles.spacing);
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     depth = std::max(depth, end.largest_depth(spec.time.end));
@@ -113,7 +113,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                            .artificial = formulation.artificial_viscosity * spec.particles.spacing}},
       scale(spec.particles.spacing, formulation.kernel),
       first_wall_id(drawing.fluid.all),
-      gravity(to_vec<Dim>(spec.physics.gravity, "physics", "gravity")),
+      gravity(gravity_of<Dim>(spec)),
       length(formulation.length > 0.0 ? formulation.length : largest_depth(spec, drawing.fluid)),
       domain(periodic_domain<Dim>(spec.domain)),
       gravity_across(across<Dim>(domain, gravity)),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/finding.h"
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/face.h"
@@ -120,15 +121,15 @@ struct Boundary {
   std::vector<int> moving_;  ///< faces that are not of a mesh, when others are filed
 };
 
-/// "wall 'bed'", "gate 'lock'": the name of a wall in messages.
+/// Such as "wall 'bed'" or "gate 'lock'".
 template <int Dim>
-std::string wall_label(const Boundary<Dim>& boundary, int wall) {
-  return boundary.walls[wall].kind + " '" + boundary.walls[wall].name + "'";
+CaseLabel wall_label(const Boundary<Dim>& boundary, int wall) {
+  return CaseLabel(boundary.walls[wall].kind, boundary.walls[wall].name);
 }
 
 /// The walls of a case. Left and right of a polygon are as seen when walking along its points. A box is walked
-/// counter-clockwise, so its left is its inside. Throws InputError, which names the wall and the point, for a wall
-/// without extent or normal, repeated points, points of the wrong dimension, or an open face that does not exist.
+/// counter-clockwise, so its left is its inside. Throws CaseError for a wall without extent
+/// or normal, repeated points, points of the wrong dimension, or an open face that does not exist.
 template <int Dim>
 Boundary<Dim> make_boundary(const CaseSpec& spec);
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
+#include "base/finding.h"
 #include "base/vec.h"
 #include "case/formulation.h"
 #include "case/spec.h"
@@ -19,33 +19,39 @@ inline std::string name_or_number(const std::string& name, std::string_view what
   return name.empty() ? fmt::format("{}{}", what, index + 1) : name;
 }
 
-/// "fluid 'column'": the name of a block in messages.
-inline std::string fluid_label(const CaseSpec& spec, std::size_t block) {
-  return fmt::format("fluid '{}'", name_or_number(spec.fluid[block].name, "fluid", block));
+inline CaseLabel fluid_label(const CaseSpec& spec, std::size_t block) {
+  return CaseLabel("fluid", name_or_number(spec.fluid[block].name, "fluid", block));
 }
 
-/// The point as a vector. Throws InputError, which names the `owner` ("wall 'bed'") and the `key` ("points[2]"), when
-/// it does not have Dim numbers.
+inline CaseLabel label(const ProbeTable& probe) { return CaseLabel("probe", probe.name); }
+
+/// The point under a `key` of the `owner` as a vector. Throws CaseError when it does not have Dim numbers.
 template <int Dim>
-Vec<Dim> to_vec(const Coordinates& point, std::string_view owner, std::string_view key) {
+Vec<Dim> to_vec(const Coordinates& point, const CaseLabel& owner, std::string_view key) {
   if (point.size() != Dim) {
-    throw InputError("{}: {} has {} numbers but the case has {} dimensions: give one number per dimension", owner, key,
-                     point.size(), Dim);
+    throw CaseError({"{} has {} numbers but the case has {} dimensions", owner.with_key(key), point.size(), Dim},
+                    {"give one number per dimension"});
   }
   return Eigen::Map<const Vec<Dim>>(point.data());
 }
 
 template <int Dim>
 Vec<Dim> gravity_of(const CaseSpec& spec) {
-  return to_vec<Dim>(spec.physics.gravity, "[physics]", "gravity");
+  return to_vec<Dim>(spec.physics.gravity, CaseLabel("physics"), "gravity");
 }
 
-/// "(0.5, 1.25)": a place in messages, to the picometre, so that round-off is not shown.
+/// A place that a message names and a picture marks.
 template <int Dim>
-std::string place(Vec<Dim> x) {
-  for (double& coordinate : x) coordinate = std::abs(coordinate) < 1e-12 ? 0.0 : coordinate;
-  return Dim == 2 ? fmt::format("({:.6g}, {:.6g})", x[0], x[1])
-                  : fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[Dim - 1]);
+MarkedPlace place(const Vec<Dim>& x) {
+  MarkedPlace place{{}, Dim};
+  for (int axis = 0; axis < Dim; ++axis) place.x[axis] = x[axis];
+  return place;
+}
+
+/// A direction or a displacement in messages, such as "(0.5, 1.25)"; pictures do not mark it.
+template <int Dim>
+std::string vector_text(const Vec<Dim>& v) {
+  return place(v).text();
 }
 
 /// Low and high end of periodic direction `axis`; empty where the domain is not periodic.

@@ -59,7 +59,7 @@ int body_of(const CaseSpec& spec, std::size_t w) {
 }
 
 /// The faces of a polyline or polygon, in the order of its points.
-void append_chain(const WallTable& table, int wall, const std::string& owner, double spacing,
+void append_chain(const WallTable& table, int wall, const CaseLabel& owner, double spacing,
                   std::vector<WallFace<2>>& faces) {
   const bool closed = table.shape == WallShape::polygon;
   std::vector<Vec<2>> points;
@@ -68,34 +68,34 @@ void append_chain(const WallTable& table, int wall, const std::string& owner, do
   }
   const std::size_t least = closed ? 3 : 2;
   if (points.size() < least) {
-    throw InputError("{} has {} points: a {} needs at least {}", owner, points.size(), name_of(table.shape), least);
+    throw CaseError({"{} has {} points", owner, points.size()}, {"give a {} at least {}", name_of(table.shape), least});
   }
   const std::size_t face_count = closed ? points.size() : points.size() - 1;
   for (std::size_t k = 0; k < face_count; ++k) {
     const std::size_t next = (k + 1) % points.size();
-    if ((points[next] - points[k]).norm() <= corner_tolerance * spacing) {
-      const double length = (points[next] - points[k]).norm();
-      throw InputError(length == 0.0
-                           ? fmt::format("{}: points[{}] and points[{}] are both at {}, so the piece between them has "
-                                         "no length: remove one of them",
-                                         owner, k, next, place(points[k]))
-                           : fmt::format("{}: points[{}] and points[{}] are {:.3g} m apart, which is nothing beside a "
-                                         "spacing of {:.6g} m: use a smaller spacing, or remove one of the points",
-                                         owner, k, next, length, spacing));
+    const double length = (points[next] - points[k]).norm();
+    if (length > corner_tolerance * spacing) continue;
+    const CaseLabel key = owner.with_key("points");
+    if (length == 0.0) {
+      throw CaseError({"{}[{}] and points[{}] are both at {}, so the piece between them has no length", key, k, next,
+                       place(points[k])},
+                      {"remove one of them"});
     }
+    throw CaseError({"{}[{}] and points[{}] are {:.3g} apart at {}, which is nothing beside a spacing of {:.6g} m", key,
+                     k, next, Amount{length, "m"}, place(points[k]), spacing},
+                    {"use a smaller spacing, or remove one of the points"});
   }
 
   bool fluid_is_left = table.fluid_side == FluidSide::left;
   if (table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside) {
     if (!closed) {
-      throw InputError(
-          "{}: a polyline has no {}: set fluid_side to \"left\" or \"right\", as seen when walking along its points",
-          owner, name_of(table.fluid_side));
+      throw CaseError({"{}: a polyline has no {}", owner, name_of(table.fluid_side)},
+                      {"set fluid_side to \"left\" or \"right\", as seen when walking along its points"});
     }
     const double area = signed_area(points);
     if (std::abs(area) <= corner_tolerance * spacing * spacing) {
-      throw InputError("{}: the polygon through {} encloses no area, so it has no inside: move its points apart", owner,
-                       place(points[0]));
+      throw CaseError({"{}: the polygon through {} encloses no area, so it has no inside", owner, place(points[0])},
+                      {"move its points apart"});
     }
     fluid_is_left = (area > 0.0) == (table.fluid_side == FluidSide::inside);
   }
@@ -133,21 +133,22 @@ void append_box_face(const std::array<Vec<Dim>, 2>& ends, int axis, int side, bo
 }
 
 template <int Dim>
-void append_box(const WallTable& table, int wall, const std::string& owner, double spacing,
+void append_box(const WallTable& table, int wall, const CaseLabel& owner, double spacing,
                 std::vector<WallFace<Dim>>& faces) {
   static const std::array<std::string, 6> all_names{"-x", "+x", "-y", "+y", "-z", "+z"};
   const std::array<Vec<Dim>, 2> ends{to_vec<Dim>(table.min, owner, "min"), to_vec<Dim>(table.max, owner, "max")};
   for (int axis = 0; axis < Dim; ++axis) {
     if (ends[1][axis] - ends[0][axis] <= corner_tolerance * spacing) {
-      throw InputError("{} has no extent in {}: max = {} must lie above min = {}", owner, "xyz"[axis], ends[1][axis],
-                       ends[0][axis]);
+      throw CaseError(
+          {"{} has no extent in {}: its max is {} and its min {}", owner, "xyz"[axis], ends[1][axis], ends[0][axis]},
+          {"give a max above min"});
     }
   }
   const auto names_end = all_names.begin() + 2 * Dim;
   for (const std::string& name : table.open) {
     if (std::find(all_names.begin(), names_end, name) == names_end) {
-      throw InputError("{}: open = \"{}\" is not a face of a {}D box: use \"{}\"", owner, name, Dim,
-                       fmt::join(all_names.begin(), names_end, "\", \""));
+      throw CaseError({"{} = \"{}\" is not a face of a {}D box", owner.with_key("open"), name, Dim},
+                      {"use \"{}\"", fmt::join(all_names.begin(), names_end, "\", \"")});
     }
   }
   const bool fluid_is_inside = table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::left;
@@ -158,8 +159,8 @@ void append_box(const WallTable& table, int wall, const std::string& owner, doub
     }
   }
   if (faces.size() == before) {
-    throw InputError("{}, the box from {} to {}, has no face left: shorten its list of open faces", owner,
-                     place(ends[0]), place(ends[1]));
+    throw CaseError({"{}, the box from {} to {}, has no face left", owner, place(ends[0]), place(ends[1])},
+                    {"shorten its list of open faces"});
   }
 }
 
@@ -172,7 +173,7 @@ std::vector<WallFace<3>> rectangle_faces(const std::vector<Vec<3>>& c, const Vec
 }
 
 template <int Dim>
-void append_plate(const WallTable& table, int wall, const std::string& owner, double spacing, Boundary<Dim>& boundary) {
+void append_plate(const WallTable& table, int wall, const CaseLabel& owner, double spacing, Boundary<Dim>& boundary) {
   const int first = static_cast<int>(boundary.faces.size());
   if constexpr (Dim == 2) {
     WallTable side = table;
@@ -192,10 +193,9 @@ void append_plate(const WallTable& table, int wall, const std::string& owner, do
         (corners[1] - corners[0]).norm() > tolerance && (corners[3] - corners[0]).norm() > tolerance &&
         std::abs((corners[1] - corners[0]).normalized().dot(corners[3] - corners[0])) <= tolerance;
     if (!is_rectangle) {
-      throw InputError(
-          "{}: its {} points are not the corners of a rectangle, as a plate in 3D needs: give four, in the order in "
-          "which one walks around it, with right angles",
-          owner, corners.size());
+      throw CaseError(
+          {"{}: its {} points are not the corners of a rectangle, as a plate in 3D needs", owner, corners.size()},
+          {"give four, in the order in which one walks around it, with right angles"});
     }
     const Vec<3> normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
     for (const WallFace<3>& face : rectangle_faces(corners, normal, wall)) boundary.faces.push_back(face);
@@ -207,15 +207,15 @@ void append_plate(const WallTable& table, int wall, const std::string& owner, do
 constexpr double most_cells_of_a_plate = 3e8;
 
 template <int Dim>
-void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, const std::string& owner, double spacing,
+void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, const CaseLabel& owner, double spacing,
                        double reach) {
   Eigen::AlignedBox<double, Dim> box;
   for (std::size_t f = first_face; f < boundary.faces.size(); ++f) box.extend(boundary.faces[f].box());
   if (box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= most_cells_of_a_plate) return;
-  throw InputError(
-      "{}: reaches over {:.3g} m, which is {:.3g} times particles.spacing: use a larger spacing, or a smaller plate, "
-      "drawn in metres",
-      owner, box.sizes().maxCoeff(), box.sizes().maxCoeff() / spacing);
+  const double length = box.sizes().maxCoeff();
+  throw CaseError(
+      {"{} reaches over {:.3g}, which is {:.3g} times particles.spacing", owner, Amount{length, "m"}, length / spacing},
+      {"use a larger spacing, or a smaller plate, drawn in metres"});
 }
 
 /// The meshes of the blocks of water.
@@ -241,7 +241,7 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     const int wall = static_cast<int>(w);
     boundary.walls.push_back({name_or_number(table.name, "wall", w), friction_of(table), roughness_of(table),
                               body_of(spec, w), kind_of(table)});
-    const std::string owner = wall_label(boundary, wall);
+    const CaseLabel owner = wall_label(boundary, wall);
     boundary.walls[wall].is_plate = table.shape == WallShape::plate;
     if (Dim == 3 && table.shape == WallShape::plate && !table.file.empty()) {
       if constexpr (Dim == 3) append_mesh_plate(spec, table, wall, owner, boundary);
@@ -254,16 +254,17 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     } else if (table.shape == WallShape::mesh) {
       append_mesh(spec, table, wall, owner, boundary);
     } else {
-      throw InputError("{}: shape = \"{}\" exists in 2D only: in 3D use shape = \"box\" or \"mesh\"", owner,
-                       name_of(table.shape));
+      throw CaseError({"{} = \"{}\" exists in 2D only", owner.with_key("shape"), name_of(table.shape)},
+                      {"in 3D use shape = \"box\" or \"mesh\""});
     }
     const double reach = dummy_layers(spec) * spec.particles.spacing;
     if (table.shape == WallShape::plate) require_few_cells(boundary, before, owner, spec.particles.spacing, reach);
     // The faces of a resting mesh are found by its own tree.
     if (table.shape != WallShape::mesh || boundary.walls.back().moves()) compared += boundary.faces.size() - before;
     if (compared > most_faces) {
-      throw InputError("{}: with it the walls have {} pieces{}, and a case has at most {}: draw them coarser", owner,
-                       compared, boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces);
+      throw CaseError({"{}: with it the walls have {} pieces{}, and a case has at most {}", owner, compared,
+                       boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces},
+                      {"draw them coarser"});
     }
   }
   boundary.hang_screens(0.5 * spec.particles.spacing, dummy_layers(spec) * spec.particles.spacing);

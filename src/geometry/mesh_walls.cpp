@@ -26,7 +26,7 @@ constexpr double largest_round_off = 0.01;  // dx
 /// Of the area of an open mesh; where less of it looks up or down, neither side is above the other.
 constexpr double least_upward_share = 0.1;
 
-Eigen::Matrix3d rotation_of(const PlacedFile& file, const std::string& owner) {
+Eigen::Matrix3d rotation_of(const PlacedFile& file, const CaseLabel& owner) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (file.rotate.empty()) return turn;
   const Vec<3> degrees = to_vec<3>(file.rotate, owner, "rotate");
@@ -41,7 +41,7 @@ Eigen::Matrix3d rotation_of(const PlacedFile& file, const std::string& owner) {
 }
 
 /// From the file's coordinates to those of the case.
-void put_in_place(const PlacedFile& file, const std::string& owner, TriangleMesh& mesh) {
+void put_in_place(const PlacedFile& file, const CaseLabel& owner, TriangleMesh& mesh) {
   const Eigen::Matrix3d turn = file.scale * rotation_of(file, owner);
   const Vec<3> shift = file.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(file.translate, owner, "translate");
   for (Vec<3>& x : mesh.points) x = turn * x + shift;
@@ -50,26 +50,34 @@ void put_in_place(const PlacedFile& file, const std::string& owner, TriangleMesh
 /// Refuses a mesh, with the words that begin every message about it.
 class Refusal {
  public:
-  Refusal(const TriangleMesh& mesh, std::string start) : mesh_(mesh), start_(std::move(start)) {}
+  Refusal(const TriangleMesh& mesh, Clause start) : mesh_(mesh), start_(std::move(start)) {}
 
-  template <class... Arguments>
-  [[noreturn]] void operator()(fmt::format_string<Arguments...> text, Arguments&&... arguments) const {
-    throw InputError(start_ + fmt::format(text, std::forward<Arguments>(arguments)...));
+  [[noreturn]] void operator()(const Clause& problem, const Clause& remedy) const {
+    throw CaseError({"{}: {}", start_, problem}, remedy);
   }
 
   /// "triangle 7 at (0, 1, 2)": the number in the file counts from 1, the place is the triangle's middle in the case.
-  std::string triangle(int t) const {
+  Clause triangle(int t) const {
     const Vec<3> middle = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3.0;
-    return fmt::format("triangle {} at {}", t + 1, place(middle));
+    return {"triangle {} at {}", t + 1, place(middle)};
   }
-  std::string edge(const TriangleEdge& edge) const {
-    return fmt::format("the edge from {} to {}", place(mesh_.points[edge.low]), place(mesh_.points[edge.high]));
+  Clause edge(const TriangleEdge& edge) const {
+    return {"the edge from {} to {}", place(mesh_.points[edge.low]), place(mesh_.points[edge.high])};
   }
 
  private:
   const TriangleMesh& mesh_;
-  std::string start_;
+  Clause start_;
 };
+
+/// The mesh of a file, as it is there.
+TriangleMesh read_mesh_of(const PlacedFile& file, const CaseLabel& owner) {
+  try {
+    return TriangleMesh{read_mesh(file.file)};
+  } catch (const InputError& error) {
+    throw CaseError({"{}: {}", owner, error.what()}, {});
+  }
+}
 
 void require_triangles_with_area(const TriangleMesh& mesh, double least_height, const Refusal& refuse) {
   int first = -1;
@@ -81,8 +89,9 @@ void require_triangles_with_area(const TriangleMesh& mesh, double least_height, 
     if (count++ == 0) first = t;
   }
   if (count == 0) return;
-  refuse("{} has no area{}: its corners are equal or on a line; remove degenerate triangles", refuse.triangle(first),
-         count == 1 ? "" : fmt::format(", nor have {} others", count - 1));
+  refuse({"{} has no area{}: its corners are equal or on a line", refuse.triangle(first),
+          count == 1 ? "" : fmt::format(", nor have {} others", count - 1)},
+         {"remove degenerate triangles"});
 }
 
 void require_no_double_triangles(const TriangleMesh& mesh, const Refusal& refuse) {
@@ -93,7 +102,8 @@ void require_no_double_triangles(const TriangleMesh& mesh, const Refusal& refuse
   std::ranges::sort(order, [&](int a, int b) { return std::pair(corners[a], a) < std::pair(corners[b], b); });
   const auto same = std::ranges::adjacent_find(order, [&](int a, int b) { return corners[a] == corners[b]; });
   if (same == order.end()) return;
-  refuse("{} and triangle {} have the same corners: remove double triangles", refuse.triangle(*same), same[1] + 1);
+  refuse({"{} and triangle {} have the same corners", refuse.triangle(*same), same[1] + 1},
+         {"remove double triangles"});
 }
 
 /// The edges that have no neighbour.
@@ -104,16 +114,14 @@ std::vector<TriangleEdge> require_neighbours_that_agree(const std::vector<Triang
     while (end < edges.size() && edges[end].is_between_same_points(edges[k])) ++end;
     const TriangleEdge& edge = edges[k];
     if (end - k > 2) {
-      refuse(
-          "{} belongs to {} triangles, {} among them: an edge may have two; separate bodies that touch there, or "
-          "remove inner walls",
-          refuse.edge(edge), end - k, refuse.triangle(edge.triangle));
+      refuse({"{} belongs to {} triangles, {} among them: an edge may have two", refuse.edge(edge), end - k,
+              refuse.triangle(edge.triangle)},
+             {"separate bodies that touch there, or remove inner walls"});
     }
     if (end - k == 2 && edge.runs_up == edges[k + 1].runs_up) {
-      refuse(
-          "{} and triangle {}, which share {}, face opposite sides: turn one of them over (orient the normals "
-          "consistently)",
-          refuse.triangle(edge.triangle), edges[k + 1].triangle + 1, refuse.edge(edge));
+      refuse({"{} and triangle {}, which share {}, face opposite sides", refuse.triangle(edge.triangle),
+              edges[k + 1].triangle + 1, refuse.edge(edge)},
+             {"turn one of them over (orient the normals consistently)"});
     }
     if (end - k == 1) rim.push_back(edge);
     k = end;
@@ -163,8 +171,8 @@ void turn_outwards(TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, c
     bool is_cavity = false;
     for (int q = 0; q < count; ++q) is_cavity = is_cavity || (volume[q] > 0.0 && box[q].contains(box[p]));
     if (is_cavity) continue;
-    refuse("the part that begins with {} is inside out, unlike the rest of the file: turn its triangles over",
-           refuse.triangle(first[p]));
+    refuse({"the part that begins with {} is inside out, unlike the rest of the file", refuse.triangle(first[p])},
+           {"turn its triangles over"});
   }
 }
 
@@ -178,9 +186,8 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
   }
   const double upward = up.dot(sum) / area;
   if (std::abs(upward) < least_upward_share) {
-    refuse(
-        "neither side of the mesh is above the other, because as much of it looks up as down: give fluid_side = "
-        "\"front\" or \"back\"");
+    refuse({"neither side of the mesh is above the other, because as much of it looks up as down"},
+           {"give fluid_side = \"front\" or \"back\""});
   }
   if (upward < 0.0) turn_over(mesh);
 }
@@ -189,16 +196,16 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
 /// the front.
 class SoundMesh {
  public:
-  SoundMesh(const CaseSpec& spec, const PlacedFile& file, const std::string& owner)
-      : mesh{read_mesh(file.file, owner)}, refuse(mesh, fmt::format("{}: file {}: ", owner, file.file)) {
+  SoundMesh(const CaseSpec& spec, const PlacedFile& file, const CaseLabel& owner)
+      : mesh{read_mesh_of(file, owner)}, refuse(mesh, {"{}: file {}", owner, file.file}) {
     double farthest = 0.0;
     for (const Vec<3>& x : mesh.points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
     const double round_off = file_precision * farthest * file.scale;
     if (round_off > largest_round_off * spec.particles.spacing) {
-      refuse(
-          "its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g} m, too coarse "
-          "beside a spacing of {:.6g} m: move the mesh to the origin before it is exported, or correct scale = {:g}",
-          farthest, round_off, spec.particles.spacing, file.scale);
+      refuse({"its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g}, too coarse "
+              "beside a spacing of {:.6g} m",
+              farthest, Amount{round_off, "m"}, spec.particles.spacing},
+             {"move the mesh to the origin before it is exported, or correct scale = {:g}", file.scale});
     }
     put_in_place(file, owner, mesh);
     const double torn = torn_points * farthest * file.scale;
@@ -212,9 +219,9 @@ class SoundMesh {
   SoundMesh& operator=(const SoundMesh&) = delete;
 
   /// "3 edges have no neighbour, the first is the edge from (0, 0, 0) to (1, 0, 0) of triangle 5 at (0.5, 0, 0)"
-  std::string rim_text() const {
-    return fmt::format("{} edges have no neighbour, the first is {} of {}", rim.size(), refuse.edge(rim[0]),
-                       refuse.triangle(rim[0].triangle));
+  Clause rim_text() const {
+    return {"{} edges have no neighbour, the first is {} of {}", rim.size(), refuse.edge(rim[0]),
+            refuse.triangle(rim[0].triangle)};
   }
 
   TriangleMesh mesh;
@@ -225,34 +232,33 @@ class SoundMesh {
 
 }  // namespace
 
-TriangleMesh read_placed_mesh(const PlacedFile& file, const std::string& owner) {
-  TriangleMesh mesh{read_mesh(file.file, owner)};
+TriangleMesh read_placed_mesh(const PlacedFile& file, const CaseLabel& owner) {
+  TriangleMesh mesh = read_mesh_of(file, owner);
   put_in_place(file, owner, mesh);
   return mesh;
 }
 
-TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const std::string& owner) {
+TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner) {
   SoundMesh sound(spec, table, owner);
   TriangleMesh& mesh = sound.mesh;
   if (table.shape == WallShape::plate) {
     if (sound.rim.empty()) {
-      sound.refuse(
-          "is a closed mesh, and a plate is an open sheet with water on both sides: give shape = \"mesh\" with its "
-          "fluid_side, or export only the sheet");
+      sound.refuse({"is a closed mesh, and a plate is an open sheet with water on both sides"},
+                   {"give shape = \"mesh\" with its fluid_side, or export only the sheet"});
     }
     return std::move(mesh);
   }
   const bool is_body = table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside;
   if (is_body && !sound.rim.empty()) {
     sound.refuse(
-        "is not watertight, and fluid_side = \"{}\" needs a closed mesh: {}; close the mesh, or give the side of an "
-        "open one (\"above\", \"below\", \"front\" or \"back\"), or draw a sheet with water on both sides with shape = "
-        "\"plate\"",
-        name_of(table.fluid_side), sound.rim_text());
+        {"is not watertight, and fluid_side = \"{}\" needs a closed mesh: {}", name_of(table.fluid_side),
+         sound.rim_text()},
+        {"close the mesh, or give the side of an open one (\"above\", \"below\", \"front\" or \"back\"), or draw a "
+         "sheet with water on both sides with shape = \"plate\""});
   }
   if (!is_body && sound.rim.empty()) {
-    sound.refuse("is a closed mesh, so fluid_side = \"{}\" does not fit: give \"inside\" or \"outside\"",
-                 name_of(table.fluid_side));
+    sound.refuse({"is a closed mesh, so fluid_side = \"{}\" does not fit", name_of(table.fluid_side)},
+                 {"give \"inside\" or \"outside\""});
   }
   const Vec<3> gravity = gravity_of<3>(spec);
   switch (table.fluid_side) {
@@ -274,11 +280,11 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
   return std::move(mesh);
 }
 
-TriangleMesh make_water_mesh(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
+TriangleMesh make_water_mesh(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner,
                              const Eigen::AlignedBox<double, 3>& walls) {
   SoundMesh sound(spec, block, owner);
   if (!sound.rim.empty()) {
-    sound.refuse("is not watertight, so that no inside holds the water: {}; close the mesh", sound.rim_text());
+    sound.refuse({"is not watertight, so that no inside holds the water: {}", sound.rim_text()}, {"close the mesh"});
   }
   turn_outwards(sound.mesh, sound.edges, sound.refuse);
   Eigen::AlignedBox<double, 3> box;
@@ -286,15 +292,14 @@ TriangleMesh make_water_mesh(const CaseSpec& spec, const FluidTable& block, cons
   if (walls.isEmpty()) return std::move(sound.mesh);
   const Vec<3> beyond = Vec<3>::Constant(walls.diagonal().norm());
   if (!Eigen::AlignedBox<double, 3>(Vec<3>(walls.min() - beyond), Vec<3>(walls.max() + beyond)).contains(box)) {
-    sound.refuse(
-        "reaches from {} to {}, far beyond the walls, which stand between {} and {}: correct scale = {:g} (0.001 for a "
-        "file in millimetres) or translate",
-        place<3>(box.min()), place<3>(box.max()), place<3>(walls.min()), place<3>(walls.max()), block.scale);
+    sound.refuse({"reaches from {} to {}, far beyond the walls, which stand between {} and {}", place<3>(box.min()),
+                  place<3>(box.max()), place<3>(walls.min()), place<3>(walls.max())},
+                 {"correct scale = {:g} (0.001 for a file in millimetres) or translate", block.scale});
   }
   return std::move(sound.mesh);
 }
 
-void append_mesh(const CaseSpec& spec, const WallTable& table, int wall, const std::string& owner,
+void append_mesh(const CaseSpec& spec, const WallTable& table, int wall, const CaseLabel& owner,
                  Boundary<3>& boundary) {
   WallMesh& added = boundary.meshes.emplace_back();
   added.first_face = static_cast<int>(boundary.faces.size());
@@ -305,7 +310,7 @@ void append_mesh(const CaseSpec& spec, const WallTable& table, int wall, const s
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) boundary.faces.push_back(face_of(mesh, t, wall));
 }
 
-void append_mesh_plate(const CaseSpec& spec, const WallTable& table, int wall, const std::string& owner,
+void append_mesh_plate(const CaseSpec& spec, const WallTable& table, int wall, const CaseLabel& owner,
                        Boundary<3>& boundary) {
   WallPlate& added = boundary.plates.emplace_back();
   added.wall = wall;

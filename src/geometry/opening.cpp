@@ -10,21 +10,19 @@ namespace {
 /// Least sine of the angle between an opening's plane and its direction. Below it the outer side is not clear.
 constexpr double least_sine = 0.1;
 
-std::array<Vec<2>, 1> edges_between(const Vec<2>& from, const Vec<2>& to, double, const std::string&) {
+std::array<Vec<2>, 1> edges_between(const Vec<2>& from, const Vec<2>& to, double, const CaseLabel&) {
   return {to - from};
 }
 
-std::array<Vec<3>, 2> edges_between(const Vec<3>& from, const Vec<3>& to, double tolerance, const std::string& owner) {
+std::array<Vec<3>, 2> edges_between(const Vec<3>& from, const Vec<3>& to, double tolerance, const CaseLabel& owner) {
   const Vec<3> diagonal = to - from;
   std::vector<Vec<3>> edges;
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(diagonal[axis]) > tolerance) edges.push_back(diagonal[axis] * Vec<3>::Unit(axis));
   }
   if (edges.size() != 2) {
-    throw InputError(
-        "{}: from {} to {} is not a flat rectangle: in 3D give two opposite corners that have exactly one coordinate "
-        "in common",
-        owner, place(from), place(to));
+    throw CaseError({"{} from {} to {} is not a flat rectangle", owner, place(from), place(to)},
+                    {"in 3D give two opposite corners that have exactly one coordinate in common"});
   }
   return {edges[0], edges[1]};
 }
@@ -35,9 +33,9 @@ Vec<3> across(const std::array<Vec<3>, 2>& edges) { return edges[0].cross(edges[
 }  // namespace
 
 template <int Dim>
-std::string Opening<Dim>::label() const {
+CaseLabel Opening<Dim>::label() const {
   const char* what = kind == OpeningKind::inlet ? "inlet" : kind == OpeningKind::outlet ? "outlet" : "probe";
-  return fmt::format("{} '{}'", what, name);
+  return CaseLabel(what, name);
 }
 
 template <int Dim>
@@ -68,12 +66,12 @@ Opening<Dim> make_opening(OpeningKind kind, std::string name, const Coordinates&
   Opening<Dim> opening;
   opening.kind = kind;
   opening.name = std::move(name);
-  const std::string owner = opening.label();
+  const CaseLabel owner = opening.label();
   const Vec<Dim> from = to_vec<Dim>(from_key, owner, "from");
   const Vec<Dim> to = to_vec<Dim>(to_key, owner, "to");
   const double tolerance = corner_tolerance * spacing;
   if ((to - from).norm() <= tolerance) {
-    throw InputError("{} has no extent: from and to are both at {}; give its two ends", owner, place(from));
+    throw CaseError({"{} has no extent: from and to are both at {}", owner, place(from)}, {"give its two ends"});
   }
   opening.corner = from;
   opening.edges = edges_between(from, to, tolerance, owner);
@@ -81,10 +79,10 @@ Opening<Dim> make_opening(OpeningKind kind, std::string name, const Coordinates&
   opening.normal = across(opening.edges);
   const double sine = opening.normal.dot(direction);
   if (std::abs(sine) < least_sine) {
-    throw InputError(
-        "{} from {} to {} lies along its direction {}, so it has no outside: give the direction in which the water "
-        "goes, such as {} or {}",
-        owner, place(from), place(to), place(direction), place(opening.normal), place(Vec<Dim>(-opening.normal)));
+    throw CaseError({"{} from {} to {} lies along its direction {}, so it has no outside", owner, place(from),
+                     place(to), vector_text(direction)},
+                    {"give the direction in which the water goes, such as {} or {}", vector_text(opening.normal),
+                     vector_text(Vec<Dim>(-opening.normal))});
   }
   if (sine < 0.0) opening.normal = -opening.normal;
   return opening;

@@ -22,8 +22,8 @@ struct Opening {
   std::array<Vec<Dim>, Dim - 1> edges;  ///< m; of full length, at right angles
   Vec<Dim> normal = Vec<Dim>::Zero();   ///< unit vector; of an inlet and an outlet out of the case
 
-  /// "outlet 'weir'": its name in messages.
-  std::string label() const;
+  /// Such as "outlet 'weir'".
+  CaseLabel label() const;
   /// The direction in which water is meant to pass.
   Vec<Dim> direction() const { return kind == OpeningKind::inlet ? Vec<Dim>(-normal) : normal; }
   /// Distance beyond the plane, along its normal, m.
@@ -36,12 +36,12 @@ struct Opening {
   std::vector<WallFace<Dim>> as_faces() const;
 };
 
-/// The inlets of a case, then its outlets. Throws InputError, which names the opening and the place, for one without
+/// The inlets of a case, then its outlets. Throws CaseError for one without
 /// extent, one that is not a flat axis-parallel rectangle (3D), or a direction that runs along it.
 template <int Dim>
 std::vector<Opening<Dim>> make_open_ends(const CaseSpec& spec);
 
-/// The section of a discharge probe; its normal is the direction that counts as positive. Throws InputError likewise.
+/// The section of a discharge probe; its normal is the direction that counts as positive. Throws CaseError likewise.
 template <int Dim>
 Opening<Dim> make_section(const ProbeTable& probe, double spacing);
 

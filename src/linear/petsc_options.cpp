@@ -11,12 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "base/finding.h"
 #include "base/fp_traps.h"
 #include "linear/triangular_sweeps.h"
 
 namespace tailwater {
 namespace {
+
+const CaseLabel options_key = CaseLabel("pressure_solver").with_key("petsc_options");
 
 /// With PETSc's default absolute tolerance any residual below it would count as converged, however large relative to
 /// the source.
@@ -120,8 +122,7 @@ std::vector<std::string> words_of(std::string options) {
 
 void require_harmless(const PressureSolverTable& settings) {
   const auto refuse = [&](const std::string& word, const char* remedy) {
-    throw InputError("pressure_solver.petsc_options = \"{}\": {} is not allowed: {}", settings.petsc_options, word,
-                     remedy);
+    throw CaseError({"{} = \"{}\": {} is not allowed", options_key, settings.petsc_options, word}, {"{}", remedy});
   };
   for (const std::string& word : words_of(settings.petsc_options)) {
     const auto has = [&](const char* part) { return word.find(part) != word.npos; };
@@ -133,7 +134,7 @@ void require_harmless(const PressureSolverTable& settings) {
              "none that print or open files");
     }
     if (std::ranges::any_of(ends, has)) {
-      refuse(word, "where a solve ends is said by pressure_solver.tolerance and pressure_solver.max_iterations");
+      refuse(word, "set pressure_solver.tolerance or pressure_solver.max_iterations, which end a solve, instead");
     }
   }
 }
@@ -172,15 +173,13 @@ void take_petsc_options(const PressureSolverTable& settings) {
     check_petsc(PetscOptionsInsertString(nullptr, settings.petsc_options.c_str()));
     ask_for_all_options(settings);
   } catch (const SolverError& error) {
-    throw InputError("pressure_solver.petsc_options = \"{}\": {}; give other options", settings.petsc_options,
-                     error.what());
+    throw CaseError({"{} = \"{}\": {}", options_key, settings.petsc_options, error.what()}, {"give other options"});
   }
   const std::vector<std::string> unused = unused_options(settings);
   if (unused.empty()) return;
-  throw InputError(
-      "pressure_solver.petsc_options = \"{}\": PETSc's solver asks for no option {}; give options of its KSP and PC "
-      "with the prefix pressure_, as in \"-pressure_ksp_type fgmres\"",
-      settings.petsc_options, fmt::join(unused, ", "));
+  throw CaseError({"{} = \"{}\": PETSc's solver asks for no option {}", options_key, settings.petsc_options,
+                   fmt::join(unused, ", ")},
+                  {"give options of its KSP and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\""});
 }
 
 }  // namespace tailwater

@@ -21,16 +21,14 @@ constexpr int profile_parts = 1000;
 constexpr double most_change_of_mean = 0.01;
 
 /// The values of a profile in the middle of equal parts of the depth.
-std::vector<double> profile_values(Formula& formula, int parts, const std::string& owner) {
+std::vector<double> profile_values(Formula& formula, int parts, const CaseLabel& owner) {
   std::vector<double> values;
   for (int k = 0; k < parts; ++k) {
     const double share = (k + 0.5) / parts;
     values.push_back(formula.at(std::array{share}));
     if (!std::isfinite(values.back())) {
-      throw InputError(
-          "{}: profile has no finite value at s = {:.4g}: give an expression that has one everywhere from the bed, s = "
-          "0, to the surface, s = 1",
-          owner, share);
+      throw CaseError({"{} has no finite value at s = {:.4g}", owner.with_key("profile"), share},
+                      {"give an expression that has one everywhere from the bed, s = 0, to the surface, s = 1"});
     }
   }
   return values;
@@ -42,7 +40,7 @@ double mean_of(const std::vector<double>& values) {
 
 /// EndFlow::profile.
 std::vector<double> tabulated_profile(const std::optional<Varying>& profile, const CaseSpec& spec,
-                                      const std::string& owner) {
+                                      const CaseLabel& owner) {
   if (!profile || std::holds_alternative<double>(*profile)) return {};
   NamedNumbers numbers = named_numbers(spec);
   numbers.erase(std::string(height_name[0]));
@@ -50,18 +48,16 @@ std::vector<double> tabulated_profile(const std::optional<Varying>& profile, con
   const std::vector<double> values = profile_values(formula, profile_parts, owner);
   const double mean = mean_of(values);
   if (mean <= 0.0) {
-    throw InputError(
-        "{}: profile has the mean {:.4g}: give one whose mean is above 0; a discharge or a velocity below 0 lets water "
-        "out",
-        owner, mean);
+    throw CaseError(
+        {"{} has the mean {:.4g}; a discharge or a velocity below 0 lets water out", owner.with_key("profile"), mean},
+        {"give one whose mean is above 0"});
   }
   const double finer = mean_of(profile_values(formula, 2 * profile_parts, owner));
   if (std::abs(finer - mean) > most_change_of_mean * mean) {
     const bool at_bed = std::abs(values.front()) > std::abs(values.back());
-    throw InputError(
-        "{}: profile grows without bound towards s = {}, so that it has no mean: give an expression with an end there, "
-        "such as min(10, ...)",
-        owner, at_bed ? "0, the bed" : "1, the surface");
+    throw CaseError({"{} grows without bound towards s = {}, so that it has no mean", owner.with_key("profile"),
+                     at_bed ? "0, the bed" : "1, the surface"},
+                    {"give an expression with an end there, such as min(10, ...)"});
   }
   std::vector<double> below{0.0};
   for (const double value : values) below.push_back(below.back() + value / (mean * profile_parts));

@@ -50,7 +50,7 @@ void BodyState<Dim>::go_on(double t) {
 template <int Dim>
 FloatingBody<Dim>::FloatingBody(const CaseSpec& spec, const BodyTable& table)
     : name(table.name), mass(table.mass), inertia(Turn<Dim>::Ones()) {
-  const std::string owner = "body '" + name + "'";
+  const CaseLabel owner("body", name);
   for (std::size_t k = 0; k < table.inertia.size(); ++k) inertia[static_cast<int>(k)] = table.inertia[k];
   for (const std::string& degree : table.free) free.push_back(entry_of<Dim>(degree));
   std::ranges::sort(free);
@@ -109,7 +109,7 @@ template <int Dim>
 std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec) {
   std::vector<Mooring<Dim>> moorings;
   for (const MooringTable& table : spec.moorings) {
-    const std::string owner = "mooring '" + table.name + "'";
+    const CaseLabel owner("mooring", table.name);
     moorings.push_back({.body = body_named(spec, table.bodies.front()),
                         .to_body = table.bodies.size() > 1 ? body_named(spec, table.bodies.back()) : -1,
                         .at = to_vec<Dim>(table.at, owner, "at"),

@@ -53,11 +53,12 @@ typename WrittenMotion<Dim>::Component WrittenMotion<Dim>::make_component(const 
 }
 
 template <int Dim>
-WrittenMotion<Dim>::WrittenMotion(const CaseSpec& spec, const WallTable& table, const std::string& owner)
+WrittenMotion<Dim>::WrittenMotion(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner)
     : rotation_(make_component(spec, table.rotation)) {
   if (!table.displacement.empty() && table.displacement.size() != Dim) {
-    throw InputError("{}: displacement has {} components but the case has {} dimensions: give one per dimension", owner,
-                     table.displacement.size(), Dim);
+    throw CaseError({"{} has {} components but the case has {} dimensions", owner.with_key("displacement"),
+                     table.displacement.size(), Dim},
+                    {"give one per dimension"});
   }
   for (const Varying& component : table.displacement) displacement_.push_back(make_component(spec, component));
 }
@@ -95,8 +96,8 @@ Placement<Dim> MotionOfFile<Dim>::at(double time) const {
 template <int Dim>
 MotionOfGate<Dim>::MotionOfGate(const CaseSpec& spec, const GateTable& gate)
     : direction_(upward<Dim>(spec)),
-      law_(gate,
-           std::abs(direction_.dot(to_vec<Dim>(gate.to, "gate", "to") - to_vec<Dim>(gate.from, "gate", "from")))) {}
+      law_(gate, std::abs(direction_.dot(to_vec<Dim>(gate.to, CaseLabel("gate", gate.name), "to") -
+                                         to_vec<Dim>(gate.from, CaseLabel("gate", gate.name), "from")))) {}
 
 // A plate that turns about its foot is displaced by the stroke where it crosses the still water's level.
 template <int Dim>
@@ -110,7 +111,7 @@ Placement<Dim> MotionOfMaker<Dim>::at(double time, const MakerState& state) cons
 }
 
 template <int Dim>
-WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner)
+WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner)
     : motion_(make_motion(spec, table, owner)),
       pivot_(table.pivot.empty() ? Vec<Dim>(Vec<Dim>::Zero()) : to_vec<Dim>(table.pivot, owner, "pivot")) {
   if constexpr (Dim == 3) {
@@ -125,7 +126,7 @@ WallPath<Dim>::WallPath(const CaseSpec& spec, const WallTable& table, const std:
 
 template <int Dim>
 typename WallPath<Dim>::Motion WallPath<Dim>::make_motion(const CaseSpec& spec, const WallTable& table,
-                                                          const std::string& owner) {
+                                                          const CaseLabel& owner) {
   if (table.drive.by == Drive::By::gate) return MotionOfGate<Dim>(spec, spec.gates[table.drive.index]);
   if (table.drive.by == Drive::By::wave_maker) return MotionOfMaker<Dim>(spec, spec.wave_makers[table.drive.index]);
   if (!table.series.empty()) return MotionOfFile<Dim>(table.series);

@@ -37,7 +37,7 @@ struct Placement {
 template <int Dim>
 class WrittenMotion {
  public:
-  WrittenMotion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+  WrittenMotion(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner);
   Placement<Dim> at(double time) const;
 
  private:
@@ -100,8 +100,8 @@ struct GivenMotion {
 template <int Dim>
 class WallPath {
  public:
-  /// Throws InputError, which names the `owner` ("wall 'gate'"), for components or a pivot of the wrong dimension.
-  WallPath(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+  /// Throws CaseError for components or a pivot of the wrong dimension.
+  WallPath(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner);
 
   /// Takes the place of the motion; the pivot and the axis stay.
   void follow(GivenMotion<Dim> given) { motion_ = std::move(given); }
@@ -117,7 +117,7 @@ class WallPath {
  private:
   using Motion =
       std::variant<WrittenMotion<Dim>, MotionOfFile<Dim>, MotionOfGate<Dim>, MotionOfMaker<Dim>, GivenMotion<Dim>>;
-  static Motion make_motion(const CaseSpec& spec, const WallTable& table, const std::string& owner);
+  static Motion make_motion(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner);
 
   Motion motion_;
   Vec<Dim> pivot_;

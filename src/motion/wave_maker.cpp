@@ -184,35 +184,32 @@ WavePlate<Dim>::WavePlate(const CaseSpec& spec, const WaveMakerTable& maker)
       turns(maker.type == MakerType::flap),
       absorbs(maker.absorption == Absorption::active),
       law(maker, gravity_of<Dim>(spec).norm(), gauge) {
-  const std::string owner = fmt::format("wave_maker '{}'", maker.name);
+  const CaseLabel owner("wave_maker", maker.name);
   const Vec<Dim> from = to_vec<Dim>(maker.from, owner, "from");
   const Vec<Dim> to = to_vec<Dim>(maker.to, owner, "to");
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.norm() == 0.0) {
-    throw InputError("{}: without gravity there are no waves; give physics.gravity", owner);
+    throw CaseError({"{}: without gravity there are no waves", owner}, {"give physics.gravity"});
   }
   up = -gravity.normalized();
   const auto side = static_cast<int>(maker.side);
   forward = (side % 2 == 0 ? 1.0 : -1.0) * Vec<Dim>::Unit(side / 2);
   if (std::abs(forward.dot(up)) > 1e-9) {
-    throw InputError(
-        "{}: lies flat, but a plate that makes waves stands upright; give `from` and `to` on an upright {}", owner,
-        Dim == 2 ? "segment" : "rectangle");
+    throw CaseError({"{} lies flat, but a plate that makes waves stands upright", owner},
+                    {"give `from` and `to` on an upright {}", Dim == 2 ? "segment" : "rectangle"});
   }
   if (up.dot(to - from) < depth) {
-    throw InputError(
-        "{}: its top is {:.4g} m above its foot, below the still water's level of {:.4g} m: give a higher `to`, the "
-        "foot as `from`, or correct depth",
-        owner, up.dot(to - from), depth);
+    throw CaseError({"{}: its top is {:.4g} above its foot, below the still water's level of {:.4g} m", owner,
+                     Amount{up.dot(to - from), "m"}, depth},
+                    {"give a higher `to`, the foot as `from`, or correct depth"});
   }
   if (maker.waves == WaveKind::regular) {
     const double k = wave_number(2.0 * std::numbers::pi / maker.period, gravity.norm(), depth);
     const double highest = steepest * 2.0 * std::numbers::pi / k * std::tanh(k * depth);
     if (maker.height > highest) {
-      throw InputError(
-          "{}: its height of {:.4g} m is too much for its period of {:.4g} s: such waves break at {:.4g} m; give a "
-          "smaller height, or a longer period",
-          owner, maker.height, maker.period, highest);
+      throw CaseError({"{} of {:.4g} is too much for its period of {:.4g} s: such waves break at {:.4g} m",
+                       owner.with_key("height"), Amount{maker.height, "m"}, maker.period, highest},
+                      {"give a smaller height, or a longer period"});
     }
   }
   foot = from;

@@ -30,7 +30,7 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     const OpenEnd<Dim>& end = ends_[e];
     const OpenEndState& state = states_[e];
-    const std::string label = end.opening.label();
+    const std::string label = end.opening.label().text();
     if (state.miss.since >= 0.0 && is_first(label + ": level")) {
       tailwater::warn(
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "

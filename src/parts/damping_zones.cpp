@@ -8,8 +8,8 @@ namespace tailwater {
 
 template <int Dim>
 DampingZone<Dim>::DampingZone(const DampingTable& table)
-    : low_(to_vec<Dim>(table.min, "damping '" + table.name + "'", "min")),
-      high_(to_vec<Dim>(table.max, "damping '" + table.name + "'", "max")),
+    : low_(to_vec<Dim>(table.min, CaseLabel("damping", table.name), "min")),
+      high_(to_vec<Dim>(table.max, CaseLabel("damping", table.name), "max")),
       axis_(static_cast<int>(table.towards) / 2),
       grows_upwards_(static_cast<int>(table.towards) % 2 == 1),
       strength_(table.strength) {}

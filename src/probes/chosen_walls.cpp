@@ -23,8 +23,8 @@ std::vector<std::uint8_t> named_walls(const ProbeTable& probe, const Boundary<Di
   for (const std::string& name : probe.walls) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
-      throw InputError("{}: walls has \"{}\", and no wall of the case has this name; {}", label(probe), name,
-                       unknown_name_hint(name, known));
+      throw CaseError({"{} has \"{}\", and no wall of the case has this name", label(probe).with_key("walls"), name},
+                      {"{}", unknown_name_hint(name, known)});
     }
     named[static_cast<std::size_t>(found - known.begin())] = 1;
   }
@@ -54,7 +54,7 @@ ChosenWalls<Dim>::ChosenWalls(const ProbeTable& probe, const CaseSpec& spec, con
 template <int Dim>
 std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary,
                                   std::span<const WallPatch<Dim>> patches) {
-  if (patches.empty()) throw InputError("{}: the case has no wall; remove the probe", label(probe));
+  if (patches.empty()) throw CaseError({"{}: the case has no wall", label(probe)}, {"remove the probe"});
   const ChosenWalls<Dim> chosen(probe, spec, boundary);
   const double spacing = spec.particles.spacing;
   std::vector<double> shares(patches.size(), 0.0);
@@ -76,10 +76,9 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
     for (const WallFace<Dim>& face : boundary.faces) {
       if (chosen.is_named(face.wall)) box.extend(face.box());
     }
-    throw InputError(
-        "{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn; choose "
-        "region_min and region_max around the part you mean",
-        label(probe), place<Dim>(box.min()), place<Dim>(box.max()));
+    throw CaseError({"{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn",
+                     label(probe), place<Dim>(box.min()), place<Dim>(box.max())},
+                    {"choose region_min and region_max around the part you mean"});
   }
   return shares;
 }

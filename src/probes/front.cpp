@@ -67,8 +67,8 @@ Reading<Dim> front_reading(const ProbeTable& probe) {
   Vec<Dim> direction = Vec<Dim>::UnitX();
   if (!probe.direction.empty()) direction = to_vec<Dim>(probe.direction, label(probe), "direction");
   if (direction.norm() == 0.0) {
-    throw InputError("{}: direction = {} has no length: say where the front goes, as (1, 0)", label(probe),
-                     place(direction));
+    throw CaseError({"{} = {} has no length", label(probe).with_key("direction"), vector_text(direction)},
+                    {"give the direction of the front, as (1, 0)"});
   }
   direction.normalize();
   return {columns_of(probe, Dim), [direction](const ProbeContext<Dim>& context) -> std::vector<Row> {

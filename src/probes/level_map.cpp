@@ -37,14 +37,14 @@ struct LevelMap {
     double places_asked_for = 1.0;
     for (int d = 0; d < Dim - 1; ++d) {
       if (from[d] == to[d]) {
-        throw InputError("{}: from and to have the same {}, so the map has no extent: give two corners", label(probe),
-                         "xy"[d]);
+        throw CaseError({"{}: from and to have the same {}, so the map has no extent", label(probe), "xy"[d]},
+                        {"give two corners"});
       }
       places_asked_for *= std::max(1.0, std::abs(to[d] - from[d]) / step);
       if (places_asked_for > most_places) {
-        throw InputError(
-            "{}: has {:.3g} places; at most {:.3g} are possible: give a larger step, or a smaller part of the channel",
-            label(probe), places_asked_for, most_places);
+        throw CaseError(
+            {"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places_asked_for, most_places},
+            {"give a larger step, or a smaller part of the channel"});
       }
       count[d] = pieces_of_at_most(step, std::abs(to[d] - from[d]));
       piece[d] = (to[d] - from[d]) / count[d];

@@ -1,4 +1,4 @@
-// The name of a probe in messages, and the places that represent a stretch.
+// The places that represent a stretch.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,14 @@
 
 namespace tailwater {
 
-inline std::string label(const ProbeTable& probe) { return fmt::format("probe '{}'", probe.name); }
-
-/// The key `step`, which is dx if it is 0. Throws InputError where it is so small that particles cannot tell its places
+/// The key `step`, which is dx if it is 0. Throws CaseError where it is so small that particles cannot tell its places
 /// apart.
 inline double step_of(const ProbeTable& probe, double spacing) {
   constexpr double least = 0.1;  // dx
   if (probe.step > 0.0 && probe.step < least * spacing) {
-    throw InputError("{}: step = {} m is below {} dx = {:.4g} m, which particles cannot tell: make it larger",
-                     label(probe), probe.step, least, least * spacing);
+    throw CaseError({"{} = {} is below {} dx = {:.4g} m, which particles cannot resolve", label(probe).with_key("step"),
+                     Amount{probe.step, "m"}, least, least * spacing},
+                    {"make it larger"});
   }
   return probe.step > 0.0 ? probe.step : spacing;
 }

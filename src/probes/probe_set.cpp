@@ -47,9 +47,8 @@ Reading<Dim> volume_reading(const ProbeTable& probe) {
 template <int Dim>
 Reading<Dim> pockets_reading(const ProbeTable& probe, const CaseSpec& spec) {
   if (spec.air.pockets == AirPockets::none) {
-    throw InputError(
-        "{}: reads enclosed air, which this case does not compute; give pockets = \"{}\" in [air], or remove the probe",
-        label(probe), name_of(AirPockets::adiabatic));
+    throw CaseError({"{} reads enclosed air, which this case does not compute", label(probe)},
+                    {"give pockets = \"{}\" in [air], or remove the probe", name_of(AirPockets::adiabatic)});
   }
   return {columns_of(probe, Dim), [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const PocketTotals& air = context.totals.air;

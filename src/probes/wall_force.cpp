@@ -316,14 +316,12 @@ struct ForceMemory {
   }
 };
 
-/// Throws InputError where the forces between particles are not equal and opposite.
+/// Throws CaseError where the forces between particles are not equal and opposite.
 void require_reactions(const ProbeTable& probe, const CaseSpec& spec) {
   const std::string_view why = traits_of(spec).no_reaction;
   if (why.empty()) return;
-  throw InputError(
-      "{}: type = \"force\" does not go with this formulation: {}; choose scheme.formulation = \"robust\", or measure "
-      "with type = \"wall-pressure-mean\"",
-      label(probe), why);
+  throw CaseError({"{} = \"force\" does not go with this formulation: {}", label(probe).with_key("type"), why},
+                  {"choose scheme.formulation = \"robust\", or measure with type = \"wall-pressure-mean\""});
 }
 
 }  // namespace

@@ -28,32 +28,31 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   const double support = traits_of(spec).support * spec.particles.spacing;
   const NearestWall<Dim> nearest = boundary.nearest(x, support);
   if (nearest.face < 0) {
-    throw InputError("{}: no wall within {:.4g} m (the kernel's support) of {}: move it onto a wall", label(probe),
-                     support, place(x));
+    throw CaseError({"{}: no wall within {:.4g} m (the kernel's support) of {}", label(probe), support, place(x)},
+                    {"move it onto a wall"});
   }
   const int wall = boundary.faces[nearest.face].wall;
   Vec<Dim> point = nearest.point;
   if (boundary.walls[wall].is_plate) {
     const double tolerance = corner_tolerance * spec.particles.spacing;
     if (nearest.signed_distance <= tolerance) {
-      throw InputError(
-          "{}: {} is on {}, a plate that has water on both sides: move it by a millimetre to the side that is meant",
-          label(probe), place(x), wall_label(boundary, wall));
+      throw CaseError(
+          {"{}: {} is on {}, a plate that has water on both sides", label(probe), place(x), wall_label(boundary, wall)},
+          {"move it by a millimetre to the side that is meant"});
     }
     point += tolerance * boundary.faces[nearest.face].normal;
   }
   if (!boundary.walls[wall].moves()) return {point, nullptr};
   const Drive& drive = spec.walls[wall].drive;
   if (drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active) {
-    throw InputError(
-        "{}: {} gives way to waves, and a probe cannot follow it: move the probe, or give absorption = \"none\"",
-        label(probe), wall_label(boundary, wall));
+    throw CaseError(
+        {"{}: {} gives way to waves, and a probe cannot follow it", label(probe), wall_label(boundary, wall)},
+        {"move the probe, or give absorption = \"none\""});
   }
   if (drive.by == Drive::By::body) {
-    throw InputError(
-        "{}: {} is of body '{}', which the water moves, and a probe cannot follow it: move the probe, or take type = "
-        "\"force\" with a region",
-        label(probe), wall_label(boundary, wall), spec.bodies[drive.index].name);
+    throw CaseError({"{}: {} belongs to body '{}', which the water moves, and a probe cannot follow it", label(probe),
+                     wall_label(boundary, wall), spec.bodies[drive.index].name},
+                    {"move the probe, or take type = \"force\" with a region"});
   }
   return {point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
@@ -104,7 +103,8 @@ std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& s
   std::vector<Vec<Dim>> line = places_between<Dim>(probe, step);
   if (probe.width == 0.0) return line;
   if constexpr (Dim == 2) {
-    throw InputError("{}: width = {} m: a wall in 2D has no width; leave it out", label(probe), probe.width);
+    throw CaseError({"{} = {}: a wall in 2D has no width", label(probe).with_key("width"), Amount{probe.width, "m"}},
+                    {"leave it out"});
   } else {
     const Vec<3> along = to_vec<3>(probe.to, label(probe), "to") - to_vec<3>(probe.from, label(probe), "from");
     const Vec<3> across = normal_at(line[line.size() / 2], boundary).cross(along).normalized();

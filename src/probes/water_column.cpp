@@ -39,9 +39,9 @@ std::shared_ptr<const WallPath<Dim>> path_of_bed(const ProbeTable& probe, const 
   const bool gives_way =
       drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active;
   if (gives_way || drive.by == Drive::By::body) {
-    throw InputError(
-        "{}: its bed is {}, which moves as the water makes it, and a probe cannot follow it: move the probe",
-        label(probe), wall_label(boundary, wall));
+    throw CaseError({"{}: its bed is {}, which the water moves, and a probe cannot follow it", label(probe),
+                     wall_label(boundary, wall)},
+                    {"move the probe"});
   }
   return std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall));
 }
@@ -136,10 +136,10 @@ WaterColumn WaterColumns<Dim>::on(const UprightLine<Dim>& line) const {
 
 template <int Dim>
 Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec) {
-  const Vec<Dim> gravity = to_vec<Dim>(spec.physics.gravity, "physics", "gravity");
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.norm() == 0.0) {
-    throw InputError("{} measures depths against gravity, but physics.gravity is 0: set gravity or remove the probe",
-                     label(probe));
+    throw CaseError({"{} measures depths against gravity, but physics.gravity is 0", label(probe)},
+                    {"set gravity or remove the probe"});
   }
   return -gravity.normalized();
 }
@@ -155,8 +155,8 @@ UprightGauge<Dim>::UprightGauge(const ProbeTable& probe, const Vec<Dim>& at, con
   const auto is_bed = [&](const Crossing<Dim>& crossing) { return crossing.normal.dot(drawn_.up) > 0.0; };
   const auto bed = std::find_if(drawn_.crossings.rbegin(), drawn_.crossings.rend(), is_bed);  // the lowest
   if (bed == drawn_.crossings.rend()) {
-    throw InputError("{}: the vertical line through {} meets no wall that looks up: move it over a bed", label(probe),
-                     place(at));
+    throw CaseError({"{}: the vertical line through {} meets no wall that looks up", label(probe), place(at)},
+                    {"move it over a bed"});
   }
   path_ = path_of_bed(probe, spec, boundary, bed->wall);
   has_moving_walls_ = std::ranges::any_of(boundary.walls, &WallProperties::moves);

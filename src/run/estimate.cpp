@@ -106,16 +106,16 @@ namespace {
 
 /// What to look at first in a case with a mesh, which may be drawn in another unit.
 template <int Dim>
-std::string length_of_longest_mesh(const Boundary<Dim>& boundary) {
-  std::string hint;
+Clause length_of_longest_mesh(const Boundary<Dim>& boundary) {
+  Clause hint;
   if constexpr (Dim == 3) {
     double longest = 0.0;
     for (const WallMesh& mesh : boundary.meshes) {
       const double length = (mesh.surface->high() - mesh.surface->low()).maxCoeff();
       if (length <= longest) continue;
       longest = length;
-      hint = fmt::format("; {} is {:.6g} m long: if its file is in millimetres, give scale = 0.001",
-                         wall_label(boundary, mesh.wall), length);
+      hint = {", or scale = 0.001 if the file of {}, which is {:.6g} m long, is in millimetres",
+              wall_label(boundary, mesh.wall), length};
     }
   }
   return hint;
@@ -141,21 +141,22 @@ Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, doubl
   // The particles' memory is proportional to dx^-Dim.
   const double too_much = (needed - program_memory) / std::max(available - program_memory, 1.0);
   const double fitting = spec.particles.spacing * std::pow(too_much, 1.0 / Dim);
-  return {
-      Finding::error("particles.spacing = {:.6g} m makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB "
-                     "of memory; only {:.3g} GB are free: use a spacing of at least {:.3g} m, or smaller shapes{}",
-                     spec.particles.spacing, count.fluid, count.wall, needed / 1e9, available / 1e9, fitting,
-                     length_of_longest_mesh(boundary))};
+  return {Finding::error(
+      {"{} = {:.6g} makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory, and "
+       "only {:.3g} GB are free",
+       CaseLabel("particles").with_key("spacing"), Amount{spec.particles.spacing, "m"}, count.fluid, count.wall,
+       needed / 1e9, available / 1e9},
+      {"use a spacing of at least {:.3g} m, or smaller shapes{}", fitting, length_of_longest_mesh(boundary)})};
 }
 
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
   const double largest_step = rule.largest(0.0, 0.0);
   // Not a quotient, which may overflow for a mistyped end time.
   if (spec.time.end > most_steps * largest_step) {
-    throw InputError(
-        "time.end = {:g} s is out of reach: steps of at most {:.3g} s make more than {:g} of them; give the end in "
-        "seconds, at most {:.3g}, or a larger particles.spacing",
-        spec.time.end, largest_step, most_steps, most_steps * largest_step);
+    throw CaseError(
+        {"{} = {:g} is out of reach: steps of at most {:.3g} s make more than {:g} of them",
+         CaseLabel("time").with_key("end"), Amount{spec.time.end, "s"}, largest_step, most_steps},
+        {"give the end in seconds, at most {:.3g}, or a larger particles.spacing", most_steps * largest_step});
   }
 }
 

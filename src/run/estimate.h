@@ -1,8 +1,8 @@
 // What a run will need, estimated before it starts: particles, memory, time steps, hours.
 #pragma once
 
+#include "base/finding.h"
 #include "case/spec.h"
-#include "checks/finding.h"
 #include "flow/flow.h"
 #include "sampling/particle_count.h"
 

@@ -107,28 +107,22 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
   Boundary<Dim> boundary = make_boundary<Dim>(spec);
   // What a machine has for its ranks is enough for as many times more on all machines.
   const double available = available_memory() * ranks.size() / ranks_on_this_machine(ranks);
-  std::vector<Finding> findings = check_memory(spec, boundary, ranks.least(available));
+  Findings findings = check_memory(spec, boundary, ranks.least(available));
   if (findings.empty()) {
     boundary.file_faces(reach_of_checks * spec.particles.spacing);
     // The velocities are found, and refused, when the flow is made.
     const auto fluid = make_fluid_particles(spec, boundary, ranks, 0, StartVelocities::left_out);
     findings = check_geometry(spec, boundary, fluid);
   }
-  constexpr std::size_t most_shown = 50;
-  std::vector<std::string> errors;
-  for (const Finding& finding : findings) {
+  Findings errors;
+  for (const Finding& finding : spec.sources.located(findings)) {
     if (finding.severity == Severity::error) {
-      errors.push_back(finding.message);
+      errors.push_back(finding);
     } else if (warnings == CaseWarnings::told) {
-      warn(spec.sources.placed(finding.message));
+      warn(finding.line());
     }
   }
-  if (errors.empty()) return;
-  if (errors.size() > most_shown) {
-    errors[most_shown - 1] += fmt::format(" (and {} more problems)", errors.size() - most_shown);
-    errors.resize(most_shown);
-  }
-  throw InputError("{}", fmt::join(errors, "\n"));
+  if (!errors.empty()) throw CaseError(errors);
 }
 
 }  // namespace

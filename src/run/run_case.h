@@ -1,7 +1,7 @@
 // A run: from a validated case to a folder of results.
 #pragma once
 
-#include "base/error.h"
+#include "base/finding.h"
 #include "case/spec.h"
 #include "io/sealed_file.h"
 #include "parallel/communicator.h"
@@ -12,13 +12,13 @@ namespace tailwater {
 /// Of a case that needs more memory than there is.
 inline constexpr const char* remedy_for_memory = "remedy: a larger particles.spacing (see: tailwater check)";
 
-/// Does `work`; an InputError about the case that leaves it tells the place in the case file.
+/// Does `work`, and adds the positions in the case file to a CaseError that it throws.
 template <class Work>
 auto with_places(const CaseSpec& spec, const Work& work) {
   try {
     return work();
-  } catch (const InputError& error) {
-    throw InputError(spec.sources.placed(error.what()));
+  } catch (const CaseError& error) {
+    throw CaseError(spec.sources.located(error.findings()));
   }
 }
 
@@ -26,7 +26,7 @@ auto with_places(const CaseSpec& spec, const Work& work) {
 enum class CaseWarnings { told, left_out };
 
 /// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told by
-/// io/messages.h. Throws InputError with all errors found.
+/// io/messages.h. Throws CaseError with all errors found.
 void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks = {},
                             CaseWarnings warnings = CaseWarnings::told);
 

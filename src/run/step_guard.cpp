@@ -46,7 +46,7 @@ std::string fastest_wall(const Flow<Dim>& flow, double dt) {
       }
     }
   }
-  return wall_label(boundary, wall);
+  return wall_label(boundary, wall).text();
 }
 
 }  // namespace

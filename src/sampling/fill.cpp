@@ -18,7 +18,7 @@ constexpr double beyond_walls = 100.0;
 template <int Dim>
 class Fill {
  public:
-  Fill(const CaseSpec& spec, const FluidTable& block, const std::string& owner, const Boundary<Dim>& boundary,
+  Fill(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner, const Boundary<Dim>& boundary,
        const Lattice<Dim>& lattice)
       : owner_(owner),
         boundary_(boundary),
@@ -94,19 +94,19 @@ class Fill {
 
   void require_sound_seed() const {
     if (seed_[Dim - 1] >= level_) {
-      throw InputError("{}: seed {} is not below level = {:.6g}: put it into the water, or raise the level", owner_,
-                       place(seed_), level_);
+      throw CaseError({"{}: seed {} is not below level = {:.6g}", owner_, place(seed_), level_},
+                      {"put it into the water, or raise the level"});
     }
     const NearestWall<Dim> wall = boundary_.nearest(seed_, std::numeric_limits<double>::infinity());
     if (wall.face < 0) {
-      throw InputError("{}: shape = \"fill\" needs walls that hold the water: draw them, or use a box", owner_);
+      throw CaseError({"{} = \"fill\" needs walls that hold the water", owner_.with_key("shape")},
+                      {"draw them, or use a box"});
     }
     if (wall.signed_distance < 0.0) {
-      throw InputError(
-          "{}: seed {} is in {}, {:.6g} m behind its surface at {}: move it into the water, or give the wall the other "
-          "fluid_side",
-          owner_, place(seed_), wall_label(boundary_, boundary_.faces[wall.face].wall), -wall.signed_distance,
-          place(wall.point));
+      throw CaseError({"{}: seed {} is in {}, {:.6g} behind its surface at {}", owner_, place(seed_),
+                       wall_label(boundary_, boundary_.faces[wall.face].wall), Amount{-wall.signed_distance, "m"},
+                       place(wall.point)},
+                      {"move it into the water, or give the wall the other fluid_side"});
     }
   }
 
@@ -148,23 +148,22 @@ class Fill {
       reached_.add(*first);
       return *first;
     }
-    throw InputError(
-        "{}: there is no room for a particle of spacing {:.6g} m at seed {}: move it away from the walls, or use a "
-        "smaller spacing",
-        owner_, dx_, place(seed_));
+    throw CaseError({"{}: there is no room for a particle of spacing {:.6g} m at seed {}", owner_, dx_, place(seed_)},
+                    {"move it away from the walls, or use a smaller spacing"});
   }
 
   /// Water outside the box around all walls has left the case.
   void require_inside(const Vec<Dim>& x, const Vec<Dim>& last) const {
     if (box_.exteriorDistance(x) <= tolerance_) return;
     const NearestWall<Dim> wall = boundary_.nearest(last, std::numeric_limits<double>::infinity());
-    throw InputError(
-        "{}: water at level = {:.6g} runs out of the case at {}, near {}: the level is above the rim there, or the "
-        "walls have a gap; lower the level, or close the walls",
-        owner_, level_, place(last), wall_label(boundary_, boundary_.faces[wall.face].wall));
+    throw CaseError(
+        {"{}: water at level = {:.6g} runs out of the case at {}, near {}: the level is above the rim there, "
+         "or the walls have a gap",
+         owner_, level_, place(last), wall_label(boundary_, boundary_.faces[wall.face].wall)},
+        {"lower the level, or close the walls"});
   }
 
-  const std::string& owner_;
+  const CaseLabel& owner_;
   const Boundary<Dim>& boundary_;
   const Lattice<Dim>& lattice_;
   double dx_, tolerance_;
@@ -180,7 +179,7 @@ class Fill {
 }  // namespace
 
 template <int Dim>
-CellSet<Dim> filled_cells(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
+CellSet<Dim> filled_cells(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner,
                           const Boundary<Dim>& boundary, const Lattice<Dim>& lattice) {
   return Fill<Dim>(spec, block, owner, boundary, lattice).run();
 }

@@ -11,10 +11,10 @@
 namespace tailwater {
 
 /// The cells of a `fill` that the water reaches from its seed without passing a wall or an open end, up to the cells
-/// below its level. Throws InputError, which begins with the block's `owner`, if the seed is in a wall,
+/// below its level. Throws CaseError if the seed is in a wall,
 /// above the level or too near to a wall, or if the water runs out of the case.
 template <int Dim>
-CellSet<Dim> filled_cells(const CaseSpec& spec, const FluidTable& block, const std::string& owner,
+CellSet<Dim> filled_cells(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner,
                           const Boundary<Dim>& boundary, const Lattice<Dim>& lattice);
 
 }  // namespace tailwater

@@ -38,11 +38,11 @@ constexpr double largest_misfit = 0.4;
 template <int Dim>
 class StartVelocity {
  public:
-  /// Throws InputError, which names the block's `owner`.
-  StartVelocity(const CaseSpec& spec, const FluidTable& block, const std::string& owner) : owner_(owner) {
+  StartVelocity(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner) : owner_(owner) {
     if (!block.velocity.empty() && block.velocity.size() != Dim) {
-      throw InputError("{}: velocity has {} components but the case has {} dimensions: give one per dimension", owner,
-                       block.velocity.size(), Dim);
+      throw CaseError({"{} has {} components but the case has {} dimensions", owner.with_key("velocity"),
+                       block.velocity.size(), Dim},
+                      {"give one per dimension"});
     }
     for (std::size_t axis = 0; axis < block.velocity.size(); ++axis) {
       if (const auto* number = std::get_if<double>(&block.velocity[axis])) {
@@ -60,17 +60,16 @@ class StartVelocity {
     for (Component& component : varying_) {
       velocity[component.axis] = component.formula.at({x.data(), Dim});
       if (!(std::abs(velocity[component.axis]) <= largest_number)) {  // also when it is not a number
-        throw InputError(
-            "{}: velocity[{}] = \"{}\" is {} at {}: give an expression that is a number of at most {:g} wherever the "
-            "block has particles",
-            owner_, component.axis, component.text, velocity[component.axis], place(x), largest_number);
+        throw CaseError(
+            {"{}[{}] = \"{}\" is {} at {}", owner_.with_key("velocity"), component.axis, component.text,
+             velocity[component.axis], place(x)},
+            {"give an expression that is a number of at most {:g} wherever the block has particles", largest_number});
       }
     }
     if (const double speed = velocity.norm(); speed > largest_speed_of_case) {
-      throw InputError(
-          "{}: velocity is {:.4g} m/s at {}, but water is treated as incompressible, which limits it to {:g} m/s: "
-          "correct its velocity",
-          owner_, speed, place(x), largest_speed_of_case);
+      throw CaseError({"{} is {:.4g} at {}, but water is treated as incompressible, which limits it to {:g} m/s",
+                       owner_.with_key("velocity"), Amount{speed, "m/s"}, place(x), largest_speed_of_case},
+                      {"correct its velocity"});
     }
     return velocity;
   }
@@ -82,7 +81,7 @@ class StartVelocity {
     Formula formula;
   };
 
-  std::string owner_;
+  CaseLabel owner_;
   Vec<Dim> constant_ = Vec<Dim>::Zero();
   std::vector<Component> varying_;
 };
@@ -238,19 +237,19 @@ class BlockWater {
     }
   }
 
-  /// Throws InputError if a mesh is too thin for the spacing.
+  /// Throws CaseError if a mesh is too thin for the spacing.
   void require_room(std::size_t index) const {
     if constexpr (Dim == 3) {
       const MeshSurface& surface = *boundary_.water[index];
       const double dx = spec_.particles.spacing;
       const bool is_thin = (surface.high() - surface.low()).minCoeff() < (1.0 - corner_tolerance) * dx;
       if (!is_thin && fitted_.missed <= largest_misfit) return;
-      throw InputError(
-          "{}: file {}: from {} to {} it encloses {:.4g} m^3, and the particles of spacing {:.6g} m that fit into it "
-          "leave out {:.0f} % of that: it is too small or too thin for them; use a smaller spacing, or correct scale = "
-          "{:g}",
-          owner_, block_.file, place<3>(surface.low()), place<3>(surface.high()), shape_.volume(), dx,
-          100.0 * fitted_.missed, block_.scale);
+      throw CaseError(
+          {"{}: file {}: from {} to {} it encloses {:.4g} m^3, and the particles of spacing {:.6g} m that fit "
+           "into it leave out {:.0f} of that: it is too small or too thin for them",
+           owner_, block_.file, place<3>(surface.low()), place<3>(surface.high()), shape_.volume(), dx,
+           Amount{100.0 * fitted_.missed, "%"}},
+          {"use a smaller spacing, or correct scale = {:g}", block_.scale});
     }
   }
 
@@ -258,7 +257,7 @@ class BlockWater {
   const FluidTable& block_;
   const Boundary<Dim>& boundary_;
   const Bodies<Dim>& bodies_;
-  std::string owner_;
+  CaseLabel owner_;
   Lattice<Dim> axes_;
   WaterShape<Dim> shape_;
   StartVelocity<Dim> velocity_;

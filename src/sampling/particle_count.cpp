@@ -18,7 +18,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
   ParticleCount count;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     const FluidTable& block = spec.fluid[b];
-    const std::string label = fluid_label(spec, b);
+    const CaseLabel label = fluid_label(spec, b);
     if (block.shape == BlockShape::polygon) {
       count.fluid += block.points.empty() ? 0.0 : std::abs(signed_area(block.points)) / power<Dim>(dx);
     } else if (block.shape == BlockShape::fill) {

@@ -52,9 +52,9 @@ Behind part_behind(const MeshSurface& surface, const Vec<3>& centre, const Vec<3
 void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice,
                    WallParticleCollector<3>& collector) {
   if (layers.starts_on_wall && !body.meshes.empty()) {
-    throw InputError(
-        wall_label(body, body.meshes[0].wall) +
-        " is a mesh, and wall particles stand behind a mesh, not on it: choose scheme.formulation = \"robust\"");
+    throw CaseError(
+        {"{} is a mesh, and wall particles stand behind a mesh, not on it", wall_label(body, body.meshes[0].wall)},
+        {"choose scheme.formulation = \"robust\""});
   }
   struct Proposal {
     WallPlace<3> place;

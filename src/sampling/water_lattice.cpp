@@ -23,12 +23,12 @@ bool is_axis_parallel(const WallFace<Dim>& face) {
 
 /// The box around a box or polygon.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const std::string& owner) {
+Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const CaseLabel& owner) {
   Eigen::AlignedBox<double, Dim> box;
   if (block.shape == BlockShape::polygon) {
     if constexpr (Dim == 3) {
-      throw InputError("{}: shape = \"polygon\" exists in 2D only: in 3D use shape = \"box\", \"mesh\" or \"fill\"",
-                       owner);
+      throw CaseError({"{} = \"polygon\" exists in 2D only", owner.with_key("shape")},
+                      {"in 3D use shape = \"box\", \"mesh\" or \"fill\""});
     } else {
       for (const Vec<2>& corner : outline_of(block, owner)) box.extend(corner);
     }
@@ -38,8 +38,9 @@ Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const std::st
   }
   for (int axis = 0; axis < Dim; ++axis) {
     if (box.max()[axis] > box.min()[axis]) continue;
-    throw InputError("{} has no extent in {}: it starts at {} and ends at {}; the end must be greater than the start",
-                     owner, "xyz"[axis], box.min()[axis], box.max()[axis]);
+    throw CaseError({"{} has no extent in {}: it starts at {} and ends at {}", owner, "xyz"[axis], box.min()[axis],
+                     box.max()[axis]},
+                    {"give an end that is greater than the start"});
   }
   return box;
 }
@@ -93,7 +94,7 @@ void append_flat_sides(const std::vector<Vec<2>>& outline, int axis, double spac
 template <int Dim>
 Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundary<Dim>& boundary) {
   const FluidTable& water = spec.fluid[block];
-  const std::string owner = fluid_label(spec, block);
+  const CaseLabel owner = fluid_label(spec, block);
   const double dx = spec.particles.spacing;
   std::array<LatticeAxis, Dim> lattice;
   Eigen::AlignedBox<double, Dim> box;

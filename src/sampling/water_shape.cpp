@@ -10,13 +10,13 @@
 
 namespace tailwater {
 
-std::vector<Vec<2>> outline_of(const FluidTable& block, const std::string& owner) {
+std::vector<Vec<2>> outline_of(const FluidTable& block, const CaseLabel& owner) {
   std::vector<Vec<2>> outline;
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
   }
   if (outline.size() < 3) {
-    throw InputError("{} has {} points: a polygon needs at least 3", owner, outline.size());
+    throw CaseError({"{} has {} points", owner, outline.size()}, {"give a polygon at least 3"});
   }
   return outline;
 }
@@ -26,7 +26,7 @@ WaterShape<Dim>::WaterShape(const CaseSpec& spec, std::size_t block, const Bound
                             const Lattice<Dim>& lattice)
     : tolerance_(corner_tolerance * spec.particles.spacing) {
   const FluidTable& table = spec.fluid[block];
-  const std::string owner = fluid_label(spec, block);
+  const CaseLabel owner = fluid_label(spec, block);
   if (table.shape == BlockShape::fill) filled_ = filled_cells<Dim>(spec, table, owner, boundary, lattice);
   if constexpr (Dim == 2) {
     if (table.shape != BlockShape::polygon) return;
@@ -71,7 +71,7 @@ Bodies<Dim>::Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary)
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const WallTable& wall = spec.walls[w];
     if (wall.fluid_side != FluidSide::outside) continue;
-    const std::string owner = wall_label(boundary, static_cast<int>(w));
+    const CaseLabel owner = wall_label(boundary, static_cast<int>(w));
     if (wall.shape == WallShape::box) {
       boxes_.emplace_back(to_vec<Dim>(wall.min, owner, "min"), to_vec<Dim>(wall.max, owner, "max"));
     } else if constexpr (Dim == 2) {

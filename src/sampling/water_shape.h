@@ -14,8 +14,8 @@
 
 namespace tailwater {
 
-/// Corners of a polygon. Throws InputError, which begins with the block's `owner`, if they are less than three.
-std::vector<Vec<2>> outline_of(const FluidTable& block, const std::string& owner);
+/// Corners of a polygon. Throws CaseError if they are less than three.
+std::vector<Vec<2>> outline_of(const FluidTable& block, const CaseLabel& owner);
 
 /// A box and a fill have no surface of their own: their lattice ends where they do.
 template <int Dim>

@@ -236,7 +236,8 @@ template <int Dim>
 Json pockets_json(const CaseSpec& spec) {
   Json pockets = Json::array();
   for (const PocketTable& pocket : spec.pockets) {
-    pockets.push_back({{"name", pocket.name}, {"at", point<Dim>(to_vec<Dim>(pocket.at, pocket.name, "at"))}});
+    pockets.push_back(
+        {{"name", pocket.name}, {"at", point<Dim>(to_vec<Dim>(pocket.at, CaseLabel("pocket", pocket.name), "at"))}});
   }
   return pockets;
 }
@@ -247,8 +248,9 @@ Json vents_json(const CaseSpec& spec) {
   Json vents = Json::array();
   for (const VentTable& vent : spec.vents) {
     const double width = Dim == 2 ? vent.area : std::sqrt(4.0 * vent.area / std::numbers::pi);
-    vents.push_back(
-        {{"name", vent.name}, {"at", point<Dim>(to_vec<Dim>(vent.at, vent.name, "at"))}, {"width", rounded(width)}});
+    vents.push_back({{"name", vent.name},
+                     {"at", point<Dim>(to_vec<Dim>(vent.at, CaseLabel("vent", vent.name), "at"))},
+                     {"width", rounded(width)}});
   }
   return vents;
 }

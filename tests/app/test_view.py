@@ -416,6 +416,11 @@ class OfACase(Viewed):
         wrong = self.post("api/check", text.replace("max = [1, 0.5]", "max = [4, 0.5]"))
         self.assertEqual(wrong["findings"][0]["severity"], "error")
         self.assertIsNotNone(wrong["drawing"])
+        thin = self.post("api/check", text.replace("max = [1, 0.5]", "max = [1, 0.05]"))["findings"][0]
+        self.assertEqual([thin[name] for name in ("table", "index", "key", "places", "value", "unit")],
+                         ["fluid", 0, "fluid", [[0, 0]], 0.05, "m"])
+        self.assertTrue(thin["message"].endswith(f"; {thin['remedy']}"), thin)
+        self.assertEqual(text.splitlines()[thin["line"] - 1], "[[fluid]]")
         self.assertEqual(self.post("api/check", "[case")["findings"][0]["line"], 1)
         self.post("api/check", "\0\xff" * 1000)
         self.assertEqual((self.folder / "small.toml").read_text(), text)

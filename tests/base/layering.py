@@ -1,8 +1,13 @@
 """A room includes only rooms below it: checks every #include of src/ against the ROOMS of the room's CMakeLists.txt, and
-those against the order of rooms in src/CMakeLists.txt. Usage: layering.py SRC"""
+those against the order of rooms in src/CMakeLists.txt. The core of a flow cannot name a part: rooms that take the steps
+link no room of parts. Usage: layering.py SRC"""
 import pathlib
 import re
 import sys
+
+
+CORE = {"flow", "pressure", "schemes", "robust"}
+PARTS = {"parts", "open_ends", "air", "bodies", "porous"}
 
 
 def room_order(src):
@@ -27,6 +32,8 @@ def violations(src):
         for other in declared or []:
             if other not in below:
                 yield f"src/{name}/CMakeLists.txt: room {name} links {other}, which does not stand below it"
+        for part in sorted(PARTS & set(declared or [])) if name in CORE else []:
+            yield f"src/{name}/CMakeLists.txt: room {name} links {part}, so that it could ask whether a flow has that part"
         allowed = set(below if declared is None else declared) | {name}
         for file in sorted((src / name).rglob("*")):
             if file.suffix not in {".h", ".cpp"}:

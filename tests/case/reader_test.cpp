@@ -176,5 +176,38 @@ TEST(Reader, SaysThatAFileCannotBeRead) {
   EXPECT_THROW(read_case(std::filesystem::temp_directory_path()), IoError);
 }
 
+TEST(CaseReader, LocatesFindingsByTableNameAndKey) {
+  const std::string text = required_keys + water + "[[wall]]\npoints = [[0, 1], [1, 1]]\n" +
+                           "[[wall]]\nname = \"bed\"\npoints = [[0, 0],\n [1, 0]]\n# the end\n";
+  const CaseSpec spec = read_case_text(text, "case.toml", {"time.end=2"});
+  const auto position_of = [&](const CaseLabel& label) {
+    const Findings found = spec.sources.located({Finding::error({"{} is wrong", label}, {"correct it"})});
+    return found[0].position.text() + (found[0].about.index ? fmt::format(" [{}]", *found[0].about.index) : "");
+  };
+  const CaseLabel bed("wall", "bed");
+  EXPECT_EQ(position_of(bed.with_key("points")), "case.toml:10:10 [1]");
+  EXPECT_EQ(position_of(bed.with_key("slip")), "case.toml:8:1 [1]") << "that of the table, which does not have the key";
+  EXPECT_EQ(position_of(CaseLabel("wall", "wall1")), "case.toml:6:1 [0]") << "the name that it has by default";
+  EXPECT_EQ(position_of(CaseLabel("particles").with_key("spacing")), "case.toml:1:21");
+  EXPECT_EQ(position_of(CaseLabel("time").with_key("end")), "--set time.end=2");
+  EXPECT_EQ(position_of(CaseLabel("vent", "bed")), "") << "there is none";
+  EXPECT_EQ(spec.sources.lines(bed), (std::array{8, 11}));
+}
+
+TEST(CaseReader, ReportsFindingsWithTableIndexAndKey) {
+  try {
+    read_text(required_keys + water + "[[wall]]\npoints = [[0, 1], [1, 1]]\n[[wall]]\npoints = [[0, 0], [1]]\n");
+    FAIL() << "the case is wrong";
+  } catch (const CaseError& error) {
+    const Finding& finding = error.findings().at(0);
+    EXPECT_EQ(finding.about.table, "wall");
+    EXPECT_EQ(finding.about.index, 1);
+    EXPECT_EQ(finding.about.key, "points");
+    EXPECT_EQ(finding.position.line, 9);
+    EXPECT_EQ(finding.position.column, 19);
+    EXPECT_EQ(finding.position.end_column, 22);
+  }
+}
+
 }  // namespace
 }  // namespace tailwater

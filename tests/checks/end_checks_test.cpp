@@ -20,7 +20,7 @@ std::string errors_of(const CaseSpec& spec) {
   const Boundary<2> boundary = make_boundary<2>(spec);
   std::string text;
   for (const Finding& finding : check_geometry<2>(spec, boundary, make_fluid_particles<2>(spec, boundary))) {
-    if (finding.severity == Severity::error) text += finding.message + "\n";
+    if (finding.severity == Severity::error) text += finding.message() + "\n";
   }
   return text;
 }

@@ -125,7 +125,7 @@ TEST(MeshPlate, ThatCannotBeIsRefused) {
     try {
       const Boundary<3> boundary = make_boundary<3>(spec);
       const Findings findings = check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
-      return findings.empty() ? "taken" : findings[0].message;
+      return findings.empty() ? "taken" : findings[0].message();
     } catch (const InputError& error) {
       return error.what();
     }
@@ -138,7 +138,7 @@ TEST(MeshPlate, ThatCannotBeIsRefused) {
     EXPECT_NE(of_closed.find(word), std::string::npos) << of_closed;
   }
   const WallTable fine = sheet_plate(folder, 60, [](double u, double v) { return Vec<3>(0.75, u, v); });
-  EXPECT_NE(refusal(tank_with_plate(fine)).find("at most 5000: draw them coarser"), std::string::npos);
+  EXPECT_NE(refusal(tank_with_plate(fine)).find("at most 5000; draw them coarser"), std::string::npos);
   const auto sheet = [](double u, double v) { return Vec<3>(0.75, 0.1 + 0.5 * u, 0.1 + 0.5 * v); };
   CaseSpec on_wall = tank_with_plate(sheet_plate(folder, 2, sheet));
   on_wall.scheme.formulation = Formulation::published;

@@ -18,7 +18,7 @@ TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
     const Boundary<3> boundary = make_boundary<3>(spec);
     std::string text;
     for (const Finding& finding : check_meshes(spec, boundary, make_fluid_particles(spec, boundary))) {
-      text += finding.message + "\n";
+      text += finding.message() + "\n";
     }
     return text;
   };
@@ -50,14 +50,15 @@ TEST(CheckMeshes, WarnOfABodyBesideTheRestOrLongerThanIt) {
   Findings findings = found();
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].severity, Severity::warning);
-  expect_words(findings[0].message, {"wall 'wall1': file ", "mesh.stl reaches from (5, 0, 0) to (6, 1, 1)",
-                                     "from (-1, -1, -1) to (2, 2, 2), so it stands beside them", "correct translate"});
+  expect_words(findings[0].message(),
+               {"wall 'wall1': file ", "mesh.stl reaches from (5, 0, 0) to (6, 1, 1)",
+                "from (-1, -1, -1) to (2, 2, 2), so it stands beside them", "correct translate"});
   spec.walls[0].translate = {-4.0, -4.0, 0.0};
   spec.walls[0].scale = 8.0;
   findings = found();
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].severity, Severity::warning);
-  expect_words(findings[0].message, {"is a body 8 m long among water and walls of 3 m", "0.001 for a file in mill"});
+  expect_words(findings[0].message(), {"is a body 8 m long among water and walls of 3 m", "0.001 for a file in mill"});
 }
 
 TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {
@@ -68,7 +69,7 @@ TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {
   spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {1.6, 1.6, 1.6})};
   const Boundary<3> boundary = make_boundary<3>(spec);
   for (const Finding& finding : check_geometry(spec, boundary, make_fluid_particles(spec, boundary))) {
-    EXPECT_EQ(finding.severity, Severity::warning) << finding.message;
+    EXPECT_EQ(finding.severity, Severity::warning) << finding.message();
   }
 }
 
@@ -83,7 +84,7 @@ TEST(CheckFill, OfABoxTankThatDxDoesNotDivideHasNoFindings) {
     spec.fluid = {water};
     const Boundary<3> boundary = make_boundary<3>(spec);
     for (const Finding& finding : check_geometry(spec, boundary, make_fluid_particles(spec, boundary))) {
-      ADD_FAILURE() << finding.message;
+      ADD_FAILURE() << finding.message();
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "checks/broken_case.h"
 #include "checks/preview.h"
+#include "geometry/from_spec.h"
 #include "geometry/meshes.h"
 #include "sampling/wall_particles.h"
 #include "sampling/water_lattice.h"
@@ -91,15 +92,14 @@ TEST(Preview, OfAFineMeshDoesNotDrawItsFaces) {
   EXPECT_LT(preview<3>(spec).size(), 1'000'000u) << "24 200 triangles would be 8 MB";
 }
 
-TEST(BrokenCase, MarksThePlacesThatTheMessageNames) {
-  const auto found = places_in<3>("wall 'pier': the edge from (0, -1.5, 2e-05) to (1, 2, 3.25) of triangle 3 (of 12)");
+TEST(BrokenCase, MarksThePlacesThatTheFindingNames) {
+  const Clause edge{"the edge from {} to {}", place(Vec<3>(0.0, -1.5, 2e-5)), place(Vec<3>(1.0, 2.0, 3.25))};
+  const CaseLabel wall("wall", "(4, 5, 6)");  // a name is no place
+  const auto found = places_of<3>({Finding::error({"{}: {} leaves triangle {}", wall, edge, 3}, {"turn it over"})});
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0], Vec<3>(0.0, -1.5, 2e-05));
+  EXPECT_EQ(found[0], Vec<3>(0.0, -1.5, 2e-5));
   EXPECT_EQ(found[1], Vec<3>(1.0, 2.0, 3.25));
-  EXPECT_EQ(places_in<2>("points[1] is at (0.5, 1)").size(), 1u);
-  EXPECT_TRUE(places_in<2>("at (0.5, 1, 2)").empty());
-  EXPECT_TRUE(places_in<3>("too much memory").empty());
-  EXPECT_TRUE(places_in<2>("wall '(1e999, -)' or '(1e+999, 0)'").empty());
+  EXPECT_TRUE(places_of<2>({Finding::error({"too much memory"}, {"use a larger spacing"})}).empty());
 }
 
 TEST(BrokenCase, ShowsTheTrianglesOfAMeshThatCannotBeAWall) {

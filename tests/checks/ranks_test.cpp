@@ -48,7 +48,7 @@ std::vector<CaseSpec> cases() {
 
 std::vector<std::string> messages(const Findings& findings) {
   std::vector<std::string> messages;
-  for (const Finding& finding : findings) messages.push_back(finding.message);
+  for (const Finding& finding : findings) messages.push_back(finding.message());
   return messages;
 }
 

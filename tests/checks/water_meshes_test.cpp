@@ -50,7 +50,7 @@ std::string refusal_of(const CaseSpec& spec) {
     const Boundary<3> boundary = make_boundary<3>(spec);
     std::string text;
     for (const Finding& finding : check_geometry(spec, boundary, make_fluid_particles(spec, boundary))) {
-      text += finding.message + "\n";
+      text += finding.message() + "\n";
     }
     return text;
   } catch (const InputError& error) {

@@ -40,7 +40,7 @@ void examine_case(const std::filesystem::path& file) {
     const CaseSpec spec = read_case(file);
     const Findings findings =
         with_places(spec, [&] { return spec.general.dimension == 2 ? check_shapes<2>(spec) : check_shapes<3>(spec); });
-    for (const Finding& found : findings) require_places(spec.sources.placed(found.message), file.string());
+    for (const Finding& found : spec.sources.located(findings)) require_places(found.line(), file.string());
   } catch (const UserError& error) {
     require_places(error.what(), file.string());
   }

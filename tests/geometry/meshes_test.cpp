@@ -18,7 +18,7 @@ using namespace testing_cases;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-TriangleMesh mesh_of(const WallTable& wall) { return make_wall_mesh(case_with(wall), wall, "wall 'pier'"); }
+TriangleMesh mesh_of(const WallTable& wall) { return make_wall_mesh(case_with(wall), wall, CaseLabel("wall", "pier")); }
 
 std::string refusal_of(const WallTable& wall) {
   try {

@@ -26,7 +26,7 @@ CaseSpec flap_case() {
 
 TEST(WallMotion, TurnsAboutThePivotAndThenMoves) {
   const CaseSpec spec = flap_case();
-  const WallPath<2> path(spec, spec.walls[1], "flap");
+  const WallPath<2> path(spec, spec.walls[1], CaseLabel("wall", "flap"));
   // (0, 1.2) stands 1 m over the pivot; turned to the right it lies 1 m beside it, and 1 m further.
   EXPECT_LT((path.at(1.0)(Vec<2>(0.0, 1.2)) - Vec<2>(2.0, 0.2)).norm(), 4.0 * eps);
   EXPECT_LT((path.at(0.0)(Vec<2>(0.3, 0.7)) - Vec<2>(0.3, 0.7)).norm(), 4.0 * eps);
@@ -192,7 +192,7 @@ TEST(WallMotion, OfAFilePassesThroughItsLines) {
   wall.displacement.clear();
   wall.rotation = 0.0;
   wall.series = {"roll.csv", {2, 3, 4}, {0.0, 0.5, 1.0}, {{0.0, 0.1, 0.4}, {}, {}, {0.0, 0.3, -0.2}}};
-  const WallPath<2> path(spec, wall, "flap");
+  const WallPath<2> path(spec, wall, CaseLabel("wall", "flap"));
   for (std::size_t k = 0; k < 3; ++k) {
     const double angle = wall.series.columns[3][k];
     const Vec<2> expected(wall.series.columns[0][k] - std::sin(angle), 0.2 + std::cos(angle));
@@ -207,7 +207,7 @@ TEST(WallMotion, InSpaceTurnsAboutAnAxis) {
   spec.walls[0].rotation = "pi/2*t";
   spec.walls[0].pivot = {1, 0, 0};
   spec.walls[0].axis = {0, 2, 0};
-  const WallPath<3> path(spec, spec.walls[0], "tank");
+  const WallPath<3> path(spec, spec.walls[0], CaseLabel("wall", "tank"));
   // About +y, counter-clockwise as seen against it: z turns to x. (1, 0.5, 1) comes to lie beside the pivot.
   EXPECT_LT((path.at(1.0)(Vec<3>(1, 0.5, 1)) - Vec<3>(2, 0.5, 0)).norm(), 8.0 * eps);
   EXPECT_LT((path.at(1.0)(Vec<3>(0, 0.25, 0)) - Vec<3>(1, 0.25, 1)).norm(), 8.0 * eps);

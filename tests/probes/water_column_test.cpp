@@ -170,7 +170,7 @@ TYPED_TEST(WaterColumnTest, InATankThatMovesReadsAsInTheTank) {
       profile_reading<dim>(probe_along(ProbeType::profile, T::at(0.1, 0.0), T::at(0.9, 0.0)), tank.spec, tank.boundary);
   const Row before = reading.take(tank.context()).at(0);
   const std::vector<Row> rows_before = profile.take(tank.context());
-  const AffineMap<dim> map = WallPath<dim>(tank.spec, walls, "tank").at(1.0);
+  const AffineMap<dim> map = WallPath<dim>(tank.spec, walls, CaseLabel("wall", "tank")).at(1.0);
   for (Vec<dim>& x : tank.particles.position) x = map(x);
   for (WallFace<dim>& face : tank.boundary.faces) face = moved(map, face);
   tank.locate();

@@ -34,7 +34,7 @@ void expect_one_error(const Findings& findings, const std::vector<std::string>& 
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].severity, Severity::error);
   for (const std::string& part : parts) {
-    EXPECT_NE(findings[0].message.find(part), std::string::npos) << "'" << part << "' in " << findings[0].message;
+    EXPECT_NE(findings[0].message().find(part), std::string::npos) << "'" << part << "' in " << findings[0].message();
   }
 }
 

@@ -91,7 +91,7 @@ TEST(FluidLattice, RefusesAVelocityThatIsNotFinite) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("velocity[1] = \"1/(x - x)\""), std::string::npos) << error.what();
     EXPECT_NE(
-        std::string(error.what()).find("is inf at (0.05, 0.05): give an expression that is a number of at most 1e+15"),
+        std::string(error.what()).find("is inf at (0.05, 0.05); give an expression that is a number of at most 1e+15"),
         std::string::npos)
         << error.what();
   }

@@ -242,8 +242,14 @@ export interface Finding {
   line: number;
   column: number;
   end_column?: number;
+  table?: string;
+  index?: number;
   key?: string;
+  places?: number[][];
+  value?: number;
+  unit?: string;
   message: string;
+  remedy?: string;
 }
 
 export interface Check {
