@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/assert.h"
 #include "base/for_each.h"
 #include "pressure/full_water.h"
 #include "pressure/solve_rows.h"
@@ -61,6 +62,7 @@ void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive, const std::ve
   std::vector<double>& pressure = flow.state.particles.pressure;
   flow.halo().exchange(pressure);
   if (!flow.setup.has_air()) return;
+  TAILWATER_ASSERT(allowed.empty() || allowed.size() == pressure.size(), "each present particle has its tension");
   for_each(allowed.size(), [&](std::size_t i) { pressure[i] += allowed[i]; });  // walls may keep as much tension, too
   const bool has_followed =
       flow.wall_model().follow_pressure(flow.wall_scene(), flow.wall_force(drive.acceleration), pressure);
