@@ -7,6 +7,84 @@
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
+namespace {
+
+/// A wall as seen from a point.
+template <int Dim>
+struct WallInSight {
+  NearestWall<Dim> wall;
+  double distance;              ///< m; of the point from the wall
+  double plane_distance = 0.0;  ///< m; of the point from the plane of a face
+};
+
+/// Whether face `a` is nearer than `b`. At a shared corner, where the distances differ by no more than `tolerance` [m],
+/// the face whose plane is farther away counts as the nearer one: its sign is right.
+template <int Dim>
+bool nearer(const WallInSight<Dim>& a, const WallInSight<Dim>& b, double tolerance) {
+  const bool are_equal = b.wall.face >= 0 && std::abs(a.distance - b.distance) <= tolerance;
+  return are_equal ? a.plane_distance > b.plane_distance : a.distance <= b.distance;
+}
+
+/// The largest distance of `x` from the box around a face along any axis [m]; negative inside the box.
+template <int Dim>
+double distance_along_axes(const WallFace<Dim>& face, const Vec<Dim>& x) {
+  Vec<Dim> low = face.corners[0];
+  Vec<Dim> high = low;
+  for (int c = 1; c < Dim; ++c) {
+    low = low.cwiseMin(face.corners[c]);
+    high = high.cwiseMax(face.corners[c]);
+  }
+  return (low - x).cwiseMax(x - high).maxCoeff();
+}
+
+/// The search for the wall nearest to a point. It visits faces and meshes in any number and keeps the nearest one.
+/// Faces come first: where a mesh touches a face, the mesh replaces the face only for points behind the mesh.
+template <int Dim>
+class WallSearch {
+ public:
+  WallSearch(const Boundary<Dim>& boundary, const Vec<Dim>& x, double search_distance)
+      : boundary_(boundary), x_(x), best_{{}, search_distance} {}
+
+  const NearestWall<Dim>& nearest() const { return best_.wall; }
+
+  void visit_face(int f) {
+    const WallFace<Dim>& face = boundary_.faces[f];
+    const double tolerance = 1e-9 * (face.corners[1] - face.corners[0]).norm();
+    const double height = face.height(x_);
+    // Cheap lower bounds of the distance exclude most faces.
+    if (std::abs(height) > best_.distance + tolerance) return;
+    if (distance_along_axes(face, x_) > best_.distance + tolerance) return;
+    if (height < 0.0 && boundary_.plate_of(face.wall) >= 0) return;  // the plate's opposite face is as near
+    const Vec<Dim> point = closest_point(face, x_);
+    const double distance = (x_ - point).norm();
+    const WallInSight<Dim> seen{{f, point, height < 0.0 ? -distance : distance}, distance, std::abs(height)};
+    if (nearer(seen, best_, tolerance)) best_ = seen;
+  }
+
+  void visit_meshes() {
+    if constexpr (Dim == 3) {
+      for (const WallMesh& mesh : boundary_.meshes) visit_mesh(mesh);
+    }
+  }
+
+ private:
+  void visit_mesh(const WallMesh& mesh) {
+    const Vec<Dim> moved = boundary_.displacement_of(mesh);
+    const SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
+    if (place.triangle < 0) return;
+    const double distance = std::abs(place.signed_distance);
+    // A point behind either of two walls that touch is behind the walls.
+    const bool are_equal = best_.wall.face >= 0 && best_.distance - distance <= 1e-9 * distance;
+    if (are_equal && place.signed_distance >= 0.0) return;
+    best_ = {{mesh.first_face + place.triangle, place.point + moved, place.signed_distance}, distance};
+  }
+
+  const Boundary<Dim>& boundary_;
+  const Vec<Dim>& x_;
+  WallInSight<Dim> best_;  ///< no face and the search distance until a wall is found
+};
+
+}  // namespace
 
 template <int Dim>
 void Boundary<Dim>::file_faces(double reach) {
@@ -49,60 +127,18 @@ Vec<Dim> Boundary<Dim>::displacement_of(const WallMesh& mesh) const {
 
 template <int Dim>
 NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distance) const {
-  if (search_distance > resting_.reach() && resting_.reach() > 0.0) {
-    // Most places that are asked about are beside a wall.
-    const NearestWall<Dim> near = nearest(x, resting_.reach());
-    if (near.face >= 0) return near;
+  const double filed_distance = resting_.reach();
+  if (filed_distance > 0.0) {  // first, because most points are near a wall
+    WallSearch<Dim> search(*this, x, std::min(search_distance, filed_distance));
+    for (const int f : resting_.near(x)) search.visit_face(f);
+    for (const int f : moving_) search.visit_face(f);
+    search.visit_meshes();
+    if (search.nearest().face >= 0 || search_distance <= filed_distance) return search.nearest();
   }
-  NearestWall<Dim> best;
-  double best_distance = search_distance;
-  double best_height = 0.0;
-  const auto look_at = [&](int f) {
-    const WallFace<Dim>& face = faces[f];
-    const double tie = 1e-9 * (face.corners[1] - face.corners[0]).norm();
-    const double height = face.height(x);
-    if (std::abs(height) > best_distance + tie) return;
-    bool is_far = false;
-    for (int axis = 0; axis < Dim; ++axis) {
-      double low = face.corners[0][axis];
-      double high = low;
-      for (int c = 1; c < Dim; ++c) {
-        low = std::min(low, face.corners[c][axis]);
-        high = std::max(high, face.corners[c][axis]);
-      }
-      is_far = is_far || std::max(low - x[axis], x[axis] - high) > best_distance + tie;
-    }
-    if (is_far) return;
-    const Vec<Dim> point = closest_point(face, x);
-    const double distance = (x - point).norm();
-    const bool is_tie = best.face >= 0 && std::abs(distance - best_distance) <= tie;
-    if (height < 0.0 && !plates.empty() && walls[face.wall].is_plate) return;  // its other face is as near
-    if (is_tie ? std::abs(height) > std::abs(best_height) : distance <= best_distance) {
-      best = {f, point, height < 0.0 ? -distance : distance};
-      best_distance = distance;
-      best_height = height;
-    }
-  };
-  if (search_distance <= resting_.reach()) {
-    for (const int f : resting_.near(x)) look_at(f);
-    for (const int f : moving_) look_at(f);
-  } else {
-    visit_plain_faces(look_at);
-  }
-  if constexpr (Dim == 3) {
-    for (const WallMesh& mesh : meshes) {
-      const Vec<3> moved = displacement_of(mesh);
-      const SurfacePlace place = mesh.surface->nearest(x - moved, best_distance);
-      if (place.triangle < 0) continue;
-      // Where a mesh touches another wall, what is behind either is behind the walls.
-      const double distance = std::abs(place.signed_distance);
-      const bool is_tie = best.face >= 0 && best_distance - distance <= 1e-9 * distance;
-      if (is_tie && place.signed_distance >= 0.0) continue;
-      best = {mesh.first_face + place.triangle, place.point + moved, place.signed_distance};
-      best_distance = distance;
-    }
-  }
-  return best;
+  WallSearch<Dim> search(*this, x, search_distance);
+  visit_plain_faces([&](int f) { search.visit_face(f); });
+  search.visit_meshes();
+  return search.nearest();
 }
 
 template struct Boundary<2>;
