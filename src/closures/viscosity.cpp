@@ -12,15 +12,16 @@
 namespace tailwater {
 namespace {
 
-/// Where walls with friction shear the water.
-enum Shear : std::uint8_t { none, beside_wall, in_layer };
+/// Bits of ViscousEnd::shear: where walls with friction shear the water. A boundary layer is beside a wall too.
+constexpr std::uint32_t beside_wall = 1U;
+constexpr std::uint32_t in_layer = 2U;
 
-/// What a particle brings to the viscous forces of its pairs.
+/// The fields of a particle that the viscous forces of its pairs depend on.
 template <int Dim>
 struct alignas(Dim == 2 ? 32 : 64) ViscousEnd {
   std::array<float, Dim> velocity;        ///< m/s
   float viscosity;                        ///< m^2/s
-  float shear;                            ///< a Shear
+  std::uint32_t shear;                    ///< beside_wall, in_layer, both or 0
   std::array<float, Dim * Dim> gradient;  ///< 1/s; of the velocity, column by column
 };
 
@@ -34,19 +35,20 @@ std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::
     for (int a = 0; a < Dim; ++a) end.velocity[a] = static_cast<float>(velocity[i][a]);
     for (int n = 0; n < Dim * Dim; ++n) end.gradient[n] = static_cast<float>(gradient[i].data()[n]);
     end.viscosity = static_cast<float>(viscosity[i]);
+    const bool is_in_layer = particles.layer_viscosity[i] > 0.0;
     const bool is_beside_wall = particles.is_fluid(i) && particles.wall_distance[i] < reach;
-    end.shear = particles.layer_viscosity[i] > 0.0 ? in_layer : is_beside_wall ? beside_wall : none;
+    end.shear = (is_in_layer ? in_layer | beside_wall : 0U) | (is_beside_wall ? beside_wall : 0U);
   });
   return ends;
 }
 
 template <int Dim>
 bool is_any_sheared(const std::vector<ViscousEnd<Dim>>& ends) {
-  return std::ranges::any_of(ends, [](const ViscousEnd<Dim>& end) { return end.shear > 0.0F; });
+  return std::ranges::any_of(ends, [](const ViscousEnd<Dim>& end) { return end.shear != 0U; });
 }
 
-/// What viscous forces need of several pairs of particle i. They are found over both volumes, which is opposite for the
-/// two particles to the last bit.
+/// Several pairs of particle i as the viscous forces see them. The forces are computed per product of both volumes, so
+/// that the forces on the two particles of a pair are opposite to the last bit.
 template <int Dim>
 struct ViscousPairs {
   const PlaceLanes<Dim>& place;
@@ -57,9 +59,9 @@ struct ViscousPairs {
   MatLanes<Dim> change;      ///< 1/s; velocity gradient of j less that of i
   Lanes squared;             ///< m^2; d.d
   Lanes volumes;             ///< m^(2 Dim); w_i w_j, 0 of walls
-  Lanes share_of_volumes;    ///< m^(2 Dim); in the weights of the Morris Laplacian
-  float own_shear;           ///< of i
-  Lanes shear;               ///< of j
+  Lanes morris_volumes;      ///< m^(2 Dim); the volumes, less for pairs that nearly coincide (laplacian_morris.h)
+  std::uint32_t own_shear;   ///< bits of i
+  IntegerLanes shear;        ///< bits of j
 
   template <class Several>
   ViscousPairs(const Several& batch, const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs,
@@ -72,7 +74,7 @@ struct ViscousPairs {
     for (int a = 0; a < Dim; ++a) difference.at[a] = other[number(offsetof(End, velocity)) + a] - own.velocity[a];
     viscosity = 0.5F * (own.viscosity + other[number(offsetof(End, viscosity))]);
     own_shear = own.shear;
-    shear = other[number(offsetof(End, shear))];
+    shear = reinterpret_cast<IntegerLanes>(other[number(offsetof(End, shear))]);
     for (int n = 0; n < Dim * Dim; ++n) {
       const Lanes of_other = other[number(offsetof(End, gradient)) + n];
       gradients.column[n / Dim].at[n % Dim] = own.gradient[n] + of_other;
@@ -80,11 +82,12 @@ struct ViscousPairs {
     }
     squared = place.d.dot(place.d);
     volumes = in_all_lanes(particles.volume[batch.i]) * place.volume_of_fluid();
-    share_of_volumes = volumes * share_of_morris_weight(squared, spacing);
+    morris_volumes = volumes * share_of_morris_weight(squared, spacing);
   }
 
-  /// Adds `noise_viscosity` times the force by the noise in the difference of velocity. `any_shear`: whether walls
-  /// shear any of the water.
+  /// Adds the force of a viscosity `noise_viscosity` [m^2/s] that damps noise alone: the part of the velocity
+  /// difference that the mean velocity gradient and the shear at walls do not explain. `any_shear`: whether walls shear
+  /// any water.
   void add_noise_force(double noise_viscosity, bool any_shear, VecLanes<Dim>& terms) const {
     VecLanes<Dim> explained = gradients.times(place.d);
     VecLanes<Dim> noise;
@@ -95,28 +98,31 @@ struct ViscousPairs {
     if (any_shear) allow_for_shear(explained, noise);
     const Lanes work = min_of(Lanes{}, noise.dot(difference));
     const Lanes given = work / max_of(difference.dot(difference), in_all_lanes(least));
-    const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * share_of_volumes * F;
+    const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * morris_volumes * F;
     for (int a = 0; a < Dim; ++a) terms.at[a] += weight * (noise.at[a] - given * difference.at[a]);
   }
 
  private:
   static constexpr float least = std::numeric_limits<float>::min();  ///< prevents 0/0
 
-  /// Leaves of the noise what shear by walls does not explain. In a boundary layer, to which both particles belong,
-  /// that is what is across the explained difference; where one of them is beside a wall with friction, what lies
-  /// beyond the differences that either gradient alone explains.
+  /// The projection of `a` on `b` as a multiple of `b`; 0 where `b` is 0.
+  static Lanes projection(const VecLanes<Dim>& a, const VecLanes<Dim>& b) {
+    return a.dot(b) / max_of(b.dot(b), in_all_lanes(least));
+  }
+
+  /// Removes from the noise the part that shear at walls explains: between particles that are both in a boundary layer,
+  /// the part along the explained difference; between others of which one is beside a wall with friction, the part
+  /// within the range of the differences that the gradient of either particle alone explains.
   void allow_for_shear(const VecLanes<Dim>& explained, VecLanes<Dim>& noise) const {
+    const LaneTruths both_in_layer = (own_shear & shear & in_layer) != 0U;
+    const LaneTruths one_beside_wall = ((own_shear | shear) & beside_wall) != 0U;
     VecLanes<Dim> half_range = change.times(place.d);
     for (int a = 0; a < Dim; ++a) half_range.at[a] *= 0.5F;
     const Lanes one = in_all_lanes(1.0F);
-    const Lanes in_range = noise.dot(half_range) / max_of(half_range.dot(half_range), in_all_lanes(least));
-    const Lanes in_shear = noise.dot(explained) / max_of(explained.dot(explained), in_all_lanes(least));
-    const Lanes layers = min_of(in_all_lanes(own_shear), shear);
-    const Lanes walls = max_of(in_all_lanes(own_shear), shear);
-    const Lanes of_layer = layers > in_all_lanes(1.5F) ? in_shear : Lanes{};
-    const Lanes of_wall = walls > in_all_lanes(0.5F) ? max_of(-one, min_of(one, in_range)) : Lanes{};
-    const Lanes of_range = layers > in_all_lanes(1.5F) ? Lanes{} : of_wall;
-    for (int a = 0; a < Dim; ++a) noise.at[a] -= of_layer * explained.at[a] + of_range * half_range.at[a];
+    const Lanes within_range = max_of(-one, min_of(one, projection(noise, half_range)));
+    const Lanes of_layer = both_in_layer ? projection(noise, explained) : Lanes{};
+    const Lanes of_wall = one_beside_wall & ~both_in_layer ? within_range : Lanes{};
+    for (int a = 0; a < Dim; ++a) noise.at[a] -= of_layer * explained.at[a] + of_wall * half_range.at[a];
   }
 };
 
@@ -141,9 +147,9 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
     for_each_pair(pairs, i, [&](const auto& batch) {
       const PairVectorLanes<Dim> vectors = pair_vectors(batch);
       const ViscousPairs<Dim> pair(batch, vectors.place, vectors.F, particles, ends, spacing);
-      // Only of pairs that nearly coincide may the corrections turn the sign.
+      // The corrections may turn the sign, but only for pairs that nearly coincide.
       const Lanes F = max_of(Lanes{}, -vectors.a.dot(pair.place.d)) / pair.squared;
-      const Lanes laplacian = 2.0F * pair.share_of_volumes * F;
+      const Lanes laplacian = 2.0F * pair.morris_volumes * F;
       VecLanes<Dim> terms;
       for (int d = 0; d < Dim; ++d) {
         const Lanes transposed = pair.volumes * pair.gradients.column[d].dot(vectors.a);
