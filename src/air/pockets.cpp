@@ -1,3 +1,10 @@
+// Pockets follow the void from one search for it to the next. Each cell of a pocket holds an equal part of its gas and
+// volume, and these move with the cell:
+//
+//   claim   closed parts of the void take the cells that lie in them;
+//   tear    cells in the open remain a pocket for a while, because a film of water may close again;
+//   end     the rest of the gas is lost;
+//   begin   closed parts become pockets: those that claimed cells, and those that are large enough to be new.
 #include "air/pockets.h"
 
 #include <algorithm>
@@ -10,73 +17,154 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; edge of the void, without the cells near water, from which on air that is shut in is a pocket, and below which
-/// a pocket is none any more.
-constexpr double least_at_begin = 2.0;
-constexpr double least = 1.0;
+/// [dx]; edge of a cube as large as the smallest void, without the cells near water, that begins as a pocket or remains
+/// one.
+constexpr double min_edge_at_begin = 2.0;
+constexpr double min_edge = 1.0;
 
-/// [dx]; how far water may go until the gas of a pocket that has become open is gone.
-constexpr double distance_until_gone = 2.0;
+/// [dx]; displacement of the water after which the gas of a torn pocket is lost.
+constexpr double max_torn_distance = 2.0;
 
-/// [dx]; how far water goes while the volume comes near that of the cells (by 1/e). Long beside a pulsation, so that
-/// only what adds up is taken out.
+/// [dx]; displacement of the water in which the volume of a pocket approaches that of its cells to 1/e. It is long
+/// compared with a pulsation, so that only lasting differences are removed.
 constexpr double relaxation_distance = 50.0;
 
-/// Share of the cells of a pocket that none had from which on it has not moved there: air was shut in beside it.
-constexpr double shut_in_share = 0.5;
+/// Fraction of the cells of a pocket without an earlier pocket above which the pocket has not moved there: air was shut
+/// in beside it.
+constexpr double min_shut_in_fraction = 0.5;
 
-/// The cells that a pocket had and that are void now: how many are in which part, and the pieces in the open.
-struct Overlap {
-  std::map<int, std::int64_t> closed;  ///< cells by part
-  std::vector<CellRun> in_the_open;
-  std::int64_t cells_in_the_open = 0;
-  std::int64_t all = 0;
+/// Fractions of a pocket that differ by less are equal up to rounding.
+constexpr double rounding = 1e-12;
+
+/// The smallest numbers of cells with which a pocket begins and remains.
+struct MinCells {
+  template <int Dim>
+  MinCells(const VoidGrid<Dim>& grid, double spacing)
+      : at_begin(power<Dim>(min_edge_at_begin * spacing) / grid.cell_volume()),
+        to_remain(power<Dim>(min_edge * spacing) / grid.cell_volume()) {}
+
+  double at_begin;
+  double to_remain;
+};
+
+/// A pocket found before, and where those of its cells that are still void lie now: in closed parts of the void and in
+/// the open.
+struct OldPocket {
+  const AirPocket& pocket;
+  std::map<int, std::int64_t> closed_cells;  ///< by part of the void
+  std::vector<CellRun> open_runs;
+  std::int64_t open_cells = 0;
+  std::int64_t void_cells = 0;  ///< closed and open
+  double rest = 1.0;            ///< fraction of the gas that no new pocket has
+
+  /// Moves as much gas and volume as `cells` of the void cells have.
+  void move_to(AirPocket& receiver, std::int64_t cells) {
+    const double fraction = static_cast<double>(cells) / static_cast<double>(void_cells);
+    receiver.gas += fraction * pocket.gas;
+    receiver.volume += fraction * pocket.volume;
+    rest -= fraction;
+  }
 };
 
 template <int Dim>
-Overlap overlap_of(const AirPocket& pocket, const VoidGrid<Dim>& grid, const Voids<Dim>& voids) {
-  Overlap overlap;
+OldPocket find_cells(const AirPocket& pocket, const VoidGrid<Dim>& grid, const Voids<Dim>& voids) {
+  OldPocket old{pocket, {}, {}};
   for (const CellRun& run : pocket.cells) {
-    if (run.row < 0 || run.row >= grid.rows()) continue;  // a checkpoint may say anything
+    if (run.row < 0 || run.row >= grid.rows()) continue;  // a checkpoint may hold any number
     voids.visit_pieces(run, [&](const CellRun& piece, int part) {
-      overlap.all += piece.cells();
+      old.void_cells += piece.cells();
       if (voids.parts()[part].is_open) {
-        overlap.in_the_open.push_back(piece);
-        overlap.cells_in_the_open += piece.cells();
+        old.open_runs.push_back(piece);
+        old.open_cells += piece.cells();
       } else {
-        overlap.closed[part] += piece.cells();
+        old.closed_cells[part] += piece.cells();
       }
     });
   }
-  return overlap;
+  return old;
 }
 
-void count_end(const AirPocket& pocket, double share, const GasLaw& law, AirState& state) {
-  if (share <= 0.0) return;
-  state.gas_lost += share * pocket.gas;
-  state.energy_lost += share * law.energy(pocket.gas, pocket.volume);
-}
-
-/// What is found of one part of the void, while old pockets bring their shares.
-struct Gathered {
-  FoundPocket found;
-  std::int64_t old_cells = 0;
-  std::int64_t most = 0;  ///< cells from the pocket whose number it has
+/// A part of the void and its claims on old pockets.
+struct Claimant {
+  bool may_be_pocket = false;  ///< whether it is closed by water and large enough to remain a pocket
+  AirPocket pocket;
+  std::int64_t claimed_cells = 0;
+  std::int64_t largest_claim = 0;  ///< cells of the old pocket whose number it has
 };
 
-void bring(const AirPocket& old, double share, std::int64_t cells, Gathered& to) {
-  AirPocket& pocket = to.found.pocket;
-  pocket.gas += share * old.gas;
-  pocket.volume += share * old.volume;
-  to.old_cells += cells;
-  if (cells > to.most) {
-    to.most = cells;
-    pocket.number = old.number;
+/// One for each part of the void.
+template <int Dim>
+std::vector<Claimant> make_claimants(const Voids<Dim>& voids, const MinCells& min_cells) {
+  std::vector<Claimant> claimants(voids.parts().size());
+  for (std::size_t p = 0; p < claimants.size(); ++p) {
+    const auto& part = voids.parts()[p];
+    const bool is_large = static_cast<double>(part.cells) >= min_cells.to_remain;
+    claimants[p].may_be_pocket = !part.is_open && part.touches_water && is_large;
+    claimants[p].pocket.number = -1;
+  }
+  for (std::size_t k = 0; k < voids.runs().size(); ++k) {
+    Claimant& claimant = claimants[voids.part_of(k)];
+    if (claimant.may_be_pocket) claimant.pocket.cells.push_back(voids.runs()[k]);
+  }
+  return claimants;
+}
+
+/// Closed parts of the void take their cells of an old pocket. A part gets the number of the pocket with the largest
+/// claim.
+void claim_cells(OldPocket& old, std::vector<Claimant>& claimants) {
+  for (const auto& [part, cells] : old.closed_cells) {
+    Claimant& claimant = claimants[part];
+    if (!claimant.may_be_pocket) continue;
+    old.move_to(claimant.pocket, cells);
+    claimant.claimed_cells += cells;
+    if (cells > claimant.largest_claim) {
+      claimant.largest_claim = cells;
+      claimant.pocket.number = old.pocket.number;
+    }
   }
 }
 
-/// Of two that have the number of one pocket, which has parted, the later gets a new one.
-void renumber_split_pockets(std::vector<FoundPocket>& found, AirState& state) {
+/// Makes a torn pocket of the cells in the open, unless they are too few or have been open for too long:
+/// `torn_distance` [m] of the water's displacement.
+void tear_off(OldPocket& old, double torn_distance, double spacing, const MinCells& min_cells,
+              std::vector<FoundPocket>& torn) {
+  if (static_cast<double>(old.open_cells) < min_cells.to_remain) return;
+  if (torn_distance >= max_torn_distance * spacing) return;
+  AirPocket pocket;
+  pocket.number = old.pocket.number;
+  pocket.torn = torn_distance;
+  pocket.cells = std::move(old.open_runs);
+  old.move_to(pocket, old.open_cells);
+  torn.push_back({std::move(pocket), 0.0});
+}
+
+/// Counts the rest of an old pocket as lost.
+void end_pocket(const OldPocket& old, const GasLaw& law, AirState& state) {
+  if (old.rest <= rounding) return;
+  state.gas_lost += old.rest * old.pocket.gas;
+  state.energy_lost += old.rest * law.energy(old.pocket.gas, old.pocket.volume);
+  if (old.rest > 1.0 - rounding) ++state.ended;
+}
+
+/// The closed pockets: parts of the void that have claimed cells or are large enough to be new.
+template <int Dim>
+std::vector<FoundPocket> begin_pockets(const Voids<Dim>& voids, const MinCells& min_cells,
+                                       std::vector<Claimant> claimants) {
+  std::vector<FoundPocket> found;
+  for (std::size_t p = 0; p < claimants.size(); ++p) {
+    Claimant& claimant = claimants[p];
+    const auto cells = static_cast<double>(voids.parts()[p].cells);
+    const bool is_new = claimant.claimed_cells == 0;
+    if (!claimant.may_be_pocket || (is_new && cells < min_cells.at_begin)) continue;
+    const double unclaimed = 1.0 - static_cast<double>(claimant.claimed_cells) / cells;
+    const bool has_shut_in = unclaimed > min_shut_in_fraction && unclaimed * cells >= min_cells.at_begin;
+    found.push_back({std::move(claimant.pocket), has_shut_in ? unclaimed : 0.0});
+  }
+  return found;
+}
+
+/// Gives numbers to new pockets, and to all but the first of those that have the number of one old pocket.
+void number_pockets(std::vector<FoundPocket>& found, AirState& state) {
   for (std::size_t a = 0; a < found.size(); ++a) {
     const auto has_same = [&](const FoundPocket& other) { return other.pocket.number == found[a].pocket.number; };
     const bool is_taken = std::any_of(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(a), has_same);
@@ -89,50 +177,18 @@ void renumber_split_pockets(std::vector<FoundPocket>& found, AirState& state) {
 template <int Dim>
 std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacing, const Voids<Dim>& voids,
                                         const GasLaw& law, AirState& state) {
-  const auto cells_of = [&](double edge) { return power<Dim>(edge * spacing) / grid.cell_volume(); };
-  std::map<int, Gathered> parts;  // those that are pockets
-  for (std::size_t p = 0; p < voids.parts().size(); ++p) {
-    const auto& part = voids.parts()[p];
-    if (part.is_open || !part.touches_water || static_cast<double>(part.cells) < cells_of(least)) continue;
-    parts[static_cast<int>(p)].found.pocket.number = -1;
-  }
+  const MinCells min_cells(grid, spacing);
+  std::vector<Claimant> claimants = make_claimants(voids, min_cells);
   std::vector<FoundPocket> torn;
-  for (const AirPocket& old : state.pockets) {
-    Overlap overlap = overlap_of(old, grid, voids);
-    double lost = 1.0;
-    for (const auto& [part, cells] : overlap.closed) {
-      const auto gathered = parts.find(part);
-      if (gathered == parts.end()) continue;
-      const double share = static_cast<double>(cells) / static_cast<double>(overlap.all);
-      bring(old, share, cells, gathered->second);
-      lost -= share;
-    }
-    const double since_torn = old.torn + state.displacement;
-    const auto torn_cells = static_cast<double>(overlap.cells_in_the_open);
-    if (torn_cells >= cells_of(least) && since_torn < distance_until_gone * spacing) {
-      const double share = torn_cells / static_cast<double>(overlap.all);
-      torn.push_back(
-          {{old.number, share * old.gas, share * old.volume, since_torn, std::move(overlap.in_the_open)}, 0.0});
-      lost -= share;
-    }
-    if (lost > 1e-12) count_end(old, lost, law, state);
-    if (lost > 1.0 - 1e-12) ++state.ended;
+  for (const AirPocket& pocket : state.pockets) {
+    OldPocket old = find_cells(pocket, grid, voids);
+    claim_cells(old, claimants);
+    tear_off(old, pocket.torn + state.displacement, spacing, min_cells, torn);
+    end_pocket(old, law, state);
   }
-  for (std::size_t k = 0; k < voids.runs().size(); ++k) {
-    const auto gathered = parts.find(voids.part_of(k));
-    if (gathered != parts.end()) gathered->second.found.pocket.cells.push_back(voids.runs()[k]);
-  }
-  std::vector<FoundPocket> found;
-  for (auto& [p, gathered] : parts) {
-    const auto cells = static_cast<double>(voids.parts()[p].cells);
-    if (gathered.old_cells == 0 && cells < cells_of(least_at_begin)) continue;
-    const double is_new = 1.0 - static_cast<double>(gathered.old_cells) / cells;
-    const bool has_shut_in = is_new > shut_in_share && is_new * cells >= cells_of(least_at_begin);
-    gathered.found.new_share = has_shut_in ? is_new : 0.0;
-    found.push_back(std::move(gathered.found));
-  }
+  std::vector<FoundPocket> found = begin_pockets(voids, min_cells, std::move(claimants));
   std::ranges::move(torn, std::back_inserter(found));
-  renumber_split_pockets(found, state);
+  number_pockets(found, state);
   return found;
 }
 
