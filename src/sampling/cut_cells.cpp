@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -13,13 +14,14 @@
 namespace tailwater {
 namespace {
 
-/// Shares that differ by less are the same: those of cells that are images of each other in a symmetric case.
-constexpr double same_share = 1e-9;
+/// Fractions that differ by less are equal: those of cells that are images of each other in a symmetric case.
+constexpr double same_fraction = 1e-9;
 
-/// Of all water: what may be too much or too little in cells so that those that are alike are all taken or none.
-constexpr double most_misfit = 5e-3;
+/// Fraction of all water that the taken cells may miss or exceed, so that of equal cells all are taken or none.
+constexpr double max_misfit = 5e-3;
 
-constexpr double deepest = 0.25;  // dx; a particle behind a wall is put in front of it from no deeper
+/// [dx]; a particle is moved in front of a wall from no deeper behind it.
+constexpr double max_depth = 0.25;
 
 template <int Dim>
 Vec<Dim> centre_of(const Lattice<Dim>& lattice, const Cell<Dim>& cell) {
@@ -39,29 +41,31 @@ Vec<Dim> edges_of(const Lattice<Dim>& lattice, const Cell<Dim>& cell) {
 template <int Dim>
 class Cutter {
  public:
-  Cutter(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, const WaterShape<Dim>& shape,
-         const Lattice<Dim>& lattice)
-      : boundary_(boundary), shape_(shape), lattice_(lattice), reach_(2.0 * spec.particles.spacing) {
-    plain_.walls = boundary.walls;
-    boundary.visit_plain_faces([&](int f) {
-      const WallFace<Dim>& face = boundary.faces[f];
-      if (boundary.plate_of(face.wall) >= 0) return;
+  explicit Cutter(const BlockToFit<Dim>& block)
+      : boundary_(block.boundary),
+        shape_(block.shape),
+        lattice_(block.lattice.axes),
+        reach_(2.0 * block.spec.particles.spacing) {
+    plain_.walls = boundary_.walls;
+    boundary_.visit_plain_faces([&](int f) {
+      const WallFace<Dim>& face = boundary_.faces[f];
+      if (boundary_.plate_of(face.wall) >= 0) return;
       plain_.faces.push_back(face);
-      cuts_.push_back(adapts_to_wall(spec, block, face));
+      cuts_.push_back(adapts_to_wall(block.spec, block.table, face));
     });
     plain_.file_faces(reach_);
   }
 
-  /// The share of a cell that is in the block and in front of all walls, as if they were flat over a part of it.
-  double share_of_water(const Cell<Dim>& cell) const {
+  /// The fraction of a cell that is in the block and in front of all walls, as if they were flat over a part of it.
+  double fraction_of_water(const Cell<Dim>& cell) const {
     return share(cell, [&](const Vec<Dim>& x, auto&& visit) {
       visit_walls(x, visit);
       visit_shape(x, visit);
     });
   }
 
-  /// The same without walls, of a cell whose centre the block holds or not.
-  double share_of_shape(const Cell<Dim>& cell, bool holds_centre) const {
+  /// The fraction of a cell that is in the block, with or without the cell's centre, as if there were no walls.
+  double fraction_of_shape(const Cell<Dim>& cell, bool holds_centre) const {
     const double half = half_diagonal(cell);
     bool is_near = false;
     visit_shape(centre_of<Dim>(lattice_, cell),
@@ -182,7 +186,7 @@ PartOfBox part_in_front(const Vec<Dim>& edge, const Vec<Dim>& n, double height) 
 
 namespace {
 
-/// What is summed over cells, row by row, so that the sums do not depend on who makes them.
+/// Sums over the cells of a row. All sums are made row by row, so that they do not depend on the number of ranks.
 struct RowSums {
   double reached = 0.0;          ///< cells
   double whole = 0.0;            ///< cells that are all water
@@ -215,9 +219,9 @@ void take_levels(std::span<typename FittedCells<Dim>::Cut> alike, double wanted)
 
 /// Takes cells with the largest shares until they have the volume (m^Dim). Of cells of one share, as those that are
 /// images of each other in a symmetric case, all are taken or none, whichever is nearer, if that misses the volume by
-/// `most_missed` (m^Dim) at most, and whole levels of them if not.
+/// `max_missed` (m^Dim) at most, and whole levels of them if not.
 template <int Dim>
-void take_cells(const Lattice<Dim>& lattice, double volume, double most_missed,
+void take_cells(const Lattice<Dim>& lattice, double volume, double max_missed,
                 std::vector<typename FittedCells<Dim>::Cut>& cells) {
   using Cut = typename FittedCells<Dim>::Cut;
   std::ranges::sort(cells, [](const Cut& a, const Cut& b) {
@@ -228,10 +232,10 @@ void take_cells(const Lattice<Dim>& lattice, double volume, double most_missed,
     double of_alike = 0.0;
     do {
       of_alike += edges_of<Dim>(lattice, cells[k++].cell).prod();
-    } while (k < cells.size() && cells[k - 1].share - cells[k].share < same_share);
+    } while (k < cells.size() && cells[k - 1].share - cells[k].share < same_fraction);
     double wanted = std::min(1.0, volume / of_alike);
     const double nearer = std::round(wanted);
-    if (std::abs(nearer - wanted) * of_alike <= most_missed) wanted = nearer;
+    if (std::abs(nearer - wanted) * of_alike <= max_missed) wanted = nearer;
     take_levels<Dim>(std::span(cells).subspan(begin, k - begin), wanted);
     volume -= of_alike;
   }
@@ -240,25 +244,109 @@ void take_cells(const Lattice<Dim>& lattice, double volume, double most_missed,
 
 /// Whether a cell beside this one is reached.
 template <int Dim>
-bool is_beside_water(const CaseSpec& spec, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
-                     const Cell<Dim>& cell) {
+bool is_beside_water(const BlockToFit<Dim>& block, const Cell<Dim>& cell) {
   bool found = false;
   for_each_around<Dim>(cell, [&](Cell<Dim> beside) {
     for (int axis = 0; axis < Dim; ++axis) {
-      const int count = lattice.count[axis];
-      if (!periodic_range(spec.domain, axis).empty()) beside[axis] = (beside[axis] + count) % count;
+      const int count = block.lattice.count[axis];
+      if (!periodic_range(block.spec.domain, axis).empty()) beside[axis] = (beside[axis] + count) % count;
       if (beside[axis] < 0 || beside[axis] >= count) return;
     }
-    found = found || is_reached(beside);
+    found = found || block.is_reached(beside);
   });
   return found;
 }
 
-/// Takes as many of the cut cells as hold the `water` [m^Dim] that whole cells leave over, and finds the share of it
-/// that each cell holds.
+/// How the water in a cell becomes a particle.
+enum class CellUse : std::uint8_t {
+  dry,      ///< there is no water in it
+  whole,    ///< it is full of water: a particle
+  cut,      ///< it may be taken as a particle
+  no_room,  ///< its centre is reached, but no particle can stand there
+  behind,   ///< its centre is behind a wall, and no particle can be moved in front of it
+};
+
+struct ClassifiedCell {
+  CellUse use;
+  bool is_reached = false;
+  double fraction = 0.0;  ///< of its volume that is water
+};
+
+/// Classifies a cell that is reached.
+template <int Dim>
+ClassifiedCell classify_reached(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const Cell<Dim>& cell) {
+  const double fraction = cutter.fraction_of_water(cell);
+  if (fraction > 1.0 - same_fraction) return {CellUse::whole, true, fraction};
+  return {block.has_room(cell) ? CellUse::cut : CellUse::no_room, true, fraction};
+}
+
+template <int Dim>
+ClassifiedCell classify(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const Cell<Dim>& cell) {
+  if (block.is_reached(cell)) return classify_reached<Dim>(block, cutter, cell);
+  const double height = cutter.least_height(cell);
+  const bool is_cut = height < 0.0 && height > -cutter.half_diagonal(cell);
+  if (!is_cut || !is_beside_water<Dim>(block, cell)) return {CellUse::dry};
+  const double fraction = cutter.fraction_of_water(cell);
+  if (fraction < same_fraction) return {CellUse::dry};
+  const bool can_be_particle = height > -max_depth * block.spec.particles.spacing && block.has_room(cell);
+  return {can_be_particle ? CellUse::cut : CellUse::behind, false, fraction};
+}
+
+/// `volume` [m^Dim] is that of the cell.
+void count(const ClassifiedCell& cell, double volume, RowSums& sums) {
+  sums.volume_of_water += cell.fraction * volume;
+  if (cell.is_reached) sums.reached += 1.0;
+  if (cell.use != CellUse::whole) return;
+  sums.whole += 1.0;
+  sums.volume_whole += volume;
+}
+
+/// Classifies and counts the cells of a row. Adds those that may be taken, and those without room, to `cut`.
+template <int Dim>
+RowSums visit_cells(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, std::int64_t row,
+                    std::vector<typename FittedCells<Dim>::Cut>& cut) {
+  RowSums sums;
+  block.lattice.visit_row(row, [&](const Cell<Dim>& cell) {
+    const double volume = edges_of<Dim>(block.lattice.axes, cell).prod();
+    if (block.shape.has_surface()) {
+      const bool holds_centre = block.shape.holds(cell, centre_of<Dim>(block.lattice.axes, cell));
+      sums.volume_in_shape += cutter.fraction_of_shape(cell, holds_centre) * volume;
+    }
+    const ClassifiedCell classified = classify<Dim>(block, cutter, cell);
+    count(classified, volume, sums);
+    if (classified.use == CellUse::cut) cut.push_back({cell, classified.fraction, false});
+    if (classified.use == CellUse::no_room) cut.push_back({cell, 0.0, false});
+  });
+  return sums;
+}
+
+/// The sums over all rows.
+RowSums total_of(const std::vector<RowSums>& rows) {
+  RowSums all;
+  for (const RowSums& row : rows) {
+    all.reached += row.reached;
+    all.whole += row.whole;
+    all.volume_whole += row.volume_whole;
+    all.volume_of_water += row.volume_of_water;
+    all.volume_in_shape += row.volume_in_shape;
+  }
+  return all;
+}
+
+/// m^Dim; the volume of the water in all cells. The parts of cells leave out corners of the surface, so the sum is
+/// scaled by the volume of the shape, which is exact.
+template <int Dim>
+double volume_of_water(const WaterShape<Dim>& shape, const RowSums& all) {
+  if (!shape.has_surface()) return all.volume_of_water;
+  const double exact = all.volume_in_shape > 0.0 ? shape.volume() / all.volume_in_shape : 0.0;
+  return exact * all.volume_of_water;
+}
+
+/// Takes as many of the cut cells as hold the `water` [m^Dim] that is not in whole cells, and computes the fraction of
+/// its cell's volume that each particle has.
 template <int Dim>
 void take_cut_cells(const LatticeBlock<Dim>& lattice, const RowSums& all, double water, FittedCells<Dim>& fitted) {
-  take_cells<Dim>(lattice.axes, water - all.volume_whole, most_misfit * water, fitted.cut);
+  take_cells<Dim>(lattice.axes, water - all.volume_whole, max_misfit * water, fitted.cut);
   double of_cells = all.volume_whole;
   double in_cells = all.volume_whole;
   for (const auto& cut : fitted.cut) {
@@ -275,60 +363,18 @@ void take_cut_cells(const LatticeBlock<Dim>& lattice, const RowSums& all, double
 }  // namespace
 
 template <int Dim>
-FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block,
-                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
-                           const CellTest<Dim>& has_room, const Communicator& ranks) {
-  const Cutter<Dim> cutter(spec, boundary, block, shape, lattice.axes);
-  std::vector<RowSums> rows(static_cast<std::size_t>(lattice.rows()));
+FittedCells<Dim> fit_cells(const BlockToFit<Dim>& block, const Communicator& ranks) {
+  const Cutter<Dim> cutter(block);
+  std::vector<RowSums> rows(static_cast<std::size_t>(block.lattice.rows()));
   FittedCells<Dim> fitted;
-  for_each_own_row(lattice, ranks, [&](std::int64_t row) {
-    RowSums& sums = rows[row];
-    lattice.visit_row(row, [&](const Cell<Dim>& cell) {
-      const double volume = edges_of<Dim>(lattice.axes, cell).prod();
-      if (shape.has_surface()) {
-        const bool holds_centre = shape.holds(cell, centre_of<Dim>(lattice.axes, cell));
-        sums.volume_in_shape += cutter.share_of_shape(cell, holds_centre) * volume;
-      }
-      const bool is_cell_reached = is_reached(cell);
-      double height = 0.0;
-      if (!is_cell_reached) {
-        height = cutter.least_height(cell);
-        const bool is_cut = height < 0.0 && height > -cutter.half_diagonal(cell);
-        if (!is_cut || !is_beside_water<Dim>(spec, lattice, is_reached, cell)) return;
-      }
-      const double share = cutter.share_of_water(cell);
-      if (!is_cell_reached && share < same_share) return;
-      sums.volume_of_water += share * volume;
-      if (is_cell_reached) sums.reached += 1.0;
-      if (is_cell_reached && share > 1.0 - same_share) {
-        sums.whole += 1.0;
-        sums.volume_whole += volume;
-      } else if (height > -deepest * spec.particles.spacing) {
-        if (has_room(cell)) {
-          fitted.cut.push_back({cell, share, false});
-        } else if (is_cell_reached) {
-          fitted.cut.push_back({cell, 0.0, false});
-        }
-      }
-    });
-  });
+  for_each_own_row(block.lattice, ranks,
+                   [&](std::int64_t row) { rows[row] = visit_cells(block, cutter, row, fitted.cut); });
   fitted.cut = gather_on_all(ranks, fitted.cut);
   ranks.sum_of_each({&rows[0].reached, rows.size() * numbers_of_row});
-  RowSums all;
-  for (const RowSums& row : rows) {
-    fitted.in_row.push_back(row.whole);
-    all.reached += row.reached;
-    all.volume_whole += row.volume_whole;
-    all.volume_of_water += row.volume_of_water;
-    all.volume_in_shape += row.volume_in_shape;
-  }
-  if (all.reached == 0.0 || (fitted.cut.empty() && !shape.has_surface())) return fitted;
-
-  // The parts of cells leave out corners of the surface; what its formula gives is exact.
-  double exact = 1.0;
-  if (shape.has_surface()) exact = all.volume_in_shape > 0.0 ? shape.volume() / all.volume_in_shape : 0.0;
-  const double water = exact * all.volume_of_water;
-  take_cut_cells<Dim>(lattice, all, water, fitted);
+  for (const RowSums& row : rows) fitted.in_row.push_back(row.whole);
+  const RowSums all = total_of(rows);
+  if (all.reached == 0.0 || (fitted.cut.empty() && !block.shape.has_surface())) return fitted;
+  take_cut_cells<Dim>(block.lattice, all, volume_of_water(block.shape, all), fitted);
   return fitted;
 }
 

@@ -95,17 +95,25 @@ struct FittedCells {
 template <int Dim>
 using CellTest = std::function<bool(const Cell<Dim>&)>;
 
-/// Fits the cells of a block to the volume of its water: takes as many as are nearest to it, those that have the
-/// largest shares of their volumes in front of the walls and in the block. `is_reached` says of which cells the centre
-/// is there; of those beside them whose centre is not, the shares count as well. `has_room` says whether a particle of
-/// a cell that is cut can stand in front of all walls. Of cells with equal shares all are taken or none, or whole
-/// levels of them where these are too many, so that a symmetric case starts symmetric. Where nothing cuts a cell, all
-/// that are reached are taken with their own volumes. Each rank looks at its part of the rows, and all get the same
-/// result. Collective.
+/// A block of water whose cells are to be fitted.
 template <int Dim>
-FittedCells<Dim> fit_cells(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block,
-                           WaterShape<Dim>& shape, const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
-                           const CellTest<Dim>& has_room, const Communicator& ranks);
+struct BlockToFit {
+  const CaseSpec& spec;
+  const FluidTable& table;
+  const Boundary<Dim>& boundary;
+  WaterShape<Dim>& shape;
+  const LatticeBlock<Dim>& lattice;
+  CellTest<Dim> is_reached;  ///< whether the centre of a cell is in the water
+  CellTest<Dim> has_room;    ///< whether the particle of a cut cell can stand in front of all walls
+};
+
+/// Fits the cells of a block to the volume of its water: takes as many as are nearest to it, those that have the
+/// largest fractions of their volumes in front of the walls and in the block. The fractions of cells beside those that
+/// are reached count as well. Of cells with equal fractions all are taken or none, or whole levels of them where these
+/// are too many, so that a symmetric case starts symmetric. Where nothing cuts a cell, all that are reached are taken
+/// with their own volumes. Each rank visits its part of the rows, and all get the same result. Collective.
+template <int Dim>
+FittedCells<Dim> fit_cells(const BlockToFit<Dim>& block, const Communicator& ranks);
 
 /// How many cells of each row are reached. Each rank looks at its part of the rows. Collective.
 template <int Dim>

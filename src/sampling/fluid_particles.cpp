@@ -153,7 +153,7 @@ class BlockWater {
       return;
     }
     const CellTest<Dim> has_room = [&](const Cell<Dim>& cell) { return leaves_room(cell); };
-    fitted_ = fit_cells<Dim>(spec, boundary, block_, shape_, lattice_, is_reached, has_room, ranks);
+    fitted_ = fit_cells<Dim>({spec, block_, boundary, shape_, lattice_, is_reached, has_room}, ranks);
     if (block_.shape == BlockShape::mesh) require_room(index);
   }
 
