@@ -1,3 +1,11 @@
+// The search for pairs, group by group of particles that are near each other:
+//
+//   group    the particles of a group search the grid once, for the box around them;
+//   filter   the indices from the grid are put into the order of a row (candidate_indices.h);
+//   append   the places of these candidates are put side by side, so that they are read in lanes;
+//   write    each particle of the group writes the candidates within its support, eight at a time, without a branch.
+//
+// Particles that coincide are moved apart afterwards, and the rows are found again.
 #include "neighbours/find_pairs.h"
 
 #include <algorithm>
@@ -10,24 +18,24 @@
 #include "base/for_each.h"
 #include "base/lane_loop.h"
 #include "base/room.h"
+#include "neighbours/candidate_indices.h"
 #include "neighbours/pair_lanes.h"
 
 namespace tailwater {
 namespace {
 
-/// By how much the square of a distance may be rounded below that of the least distance.
+/// Relative error by which the square of a distance may be rounded below that of the least distance.
 constexpr double parted_tolerance = 1e-3;
 
-/// The share by which the square of the radius is less in the search, so that no pair beyond the support is rounded
+/// Fraction by which the square of the radius is reduced in the search, so that no pair beyond the support is rounded
 /// into it.
 constexpr double rounded_at_rim = 1e-6;
 
-/// Particles that are searched for together are at most so many, and no farther apart along any axis than this share of
-/// the support.
-constexpr int most_in_group = 32;
-constexpr double group_extent = 1.4;
+/// Particles of a group, and the length of the box around them, in radii of the support.
+constexpr int max_group_size = 32;
+constexpr double max_group_extent = 1.4;
 
-/// A grid of the fluid alone. Most dummies are dry: in it they find empty cells only.
+/// A grid of the fluid alone. Most dummies are dry and find only empty cells in it.
 template <int Dim>
 struct FluidGrid {
   FluidGrid(const Particles<Dim>& particles, double reach) {
@@ -44,145 +52,45 @@ struct FluidGrid {
   std::vector<std::int32_t> order;
 };
 
-/// What a search goes through.
-template <int Dim>
-struct Searched {
-  const CellGrid<Dim>& grid;
-  const std::int32_t* order;  ///< of the grid, as indices of particles; may be read a batch beyond its end
-  bool holds_those_who_search;
-};
-
-/// Particles that follow each other and are near each other. Their neighbours are looked for among the same candidates.
-template <int Dim>
-struct Group {
-  Group(std::span<const Vec<Dim>> position, std::size_t first)
-      : begin(static_cast<std::int32_t>(first)), end(begin + 1), low(position[first]), high(low) {}
-
-  /// Takes the next particle in, unless the box would then be longer than `extent` [m].
-  bool take(const Vec<Dim>& position, double extent) {
-    const Vec<Dim> new_low = low.cwiseMin(position);
-    const Vec<Dim> new_high = high.cwiseMax(position);
-    if ((new_high - new_low).maxCoeff() > extent) return false;
-    low = new_low;
-    high = new_high;
-    ++end;
-    return true;
-  }
-
-  std::int32_t begin;
-  std::int32_t end;
-  Vec<Dim> low;  ///< m; of the box around them
-  Vec<Dim> high;
-};
-
-/// Indices of particles, written a batch at a time. May be read a batch beyond the end, where there are indices too.
-class IndexList {
- public:
-  void clear() { count_ = 0; }
-  /// For so many more.
-  void make_room(std::size_t more) {
-    if (count_ + more + batch_size > index_.size()) index_.resize(2 * (count_ + more + batch_size));
-  }
-  /// Those of a batch whose bit is set.
-  void add(const std::int32_t* indices, unsigned bits) {
-    count_ = write_chosen(indices, bits, index_.data() + count_) - index_.data();
-  }
-  /// Those that are in memory, from where they may be read a batch beyond the end.
-  void add(std::span<const std::int32_t> indices) {
-    make_room(indices.size());
-    for (std::size_t n = 0; n < indices.size(); n += batch_size) {
-      std::memcpy(index_.data() + count_ + n, indices.data() + n, batch_size * sizeof(std::int32_t));
-    }
-    count_ += indices.size();
-  }
-  /// From `begin` to `end`.
-  void add_all(std::int32_t begin, std::int32_t end) {
-    make_room(end - begin);
-    for (; begin < end; ++begin) index_[count_++] = begin;
-  }
-  template <class Condition>
-  void remove_if(const Condition& condition) {
-    count_ = std::remove_if(index_.begin(), index_.begin() + static_cast<std::ptrdiff_t>(count_), condition) -
-             index_.begin();
-  }
-
-  std::size_t size() const { return count_; }
-  const std::int32_t* data() const { return index_.data(); }
-
- private:
-  std::vector<std::int32_t> index_ = std::vector<std::int32_t>(batch_size);
-  std::size_t count_ = 0;
-};
-
-/// What a search finds of a row.
+/// A row as written by Candidates.
 struct FoundRow {
   std::size_t size;
   bool sees_wall;
-  bool is_crowded;  ///< some neighbours are nearer than the least distance
+  bool is_crowded;  ///< whether a neighbour is nearer than the least distance
 };
 
-/// All that may be neighbours of the particles of a group, number by number, so that they are read in lanes. They have
-/// the order of a row: indices below the group, the group, indices above it, ghosts.
+/// The candidates of a group, number by number, so that they are read in lanes.
 template <int Dim>
 class Candidates {
  public:
-  void find(const Searched<Dim>& searched, const Pairs<Dim>& pairs, const Group<Dim>& group) {
-    const auto owned = static_cast<std::int32_t>(pairs.owned());
-    for (IndexList& list : lists_) list.clear();
-    auto& [below, own, above, ghosts] = lists_;
-    const bool has_ghosts = pairs.owned() < pairs.place.size();
-    // Copied before they are told apart, because most ranges are shorter than a batch.
-    near_.clear();
-    searched.grid.for_each_range_near(group.low, group.high, [&](std::int32_t begin, std::int32_t end) {
-      near_.add({searched.order + begin, searched.order + end});
-    });
-    for (IndexList* list : {&below, &above, &ghosts}) list->make_room(near_.size());
-    for (std::size_t n = 0; n < near_.size(); n += batch_size) {
-      const std::int32_t* const indices = near_.data() + n;
-      const auto index = batch_at<IndexBatch>(indices);
-      const unsigned all = first_bits(near_.size() - n);
-      below.add(indices, all & bits_of(index < group.begin));
-      above.add(indices, all & bits_of((index >= group.end) & (index < owned)));
-      if (has_ghosts) ghosts.add(indices, all & bits_of(index >= owned));
-    }
-    if (searched.holds_those_who_search) own.add_all(group.begin, group.end);
-
-    // In the coarse cells that a distant particle asks for, most are far away, some so far that places repeat.
-    const double radius = kernel_radius(pairs.kernel);
-    const bool is_coarse = searched.grid.reach() > 1.5 * radius;
+  void find(const SearchedGrid<Dim>& searched, const Pairs<Dim>& pairs, const Group<Dim>& group) {
+    indices_.find(searched, pairs, group);
     count_ = 0;
-    holds_group_ = searched.holds_those_who_search;
-    begin_of_group_ = group.begin;
-    for (IndexList& list : lists_) {
-      if (&list == &own) place_of_group_ = count_;
-      if (is_coarse) {
-        list.remove_if([&](std::int32_t j) { return squared_distance(pairs.position[j], group) > radius * radius; });
-      }
-      append(pairs, list);
-    }
+    append(pairs, indices_.below());
+    holds_group_ = searched.holds_searchers;
+    offset_of_group_ = static_cast<std::ptrdiff_t>(count_) - group.begin;
+    append(pairs, indices_.own());
+    append(pairs, indices_.above());
+    append(pairs, indices_.ghosts());
+    // The last batch is read to its end: the entries beyond the last candidate are far from all of the group.
     for (int n = 0; n < batch_size; ++n) at_[0][count_ + n] = pairs.place[group.begin].at[0] + farthest;
   }
 
   std::size_t size() const { return count_; }
 
   /// Writes the neighbours of particle i of the group to `j`, and up to a batch beyond them.
-  FoundRow write_neighbours(const Pairs<Dim>& pairs, std::int32_t i, std::int32_t* j) {
-    // Meanwhile the particle stands elsewhere, so that it does not find itself.
-    std::uint32_t nowhere = 0;
-    std::uint32_t& of_itself = holds_group_ ? at_[0][place_of_group_ + (i - begin_of_group_)] : nowhere;
-    of_itself += farthest;
+  FoundRow write_neighbours(const Pairs<Dim>& pairs, std::size_t i, std::int32_t* j) {
+    std::uint32_t not_a_candidate = 0;
+    std::uint32_t& own_place = holds_group_ ? at_[0][offset_of_group_ + i] : not_a_candidate;
+    own_place += farthest;  // so that the particle does not find itself
     const FoundRow row = write_near(pairs, pairs.place[i], j);
-    of_itself -= farthest;
+    own_place -= farthest;
     return row;
   }
 
  private:
-  /// From any place, and from those of a group nearly, the place farthest from it.
+  /// The largest distance between two places, because places repeat.
   static constexpr std::uint32_t farthest = 1U << 31;
-
-  static double squared_distance(const Vec<Dim>& position, const Group<Dim>& group) {
-    return (position - position.cwiseMax(group.low).cwiseMin(group.high)).squaredNorm();
-  }
 
   /// Writes those within the support around `own` to `j`, and up to a batch beyond them.
   FoundRow write_near(const Pairs<Dim>& pairs, const Place<Dim>& own, std::int32_t* j) const {
@@ -190,7 +98,7 @@ class Candidates {
     const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
     const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.least_squared;
     const std::array<float, Dim> unit = pairs.unit;
-    // Out of the vectors, so that a loop that writes keeps the addresses in registers.
+    // Copied out of the vectors, so that a loop that writes keeps the addresses in registers.
     const std::int32_t* const index = index_.data();
     const float* const signed_volume = signed_volume_.data();
     std::array<const std::uint32_t*, Dim> at;
@@ -219,7 +127,7 @@ class Candidates {
     return {static_cast<std::size_t>(end - j), bits_of(walls < 0) != 0, bits_of(least < too_near) != 0};
   }
 
-  /// Reads and writes up to a batch beyond the end.
+  /// Appends candidates. Reads and writes up to a batch beyond the end.
   void append(const Pairs<Dim>& pairs, const IndexList& list) {
     const std::size_t room = count_ + list.size() + batch_size;
     if (room > index_.size()) {
@@ -238,19 +146,17 @@ class Candidates {
     count_ += list.size();
   }
 
-  IndexList near_;
-  std::array<IndexList, 4> lists_;
+  CandidateIndices<Dim> indices_;
   std::vector<std::int32_t> index_;
   std::array<std::vector<std::uint32_t>, Dim> at_;  ///< in units of Pairs::unit
   std::vector<float> signed_volume_;                ///< m^Dim; negative of a wall particle
   std::size_t count_ = 0;
   bool holds_group_ = false;
-  std::int32_t begin_of_group_ = 0;
-  std::size_t place_of_group_ = 0;  ///< among the candidates
+  std::ptrdiff_t offset_of_group_ = 0;  ///< from the index of a particle of the group to its candidate
 };
 
-/// Of each two neighbours that are too near puts the one with the larger id where Pairs::d sees it, so that loops in
-/// lanes need not ask. A particle that sees both as ghosts sees them at one place.
+/// Moves neighbours that are too near each other apart: the one with the larger id to the place where Pairs::d sees it,
+/// so that loops in lanes need no check. A particle that sees both as ghosts sees them at one place.
 template <int Dim>
 void part_coinciding(Pairs<Dim>& pairs) {
   const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
@@ -275,49 +181,72 @@ void part_coinciding(Pairs<Dim>& pairs) {
   }
 }
 
+/// The grids, and which of them a particle searches.
+template <int Dim>
+struct RowSearch {
+  const Particles<Dim>& particles;
+  WallRows wall_rows;
+  SearchedGrid<Dim> all;
+  SearchedGrid<Dim> fluid;
+
+  bool sees_all(std::size_t i) const { return wall_rows == WallRows::all || particles.is_fluid(i); }
+
+  /// The largest group from `first` on that fits into a box of `max_extent` [m] and searches one grid.
+  Group<Dim> group_from(std::size_t first, double max_extent) const {
+    Group<Dim> group(particles.position, first);
+    const std::size_t end = std::min<std::size_t>(particles.owned, first + max_group_size);
+    for (std::size_t next = first + 1; next < end; ++next) {
+      if (sees_all(next) != sees_all(first) || !group.add(particles.position[next], max_extent)) break;
+    }
+    return group;
+  }
+};
+
+/// Calls body(candidates, i) for each owned particle, in their order.
+template <int Dim, class Body>
+void for_each_row(const RowSearch<Dim>& search, const Pairs<Dim>& pairs, Body&& body) {
+  const double max_extent = max_group_extent * kernel_radius(pairs.kernel);
+  Candidates<Dim> candidates;
+  for (std::size_t i = 0; i < search.particles.owned;) {  // in order: a group begins where the last one ends
+    const Group<Dim> group = search.group_from(i, max_extent);
+    candidates.find(search.sees_all(i) ? search.all : search.fluid, pairs, group);
+    for (const auto end = static_cast<std::size_t>(group.end); i < end; ++i) body(candidates, i);
+  }
+}
+
+template <int Dim>
+std::size_t count_pairs(const RowSearch<Dim>& search, const Pairs<Dim>& pairs) {
+  std::size_t count = 0;
+  std::vector<std::int32_t> j;
+  for_each_row(search, pairs, [&](Candidates<Dim>& candidates, std::size_t i) {
+    j.resize(std::max(j.size(), candidates.size() + batch_size));
+    count += candidates.write_neighbours(pairs, i, j.data()).size;
+  });
+  return count;
+}
+
 /// Finds the rows from the places. Returns in how many of them neighbours are nearer than the least distance.
 template <int Dim>
-std::size_t find_rows(const CellGrid<Dim>& grid, const FluidGrid<Dim>& fluid, const Particles<Dim>& particles,
-                      WallRows wall_rows, Pairs<Dim>& pairs) {
-  const Searched<Dim> all{grid, grid.order().data(), true};
-  const Searched<Dim> only_fluid{fluid.grid, fluid.order.data(), false};  // searched by walls
-  const auto sees_all = [&](std::size_t i) { return wall_rows == WallRows::all || particles.is_fluid(i); };
-  const double extent = group_extent * kernel_radius(pairs.kernel);
-  Candidates<Dim> candidates;
-  const auto for_each_row = [&](auto&& body) {
-    for (std::size_t i = 0; i < particles.owned;) {  // in order: a group begins where the last one ends
-      Group<Dim> group(pairs.position, i);
-      while (group.end - group.begin < most_in_group && group.end < static_cast<std::int32_t>(particles.owned) &&
-             sees_all(group.end) == sees_all(i) && group.take(pairs.position[group.end], extent)) {
-      }
-      candidates.find(sees_all(i) ? all : only_fluid, pairs, group);
-      for (const auto end = static_cast<std::size_t>(group.end); i < end; ++i) body(i);
-    }
-  };
-  const auto write_row = [&](std::size_t i, std::int32_t* j) {
-    return candidates.write_neighbours(pairs, static_cast<std::int32_t>(i), j);
-  };
-  pairs.row_begin.resize(particles.owned + 1);
+std::size_t find_rows(const RowSearch<Dim>& search, Pairs<Dim>& pairs) {
+  const std::size_t owned = search.particles.owned;
+  pairs.row_begin.resize(owned + 1);
   pairs.row_begin[0] = 0;
-  pairs.sees_wall.resize(particles.owned);
-  // The first pairs are counted before they are kept; later ones are about as many as the last.
+  pairs.sees_wall.resize(owned);
+  // The first pairs are counted before they are kept; later ones are about as many as the last. A lattice, as at the
+  // start, may have many particles just beyond the rim.
   std::size_t expected = pairs.j.size();
   if (expected == 0) {
-    std::vector<std::int32_t> j;
-    for_each_row([&](std::size_t i) {
-      j.resize(std::max(j.size(), candidates.size() + batch_size));
-      expected += write_row(i, j.data()).size;
-    });
-    expected += expected / 4;  // of a lattice, as at the start: many may stand just beyond the rim
+    expected = count_pairs(search, pairs);
+    expected += expected / 4;
   }
   make_room(pairs.j, expected);
   std::size_t crowded = 0;
-  for_each_row([&](std::size_t i) {  // in order: rows are put one behind the other
+  for_each_row(search, pairs, [&](Candidates<Dim>& candidates, std::size_t i) {
     const std::size_t begin = pairs.row_begin[i];
-    const std::size_t most = begin + candidates.size() + batch_size;
-    if (most > pairs.j.capacity()) pairs.j.reserve(with_room(most * (particles.owned / (i + 1) + 1)));
-    if (most > pairs.j.size()) pairs.j.resize(pairs.j.capacity());
-    const FoundRow row = write_row(i, pairs.j.data() + begin);
+    const std::size_t max_end = begin + candidates.size() + batch_size;
+    if (max_end > pairs.j.capacity()) pairs.j.reserve(with_room(max_end * (owned / (i + 1) + 1)));
+    if (max_end > pairs.j.size()) pairs.j.resize(pairs.j.capacity());
+    const FoundRow row = candidates.write_neighbours(pairs, i, pairs.j.data() + begin);
     pairs.row_begin[i + 1] = begin + row.size;
     pairs.sees_wall[i] = row.sees_wall ? 1 : 0;
     crowded += row.is_crowded ? 1 : 0;
@@ -338,7 +267,9 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   pairs.kernel = kernel;
   pairs.kernel_in_lanes = in_single_precision(kernel);
   const FluidGrid<Dim> fluid(particles, kernel_radius(kernel));
-  while (find_rows(grid, fluid, particles, wall_rows, pairs) > 0) part_coinciding(pairs);
+  const RowSearch<Dim> search{
+      particles, wall_rows, {grid, grid.order().data(), true}, {fluid.grid, fluid.order.data(), false}};
+  while (find_rows(search, pairs) > 0) part_coinciding(pairs);
 }
 
 template <int Dim>
