@@ -34,7 +34,7 @@ constexpr double relaxation_distance = 50.0;
 constexpr double min_shut_in_fraction = 0.5;
 
 /// Fractions of a pocket that differ by less are equal up to rounding.
-constexpr double rounding = 1e-12;
+constexpr double fraction_rounding = 1e-12;
 
 /// The smallest numbers of cells with which a pocket begins and remains.
 struct MinCells {
@@ -140,10 +140,10 @@ void tear_off(OldPocket& old, double torn_distance, double spacing, const MinCel
 
 /// Counts the rest of an old pocket as lost.
 void end_pocket(const OldPocket& old, const GasLaw& law, AirState& state) {
-  if (old.rest <= rounding) return;
+  if (old.rest <= fraction_rounding) return;
   state.gas_lost += old.rest * old.pocket.gas;
   state.energy_lost += old.rest * law.energy(old.pocket.gas, old.pocket.volume);
-  if (old.rest > 1.0 - rounding) ++state.ended;
+  if (old.rest > 1.0 - fraction_rounding) ++state.ended;
 }
 
 /// The closed pockets: parts of the void that have claimed cells or are large enough to be new.
