@@ -180,6 +180,35 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
                   name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust), name_of(AirPockets::none)));
 }
 
+/// Porous layers act in the formulation in which bodies float, for a reason like theirs: the pressure must know how
+/// much of its gradient the grains take. Pockets of air take space where no water is, and water in a layer stands wider
+/// apart.
+void check_porous(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  if (spec.porous.empty()) return;
+  const auto wrong = [&](const std::string& message) {
+    problems.add(&root["porous"][0].node()->source(), CaseLabel("porous", 0), "porous[0]: " + message);
+  };
+  if (!traits_of(spec).no_floating.empty()) {
+    wrong(
+        fmt::format("porous layers are possible only with scheme.formulation = \"{}\" and scheme.name = \"{}\", and "
+                    "without study.displacement; choose these, or remove the layers",
+                    name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
+  }
+  const bool has_coefficients = std::ranges::any_of(
+      spec.porous, [](const PorousTable& layer) { return layer.resistance == PorousResistance::coefficients; });
+  if (has_coefficients && gravity_magnitude(spec.physics) == 0.0) {
+    wrong(
+        "without gravity there is no hydraulic gradient, whose coefficients these are; give a grain_size and another "
+        "resistance");
+  }
+  if (spec.air.pockets != AirPockets::none) {
+    wrong(
+        fmt::format("enclosed air is not computed beside porous layers; give pockets = \"{}\" in [air], or remove "
+                    "the layers",
+                    name_of(AirPockets::none)));
+  }
+}
+
 /// Studies change parts of the robust formulations; the published ones have none of these.
 void check_study(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const toml::table* study = root["study"].as_table();
@@ -218,6 +247,7 @@ void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems
   check_names_of_driven_walls(spec, root, problems);
   check_bodies(spec, root, problems);
   check_air(spec, root, problems);
+  check_porous(spec, root, problems);
   check_study(spec, root, problems);
   check_names_of_others(spec, root, problems);
 }

@@ -16,6 +16,15 @@ enum class BlockShape { box, polygon, fill, mesh };
 template <>
 inline constexpr auto choices<BlockShape> = std::to_array<std::string_view>({"box", "polygon", "fill", "mesh"});
 
+enum class RegionShape { box, polygon, mesh };
+template <>
+inline constexpr auto choices<RegionShape> = std::to_array<std::string_view>({"box", "polygon", "mesh"});
+
+enum class PorousResistance { van_gent, ergun, coefficients };
+template <>
+inline constexpr auto choices<PorousResistance> = std::to_array<std::string_view>({"van-gent", "ergun",
+                                                                                   "coefficients"});
+
 enum class WallShape { polyline, polygon, box, mesh, plate };
 template <>
 inline constexpr auto choices<WallShape> = std::to_array<std::string_view>({"polyline", "polygon", "box", "mesh",

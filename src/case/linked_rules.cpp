@@ -85,6 +85,11 @@ void read_linked_files(FluidTable& fluid, TableReader& reader) {
   read_linked("file", reader, [&] { keep_linked(fluid.file, fluid.checksum, "checksum", reader); });
 }
 
+void read_linked_files(PorousTable& porous, TableReader& reader) {
+  if (porous.shape != RegionShape::mesh || reader.is_wrong("shape")) return;
+  read_linked("file", reader, [&] { keep_linked(porous.file, porous.checksum, "checksum", reader); });
+}
+
 void read_linked_files(WallTable& wall, TableReader& reader) {
   if (!wall.points_file.empty() && wall.points.empty() && !reader.is_wrong("shape")) {
     read_linked("points_file", reader, [&] {

@@ -58,6 +58,9 @@ struct Range {
   static constexpr Range above(double low) { return {.low = low, .low_is_excluded = true}; }
   static constexpr Range at_least(double low) { return {.low = low}; }
   static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
+  static constexpr Range open_between(double low, double high) {
+    return {.low = low, .high = high, .low_is_excluded = true, .high_is_excluded = true};
+  }
   static constexpr Range above_up_to(double low, double high) {
     return {.low = low, .high = high, .low_is_excluded = true};
   }
@@ -515,6 +518,56 @@ struct DampingTable {
   }
 };
 
+/// A region filled with stones or grains that rest. What the law makes of the grains is porous/porous_law.h.
+struct PorousTable : PlacedFile {
+  std::string name;
+  RegionShape shape = RegionShape::box;
+  Coordinates min;
+  Coordinates max;
+  std::vector<Coordinates> points;
+  double porosity = 0.0;
+  PorousResistance resistance = PorousResistance::van_gent;
+  double grain_size = 0.0;
+  double alpha = 1000.0;
+  double beta = 1.1;
+  double keulegan_carpenter = 0.0;
+  double linear = 0.0;
+  double quadratic = 0.0;
+  double added_mass = 0.0;
+
+  bool operator==(const PorousTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name used in messages (default: porous1, porous2, ...)");
+    v.choice("shape", self.shape,
+             "Shape of the layer: an axis-parallel box, a polygon (2D), or the inside of a closed mesh from a file "
+             "(3D); where layers overlap, the last one counts");
+    v.coordinates("min", self.min, "m", "Lowest corner of a box");
+    v.coordinates("max", self.max, "m", "Highest corner of a box");
+    v.points("points", self.points, "m", "Corners of a polygon, in order; the last is joined to the first");
+    PlacedFile::describe(self, v);
+    v.number("porosity", self.porosity, "", Range::open_between(0.0, 1.0),
+             "Fraction n of the layer's volume that water can fill", Presence::required);
+    v.choice("resistance", self.resistance,
+             "Law of the hydraulic gradient I = a v + b v |v| for the filter velocity v = n u: from the grain size "
+             "after van Gent (1995) or Ergun (1952), or from given coefficients");
+    v.number("grain_size", self.grain_size, "m", Range::above(0.0), "Median diameter D50 of the stones or grains");
+    v.number("alpha", self.alpha, "", Range::at_least(0.0),
+             "Coefficient of a = alpha (1-n)^2/n^3 nu/(g D50^2) (default with Ergun's law: 150)");
+    v.number("beta", self.beta, "", Range::at_least(0.0),
+             "Coefficient of b = beta (1 + 7.5/KC) (1-n)/n^3 1/(g D50) (default with Ergun's law: 1.75)");
+    v.number("keulegan_carpenter", self.keulegan_carpenter, "", Range::at_least(0.0),
+             "Keulegan-Carpenter number KC = V T/(n D50) of the waves in the layer, with the largest filter velocity V "
+             "and the period T; 0: steady flow, without the term 7.5/KC");
+    v.number("linear", self.linear, "s/m", Range::at_least(0.0),
+             "Coefficient a; in Darcy's law 1/a is the permeability K in m/s");
+    v.number("quadratic", self.quadratic, "s2/m2", Range::at_least(0.0), "Coefficient b");
+    v.number("added_mass", self.added_mass, "", Range::at_least(0.0),
+             "Added mass of the water over its mass (default after van Gent: 0.34 (1-n)/n)");
+  }
+};
+
 /// Keys that the open ends of both kinds have, and a discharge probe in part.
 template <class Self, class Visitor>
 void describe_opening(Self& self, Visitor& v) {
@@ -888,6 +941,7 @@ struct CaseSpec {
   std::vector<BodyTable> bodies;
   std::vector<MooringTable> moorings;
   std::vector<DampingTable> damping;
+  std::vector<PorousTable> porous;
   std::vector<InletTable> inlets;
   std::vector<OutletTable> outlets;
   TimeTable time;
@@ -928,6 +982,7 @@ struct CaseSpec {
     v.tables("body", self.bodies, "A rigid body that the water moves; one table each");
     v.tables("mooring", self.moorings, "A line that holds a body; one table each");
     v.tables("damping", self.damping, "A zone in which waves die out; one table each");
+    v.tables("porous", self.porous, "A layer of stones or grains that water flows through; one table each");
     v.tables("inlet", self.inlets, "An open end through which water enters; one table each");
     v.tables("outlet", self.outlets, "An open end through which water leaves; one table each");
     v.table("time", self.time, "Duration of the run");

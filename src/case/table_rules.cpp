@@ -43,6 +43,18 @@ void set_defaults(BodyTable& body, TableReader& reader) {
   body.velocity.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
 }
 
+void set_defaults(PorousTable& porous, TableReader& reader) {
+  porous.rotate.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+  porous.translate = porous.rotate;
+  reader.read_ahead(porous, {"porosity", "resistance"});
+  if (porous.resistance == PorousResistance::ergun) {
+    porous.alpha = 150.0;
+    porous.beta = 1.75;
+  }
+  constexpr double added_mass_of_grains = 0.34;  // gamma_p of van Gent (1995)
+  if (porous.porosity > 0.0) porous.added_mass = added_mass_of_grains * (1.0 - porous.porosity) / porous.porosity;
+}
+
 void set_defaults(ProbeTable& probe, TableReader& reader) {
   reader.read_ahead(probe, {"type"});
   if (probe.type == ProbeType::front || probe.type == ProbeType::discharge) probe.direction = along_x(reader);
@@ -67,6 +79,21 @@ void check(const FluidTable& fluid, TableReader& reader) {
                         dimension == 2 ? "\"box\", \"mesh\" or \"fill\"" : "\"box\", \"polygon\" or \"fill\"", reader);
   check_box(fluid.min, fluid.max, reader);
   check_corner_count(fluid.points, 3, reader);
+}
+
+void check(const PorousTable& porous, TableReader& reader) {
+  const int dimension = porous.shape == RegionShape::polygon ? 2 : porous.shape == RegionShape::mesh ? 3 : 0;
+  check_shape_dimension(name_of(porous.shape), dimension,
+                        dimension == 2 ? "\"box\" or \"mesh\"" : "\"box\" or \"polygon\"", reader);
+  check_box(porous.min, porous.max, reader);
+  check_corner_count(porous.points, 3, reader);
+  const bool has_law = porous.resistance != PorousResistance::coefficients || reader.is_wrong("resistance") ||
+                       reader.is_wrong("linear") || reader.is_wrong("quadratic");
+  if (!has_law && reader.given("linear") == nullptr && reader.given("quadratic") == nullptr) {
+    reader.missing("linear",
+                   "resistance = \"coefficients\" needs it: give linear (a) or quadratic (b) of the hydraulic gradient "
+                   "a v + b v |v|, or both");
+  }
 }
 
 namespace {

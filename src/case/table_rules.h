@@ -23,6 +23,7 @@ void set_defaults(InletTable& inlet, TableReader& reader);
 void set_defaults(OutletTable& outlet, TableReader& reader);
 void set_defaults(SchemeTable& scheme, TableReader& reader);
 void set_defaults(ProbeTable& probe, TableReader& reader);
+void set_defaults(PorousTable& porous, TableReader& reader);
 
 /// Reads the files that a sound table names. Points from a file become the table's own, and the name of a mesh file
 /// becomes absolute, so that the case does not depend on its folder any more.
@@ -31,6 +32,7 @@ void read_linked_files(Table&, TableReader&) {}
 void read_linked_files(FluidTable& fluid, TableReader& reader);
 void read_linked_files(WallTable& wall, TableReader& reader);
 void read_linked_files(GateTable& gate, TableReader& reader);
+void read_linked_files(PorousTable& porous, TableReader& reader);
 void read_linked_files(InletTable& inlet, TableReader& reader);
 void read_linked_files(OutletTable& outlet, TableReader& reader);
 /// The file's columns depend on the probe, so the values are read when all tables have been (measurements.h).
@@ -48,6 +50,7 @@ void check(const WaveMakerTable& maker, TableReader& reader);
 void check(const BodyTable& body, TableReader& reader);
 void check(const MooringTable& mooring, TableReader& reader);
 void check(const DampingTable& damping, TableReader& reader);
+void check(const PorousTable& porous, TableReader& reader);
 void check(const InletTable& inlet, TableReader& reader);
 void check(const OutletTable& outlet, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);

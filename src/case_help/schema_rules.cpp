@@ -115,6 +115,11 @@ Json table_rules_of_schema(std::string_view table) {
         {rule_for("periodic_x", is_range()), rule_for("periodic_y", is_range()), rule_for("periodic_z", is_range())});
   }
   if (table == "fluid") return Json::array({rule_for("points", at_least(3))});
+  if (table == "porous") {
+    return Json::array(
+        {rule_for("points", at_least(3)),
+         if_then(is("resistance", {"coefficients"}), {{"anyOf", Json::array({needs("linear"), needs("quadratic")})}})});
+  }
   if (table == "wall") return rules_of_walls();
   if (table == "inlet") return rules_of_inlets();
   if (table == "outlet") return Json::array({has_length()});
@@ -133,6 +138,7 @@ Json file_rules_of_schema() {
   Json has_level_beyond = needs("outlet");
   has_level_beyond["properties"]["outlet"] = {{"contains", {{"anyOf", Json::array({needs("level"), needs("file")})}}}};
   const Json has_bodies{{"required", Json::array({"body"})}, {"properties", {{"body", at_least(1)}}}};
+  const Json has_layers{{"required", Json::array({"porous"})}, {"properties", {{"porous", at_least(1)}}}};
   Json lets_bodies_float = rule_for("name", one_of({"farzin2014"}));
   lets_bodies_float["properties"]["formulation"] = one_of({"robust"});
   Json is_published = needs("scheme");
@@ -142,7 +148,9 @@ Json file_rules_of_schema() {
   const Json has_studies{{"propertyNames", none_of({"divergence_free", "displacement"})}};
   return Json::array({
       {{"anyOf", Json::array({std::move(has_fluid), needs("inlet"), std::move(has_level_beyond)})}},
-      if_then(has_bodies, rule_for("scheme", std::move(lets_bodies_float))),
+      if_then(has_bodies, rule_for("scheme", lets_bodies_float)),
+      if_then(has_layers, rule_for("scheme", lets_bodies_float)),
+      if_then(has_layers, rule_for("air", rule_for("pockets", one_of({"none"})))),
       if_then(std::move(is_published), rule_for("study", {{"maxProperties", 0}})),
       if_then(std::move(is_two_step), rule_for("study", has_studies)),
   });
@@ -161,12 +169,14 @@ Json dimension_rules_of_schema(int dimension) {
             {"wave_maker", each("side", in_plane)},
             {"body", each("free", {{"items", one_of({"x", "y", "rotation"})}})},
             {"damping", each("towards", in_plane)},
+            {"porous", each("shape", none_of({"mesh"}))},
             {"domain", rule_for("periodic_z", {{"maxItems", 0}})}};
   }
   Json wall{{"items", is("shape", {"box", "mesh", "plate"})}};
   wall["items"]["allOf"] = Json::array({if_then(is_given("rotation"), needs("axis"))});
   return {{"physics", rule_for("channel_width", {{"maximum", 0}})},
           {"fluid", each("shape", none_of({"polygon"}))},
+          {"porous", each("shape", none_of({"polygon"}))},
           {"wall", std::move(wall)},
           {"body", each("free", {{"items", none_of({"rotation"})}})}};
 }

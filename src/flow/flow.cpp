@@ -131,6 +131,16 @@ bool Flow<Dim>::restore(SavedFlow<Dim> saved) {
 }
 
 template <int Dim>
+std::vector<Vec<Dim>> Flow<Dim>::filter_velocity() const {
+  const Particles<Dim>& particles = state.particles;
+  std::vector<Vec<Dim>> velocity = particles.velocity;
+  for_each(pores == nullptr ? 0 : velocity.size(), [&](std::size_t i) {
+    if (particles.is_fluid(i)) velocity[i] *= pores->at(particles.position[i]).fraction;
+  });
+  return velocity;
+}
+
+template <int Dim>
 Eigen::AlignedBox<double, Dim> Flow<Dim>::box() const {
   Eigen::AlignedBox<double, Dim> box = box_around(walls.boundary.faces);
   for (const auto& part : parts) part->extend_box(box);

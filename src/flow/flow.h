@@ -13,6 +13,7 @@
 
 #include "closures/surroundings.h"
 #include "flow/part.h"
+#include "flow/pores.h"
 #include "flow/role.h"
 #include "flow/setup.h"
 #include "flow/state.h"
@@ -36,6 +37,7 @@ struct Flow {
   Setup<Dim> setup;
   State<Dim> state;
   std::vector<std::unique_ptr<Part<Dim>>> parts;  ///< those that the case has, in the order of their calls
+  const Pores<Dim>* pores = nullptr;              ///< of one of them; null: water can fill all of space
 
   // Tools.
   Decomposition<Dim> decomposition;
@@ -77,9 +79,11 @@ struct Flow {
   bool is_open() const {
     return std::ranges::any_of(parts, [](const auto& part) { return part->is_open(); });
   }
-  /// Whether the matrix of a second projection serves the next step's first one too: not in an open domain, where rows
-  /// change between steps.
-  bool keeps_matrix() const { return setup.formulation.has_second_projection && !is_open(); }
+  /// Whether the matrix of a second projection serves the next step's first one too.
+  bool keeps_matrix() const {
+    return setup.formulation.has_second_projection &&
+           std::ranges::none_of(parts, [](const auto& part) { return part->changes_rows(); });
+  }
 
   /// Frees the matrix of the pressure equation and what solvers have made of it.
   void forget_matrix() {
@@ -105,14 +109,29 @@ struct Flow {
 
   /// Whether statistics of the bulk count particle i.
   bool is_inside(std::size_t i) const { return role[i] == Role::water && surroundings.interior[i] > 0.5; }
+  /// m^Dim; of the water of particle i, which is its volume unless it shares it with grains.
+  double water_volume_of(std::size_t i) const {
+    const double volume = state.particles.volume[i];
+    return pores == nullptr ? volume : volume * pores->at(state.particles.position[i]).fraction;
+  }
+  /// m/s; of all particles: discharge over area, which is the velocity where water can fill all of space.
+  std::vector<Vec<Dim>> filter_velocity() const;
+  /// Sums over a full lattice of particles like particle i.
+  LatticeSums lattice_of(std::size_t i) const {
+    return pores == nullptr ? setup.scale.lattice : pores->lattice_of(state.particles.volume[i]);
+  }
   double kinetic_energy_of(std::size_t i) const {
-    return 0.5 * setup.liquid.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
+    const double energy =
+        0.5 * setup.liquid.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
+    if (pores == nullptr) return energy;
+    const PoreSpace space = pores->at(state.particles.position[i]);
+    return space.fraction * space.inertia * energy;
   }
   /// The box around all walls, where they are now, and what parts have of the case's edges; empty if there is nothing.
   Eigen::AlignedBox<double, Dim> box() const;
   /// Relative to the origin; there is none along periodic directions.
   double potential_energy_of(std::size_t i) const {
-    return -setup.liquid.density * state.particles.volume[i] * setup.gravity_across.dot(state.particles.position[i]);
+    return -setup.liquid.density * water_volume_of(i) * setup.gravity_across.dot(state.particles.position[i]);
   }
 };
 

@@ -20,7 +20,7 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
     surroundings.first_moment[i] = packed_identity<Dim>();
     if (!has_equation(flow.role[i])) return;
     const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.scale.kernel_values);
-    surroundings.concentration[i] = sums.concentration / flow.setup.scale.lattice.concentration;
+    surroundings.concentration[i] = sums.concentration / flow.lattice_of(i).concentration;
     if (!particles.is_fluid(i)) return;
     if (with_gradient) surroundings.concentration_gradient[i] = sums.gradient;
     surroundings.first_moment[i] = packed<Dim>(sums.first_moment);
@@ -35,6 +35,7 @@ void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   const Setup<Dim>& setup = flow.setup;
   if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_pairs())) return;
   flow.forget_matrix();
+  for (const auto& part : flow.parts) part->arrive(flow);
   const bool ghosts_are_new = flow.neighbourhood.update(flow.state.particles);
   if (ghosts_are_new && !setup.ranks.is_alone()) {
     flow.shared_rows.find_rows(flow.walls, flow.state.particles, flow.state.particles.owned, setup.first_wall_id);

@@ -53,7 +53,7 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
   return sum_over(particles.owned, FluidSums{}, [&](std::size_t i) -> FluidSums {
     if (!particles.is_fluid(i)) return {};
     const double kinetic_energy = flow.kinetic_energy_of(i);
-    return {flow.setup.liquid.density * particles.volume[i], kinetic_energy,
+    return {flow.setup.liquid.density * flow.water_volume_of(i), kinetic_energy,
             kinetic_energy + flow.potential_energy_of(i)};
   });
 }
@@ -62,7 +62,7 @@ template <int Dim>
 WaterAmount amount_of(const Flow<Dim>& flow, std::span<const std::size_t> water) {
   WaterAmount amount = sum_over(water.size(), WaterAmount{}, [&](std::size_t n) -> WaterAmount {
     const std::size_t i = water[n];
-    return {1, flow.state.particles.volume[i], flow.potential_energy_of(i) + flow.kinetic_energy_of(i)};
+    return {1, flow.water_volume_of(i), flow.potential_energy_of(i) + flow.kinetic_energy_of(i)};
   });
   flow.setup.ranks.sum_each(amount.particles, amount.volume, amount.energy);
   return amount;

@@ -64,6 +64,20 @@ template <int Dim>
 void Part<Dim>::add_acceleration(const Flow<Dim>& /*flow*/, std::span<Vec<Dim>> /*acceleration*/) const {}
 
 template <int Dim>
+void Part<Dim>::arrive(Flow<Dim>& /*flow*/) {}
+
+template <int Dim>
+void Part<Dim>::begin_projection(Flow<Dim>& /*flow*/, Projection /*projection*/, double /*dt*/) {}
+
+template <int Dim>
+void Part<Dim>::change_prediction(const Flow<Dim>& /*flow*/, std::span<const Vec<Dim>> /*acceleration*/, double /*dt*/,
+                                  std::span<Vec<Dim>> /*predicted*/) {}
+
+template <int Dim>
+void Part<Dim>::change_target(const Flow<Dim>& /*flow*/, std::span<const Mat<Dim>> /*velocity_gradient*/, double /*dt*/,
+                              std::span<double> /*target*/) const {}
+
+template <int Dim>
 void Part<Dim>::write_rows(Flow<Dim>& /*flow*/) {}
 
 template <int Dim>

@@ -47,6 +47,9 @@ enum class Reordering {
   removed  ///< some particles were taken out, the others keep their order
 };
 
+/// Which of the projections of a step: the one that finds its velocity, or a second one, where the particles arrived.
+enum class Projection { of_step, again };
+
 /// A number of one step, for a column of steps.csv.
 struct StepColumn {
   const char* name;
@@ -76,6 +79,8 @@ class Part {
   virtual std::string_view name() const = 0;
   /// Whether water can leave or enter the domain through it, so that rows of the pressure change between steps.
   virtual bool is_open() const { return false; }
+  /// Whether it changes rows of the pressure between a second projection and the next step.
+  virtual bool changes_rows() const { return is_open(); }
   /// Whether it needs the forces of friction and of the last guard on the walls.
   virtual bool needs_wall_forces() const { return false; }
   /// Extends the box around the case [m] by what the part has of it, where it is now.
@@ -104,7 +109,14 @@ class Part {
   /// At the positions where a step of `dt` begins; dt is 0 where only the pressure of the start is wanted.
   virtual void begin_step(Flow<Dim>& flow, double dt);
 
+  /// Called when particles have moved, before their neighbours are found.
+  virtual void arrive(Flow<Dim>& flow);
+
   // The prediction.
+
+  /// Called before the velocity is predicted, and before a second projection. The part may change the velocity of owned
+  /// particles, which it changes back in `correct`, `stay` or `project_again`.
+  virtual void begin_projection(Flow<Dim>& flow, Projection projection, double dt);
 
   /// Adds to the viscosity [m^2/s] of all particles.
   virtual void add_viscosity(const Flow<Dim>& flow, std::span<double> viscosity) const;
@@ -117,9 +129,17 @@ class Part {
   /// Adds to the acceleration [m/s^2] of owned particles.
   virtual void add_acceleration(const Flow<Dim>& flow, std::span<Vec<Dim>> acceleration) const;
 
+  /// Changes the velocity [m/s] that owned particles have after a step of this acceleration [m/s^2] without pressure.
+  virtual void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
+                                 std::span<Vec<Dim>> predicted);
+
   // The pressure.
 
-  /// Writes the rows of the particles that it claims.
+  /// Changes the divergence [1/s] at which the projection of a step aims, for which the gradient of the velocity was
+  /// used.
+  virtual void change_target(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient, double dt,
+                             std::span<double> target) const;
+  /// Writes the rows of the particles that it claims. Those of other water have been written and may be changed.
   virtual void write_rows(Flow<Dim>& flow);
   /// Called when all rows have weights and sources, with the predicted velocity. May overwrite the sources and must put
   /// them back. Returns the iterations of its own solves.

@@ -69,6 +69,7 @@ template <int Dim>
 Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const WallDrive<Dim>& drive, double dt) {
   const Setup<Dim>& setup = flow.setup;
   Particles<Dim>& particles = flow.state.particles;
+  for (const auto& part : flow.parts) part->begin_projection(flow, Projection::of_step, dt);
   set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   if (flow.wall_forces.are_requested) flow.wall_forces.reset(particles.owned);
 
@@ -90,6 +91,9 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
     if (is_claimed(flow.role[i])) acceleration[i].setZero();  // only gravity acts, and the pressure balances it
     predicted.velocity[i] = start.velocity[i] + dt * (acceleration[i] + gravity);
   });
+  for (const auto& part : flow.parts) {
+    part->change_prediction(flow, acceleration, dt, std::span(predicted.velocity).first(particles.owned));
+  }
   set_wall_velocities<Dim>(flow, with_gravity ? drive.velocity : start.wall_velocity, predicted.velocity);
   return predicted;
 }

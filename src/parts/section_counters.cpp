@@ -44,7 +44,7 @@ void SectionCounters<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& st
       for (const Vec<Dim>& shift : shifts) {
         passes += way_through<Dim>(sections_[s], start.position[i] + shift, particles.position[i] + shift);
       }
-      return passes * particles.volume[i];
+      return passes * flow.water_volume_of(i);
     });
     volumes_[s] += flow.setup.ranks.sum(volume);
   }

@@ -64,7 +64,7 @@ double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
   const Particles<Dim>& particles = flow.state.particles;
   return sum_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return 0.0;
-    return flow.setup.liquid.density * particles.volume[i] * along.dot(particles.position[i] - start.position[i]);
+    return flow.setup.liquid.density * flow.water_volume_of(i) * along.dot(particles.position[i] - start.position[i]);
   });
 }
 
@@ -88,7 +88,7 @@ Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pre
                    const PosedEquation& equation, double dt) {
   Works works = work_of_boundaries(flow, dt);
   works.density = density_work(flow, equation, dt);
-  works.viscous = viscous_work(flow, start, predicted, dt);
+  works.viscous += viscous_work(flow, start, predicted, dt);
   return works;
 }
 

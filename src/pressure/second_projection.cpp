@@ -34,6 +34,7 @@ template <int Dim>
 SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double dt) {
   const double density = flow.setup.liquid.density;
   Particles<Dim>& particles = flow.state.particles;
+  for (const auto& part : flow.parts) part->begin_projection(flow, Projection::again, dt);
   const std::size_t fallback_rows = assemble_weights(flow, drive);
   set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   std::vector<double> source(particles.owned, 0.0);

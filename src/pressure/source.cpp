@@ -15,6 +15,7 @@ std::vector<double> target_divergence(const Flow<Dim>& flow, std::vector<Mat<Dim
     const Mat<Dim>& gradient = velocity_gradient[i];
     target[i] = 0.5 * dt * (gradient * gradient).trace();
   });
+  for (const auto& part : flow.parts) part->change_target(flow, velocity_gradient, dt, target);
   return target;
 }
 

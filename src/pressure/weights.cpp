@@ -26,8 +26,9 @@ std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
                         [&](std::size_t i) { return has_equation(flow.role[i]) && flow.role[i] != Role::following; }));
   }
   flow.wall_model().assemble_rows(flow.wall_scene(), flow.wall_force(drive.acceleration), flow.pressure_rows);
+  const std::size_t fallback_rows = flow.discretisation().write_rows(flow);
   for (const auto& part : flow.parts) part->write_rows(flow);
-  return flow.discretisation().write_rows(flow);
+  return fallback_rows;
 }
 
 TAILWATER_IN_2D_AND_3D(assemble_weights);

@@ -11,6 +11,7 @@
 #include "parts/section_counters.h"
 #include "parts/side_walls.h"
 #include "parts/wave_makers.h"
+#include "porous/porous_layers.h"
 #include "published/farmani2020.h"
 #include "published/farzin2014.h"
 #include "robust/formulation.h"
@@ -30,9 +31,9 @@ template <int Dim>
 Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   // All parts that a flow can have, in the order in which the stages call them.
   static constexpr std::array parts{
-      make_open_ends_part<Dim>,  make_domain_floor<Dim>,  make_wave_makers<Dim>,
-      make_side_walls<Dim>,      make_damping_zones<Dim>, make_boundary_layers<Dim>,
-      make_floating_bodies<Dim>, make_enclosed_air<Dim>,  make_section_counters<Dim>,
+      make_open_ends_part<Dim>,   make_domain_floor<Dim>,    make_wave_makers<Dim>,     make_side_walls<Dim>,
+      make_damping_zones<Dim>,    make_boundary_layers<Dim>, make_floating_bodies<Dim>, make_enclosed_air<Dim>,
+      make_section_counters<Dim>, make_porous_layers<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

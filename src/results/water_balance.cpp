@@ -90,7 +90,7 @@ template <int Dim>
 WaterAmount water_in(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) {
-    return particles.is_fluid(i) ? WaterAmount{1, particles.volume[i]} : WaterAmount();
+    return particles.is_fluid(i) ? WaterAmount{1, flow.water_volume_of(i)} : WaterAmount();
   });
   flow.setup.ranks.sum_each(water.particles, water.volume);
   return water;
@@ -106,7 +106,7 @@ WaterAmount water_outside(const Flow<Dim>& flow) {
     const Vec<Dim> x = flow.neighbourhood.wrapped(particles.position[i]);
     const bool is_outside =
         particles.is_fluid(i) && !box.contains(x) && !falls_back(flow, box, x) && !ends.is_passed_by(x);
-    return is_outside ? WaterAmount{1, particles.volume[i]} : WaterAmount();
+    return is_outside ? WaterAmount{1, flow.water_volume_of(i)} : WaterAmount();
   });
   flow.setup.ranks.sum_each(water.particles, water.volume);
   water += flow.template part<DomainFloor<Dim>>().fallen();

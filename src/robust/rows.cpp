@@ -47,7 +47,7 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
 /// a_i of a row whose weights sum to `sum`: air near the surface and on walls, open faces and softness inside.
 template <int Dim>
 double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) const {
-  const double air = laws_.air.weight(sum, flow.setup.scale.lattice.morris);
+  const double air = laws_.air.weight(sum, flow.lattice_of(i).morris);
   const double interior = flow.surroundings.interior[i];
   if (interior == 0.0) return air;
   const double spacing = flow.setup.scale.spacing;

@@ -44,6 +44,8 @@ POCKET = ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}, {name='hull', s
           "--set", "pocket=[{at=[2.9, 1.9], overpressure=-50}]", "--set", "vent=[{at=[2.9, 1.9], area=0.01}]", "--set",
           "probe=[{name='air', type='pockets'}, {name='seldom', type='pockets', interval=0.03}]",
           "--set", "fluid[0].velocity=[1, 0]")
+ROCK = ("--set", "porous=[{min=[0.8, -1], max=[1.3, 2], porosity=0.5, grain_size=0.05}]", "--set",
+        "fluid[0].velocity=[1, 0]")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -57,6 +59,7 @@ FEATURES = {
     "implicit integrator and a gate": ("--set", "scheme.integrator=implicit", *GATE),
     "a wave maker that absorbs, and a damping zone": WAVES,
     "a tank that a file rolls": ROLL,
+    "water that enters a porous layer": ROCK,
     "a body that floats on a line": BARGE,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "an inlet, a tailwater whose water circulates, and a discharge probe": FLUME,

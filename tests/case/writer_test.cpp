@@ -59,6 +59,15 @@ TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
       "[[probe]]\nname = \"i\"\ntype = \"volume\"\n");
 }
 
+TEST(EffectiveCase, WithPorousLayersReadsBack) {
+  expect_round_trip(
+      "parameters.H = 0.6\n" + required_keys + water +
+      "[[porous]]\nmin = [0, 0]\nmax = [\"H\", 1]\nporosity = 0.4\ngrain_size = \"dx/3\"\n"
+      "[[porous]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 0], [0, 1]]\nporosity = 0.4\nresistance = "
+      "\"coefficients\"\nquadratic = 3\nadded_mass = 0\n"
+      "[[porous]]\nmin = [0, 0]\nmax = [1, 1]\nporosity = 0.5\nresistance = \"ergun\"\ngrain_size = 0.1\n");
+}
+
 TEST(EffectiveCase, InThreeDimensionsReadsBack) {
   expect_round_trip("case.dimension = 3\n" + required_keys +
                     "[domain]\nperiodic_z = [0, 1]\n[[fluid]]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n"

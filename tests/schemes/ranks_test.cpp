@@ -217,6 +217,27 @@ TYPED_TEST(RanksTest, ConsistentOperatorsStressAndFriction) {
   expect_same<Dim>(spec, 0.3, as_it_is);
 }
 
+TYPED_TEST(RanksTest, WaterThatEntersAPorousLayer) {
+  constexpr int Dim = TypeParam::value;
+  for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
+    CaseSpec spec = jittered_tank<Dim>();
+    spec.scheme.integrator = integrator;
+    PorousTable layer;
+    layer.min = Coordinates(Dim, -1.0);
+    layer.max = Coordinates(Dim, 2.0);
+    layer.min[0] = Dim == 2 ? 0.5 : 0.2;
+    layer.porosity = 0.4;
+    layer.grain_size = 0.02;
+    layer.added_mass = 0.5;
+    spec.porous = {layer};
+    expect_same<Dim>(spec, 0.3, [](Flow<Dim>& flow) {
+      for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+        if (flow.state.particles.is_fluid(i)) flow.state.particles.velocity[i][0] = 1.0;
+      }
+    });
+  }
+}
+
 TYPED_TEST(RanksTest, BoundaryLayers) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = jittered_tank<Dim>();

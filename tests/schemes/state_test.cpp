@@ -73,6 +73,18 @@ CaseSpec rough_case() {
   return spec;
 }
 
+CaseSpec porous_case() {
+  CaseSpec spec = dam_break(Integrator::explicit_projection);
+  PorousTable rock;
+  rock.min = {1.0, -1.0};
+  rock.max = {1.5, 3.0};
+  rock.porosity = 0.5;
+  rock.grain_size = 0.03;
+  rock.added_mass = 0.34;
+  spec.porous = {rock};
+  return spec;
+}
+
 class StateTest : public testing::TestWithParam<Variant> {};
 
 void expect_same(const Flow<2>& a, const Flow<2>& b) {
@@ -85,6 +97,7 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
   for (std::size_t i = 0; i < a.state.particles.owned; ++i) {
     ASSERT_EQ(a.state.particles.id[i], b.state.particles.id[i]);
     ASSERT_EQ(a.state.particles.position[i], b.state.particles.position[i]);
+    ASSERT_EQ(a.state.particles.volume[i], b.state.particles.volume[i]);
     ASSERT_EQ(a.state.particles.velocity[i], b.state.particles.velocity[i]);
     ASSERT_EQ(a.state.particles.pressure[i], b.state.particles.pressure[i]);
     ASSERT_EQ(a.state.particles.second_pressure[i], b.state.particles.second_pressure[i]);
@@ -117,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(Cases, StateTest,
                                          Variant{"implicit", dam_break(Integrator::implicit_projection)},
                                          Variant{"two_step", two_step_case()}, Variant{"published", published_case()},
                                          Variant{"moving_wall", gate_case()}, Variant{"outlet", outlet_case()},
-                                         Variant{"inlet", inlet_case()}, Variant{"rough", rough_case()}),
+                                         Variant{"inlet", inlet_case()}, Variant{"rough", rough_case()},
+                                         Variant{"porous", porous_case()}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -1,0 +1,282 @@
+#include "porous/porous_layers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/finding.h"
+#include "base/for_each.h"
+#include "flow/flow.h"
+#include "geometry/from_spec.h"
+#include "geometry/opening.h"
+#include "operators/laplacian_morris.h"
+#include "porous/porous_region.h"
+#include "pressure/full_water.h"
+
+namespace tailwater {
+namespace {
+
+constexpr int lattice_count = 65;
+
+/// Throws CaseError where a layer reaches into the buffer zone of an open end: what enters there fills all of space.
+template <int Dim>
+void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim>& field, double radius) {
+  const double dx = spec.particles.spacing;
+  const double zone = radius + dx;
+  for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) {
+    double points = std::ceil(zone / dx);
+    for (const Vec<Dim>& edge : opening.edges) points *= std::ceil(edge.norm() / dx);
+    for (double k = 0.0; k < points; ++k) {
+      double rest = k;
+      const auto next_share = [&](double length) {
+        const double count = std::ceil(length / dx);
+        const double share = (std::fmod(rest, count) + 0.5) / count;
+        rest = std::floor(rest / count);
+        return share;
+      };
+      Vec<Dim> x = opening.corner - next_share(zone) * zone * opening.normal;
+      for (const Vec<Dim>& edge : opening.edges) x += next_share(edge.norm()) * edge;
+      if (field.porosity_at(x) == 1.0) continue;
+      throw CaseError(
+          {"{}: a porous layer is at {}, nearer than {:.4g} m, where water enters and leaves as in open water",
+           opening.label(), place<Dim>(x), zone},
+          {"end the layer before it"});
+    }
+  }
+}
+
+/// Throws CaseError for a layer that no water of the case can reach.
+template <int Dim>
+void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  if (box.isEmpty()) return;
+  for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
+  for (const PorousTable& table : spec.porous) {
+    const Eigen::AlignedBox<double, Dim> layer = PorousRegion<Dim>(spec, table).box();
+    if (box.intersects(layer)) continue;
+    throw CaseError({"{} reaches from {} to {}, outside of the walls, which stand between {} and {}",
+                     CaseLabel("porous", table.name), place<Dim>(layer.min()), place<Dim>(layer.max()),
+                     place<Dim>(box.min()), place<Dim>(box.max())},
+                    {"move it"});
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+PorousLayers<Dim>::PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary)
+    : field_(spec, boundary, setup.scale.kernel, setup.domain) {
+  require_layers_in_case(spec, boundary);
+  require_open_ends_in_open_water(spec, field_, kernel_radius(setup.scale.kernel));
+  // From water that has left the tightest layer to water that has entered it.
+  const double dx = setup.scale.spacing;
+  const double widening = std::pow(field_.least_porosity(), -1.0 / Dim);
+  least_spacing_ = dx / widening;
+  spacing_step_ = (dx * widening - least_spacing_) / (lattice_count - 1);
+  for (int k = 0; k < lattice_count; ++k) {
+    lattices_.push_back(lattice_sums<Dim>(setup.scale.kernel, least_spacing_ + k * spacing_step_));
+  }
+}
+
+template <int Dim>
+void PorousLayers<Dim>::begin(Flow<Dim>& flow) {
+  flow.pores = this;
+}
+
+template <int Dim>
+PoreSpace PorousLayers<Dim>::at(const Vec<Dim>& x) const {
+  const PorousMedium medium = field_.at(x);
+  return {medium.porosity(), 1.0 + medium.added_mass};
+}
+
+template <int Dim>
+LatticeSums PorousLayers<Dim>::lattice_of(double volume) const {
+  const double steps = (std::pow(volume, 1.0 / Dim) - least_spacing_) / spacing_step_;
+  const double bounded = std::clamp(steps, 0.0, lattice_count - 1.0);
+  const int low = std::min(static_cast<int>(bounded), lattice_count - 2);
+  const double share = bounded - low;
+  const LatticeSums& below = lattices_[low];
+  const LatticeSums& above = lattices_[low + 1];
+  return {.concentration = std::lerp(below.concentration, above.concentration, share),
+          .morris = std::lerp(below.morris, above.morris, share),
+          .across_plane = std::lerp(below.across_plane, above.across_plane, share)};
+}
+
+/// Gives water the volume that it occupies where it has come to. Indices change between steps only, when nothing has
+/// moved since the last call: what has another index now is where it was.
+template <int Dim>
+void PorousLayers<Dim>::arrive(Flow<Dim>& flow) {
+  Particles<Dim>& particles = flow.state.particles;
+  arrivals_.resize(particles.owned);
+  for_each(particles.owned, [&](std::size_t i) {
+    const double porosity = particles.is_fluid(i) ? field_.porosity_at(particles.position[i]) : 1.0;
+    if (arrivals_[i].id == particles.id[i]) particles.volume[i] *= arrivals_[i].porosity / porosity;
+    arrivals_[i] = {particles.id[i], porosity};
+  });
+  // Ghosts that are kept get new positions only.
+  const bool some_are_renewed = flow.setup.ranks.any(!flow.neighbourhood.has_pairs());
+  if (!some_are_renewed) flow.halo().exchange(particles.volume);
+}
+
+/// Turns u into n u with the media where water is halfway through the step, or where it is at its end.
+template <int Dim>
+void PorousLayers<Dim>::begin_projection(Flow<Dim>& flow, Projection projection, double dt) {
+  Particles<Dim>& particles = flow.state.particles;
+  const double way = projection == Projection::of_step ? 0.5 * dt : 0.0;
+  media_.resize(particles.owned);
+  conductance_.resize(particles.owned);
+  for_each(particles.owned, [&](std::size_t i) {
+    Vec<Dim>& velocity = particles.velocity[i];
+    media_[i] = particles.is_fluid(i) ? field_.at(particles.position[i] + way * velocity) : PorousMedium{};
+    conductance_[i] = media_[i].porosity() * media_[i].mobility(velocity.norm(), dt);
+    if (particles.is_fluid(i)) velocity *= media_[i].porosity();
+  });
+  flow.halo().exchange(conductance_);
+  unprojected_.assign(particles.velocity.begin(),
+                      particles.velocity.begin() + static_cast<std::ptrdiff_t>(particles.owned));
+}
+
+template <int Dim>
+void PorousLayers<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
+                                          std::span<Vec<Dim>> predicted) {
+  const Particles<Dim>& particles = flow.state.particles;
+  work_of_solid_ = sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return 0.0;
+    const Vec<Dim> u = unprojected_[i] / media_[i].porosity();
+    const double mass = flow.setup.liquid.density * media_[i].solid * particles.volume[i];
+    return mass * acceleration[i].dot(dt * (u + 0.5 * dt * acceleration[i]));
+  });
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    const Vec<Dim> u = unprojected_[i] / media_[i].porosity();
+    predicted[i] = conductance_[i] * ((1.0 + media_[i].added_mass) * u + dt * acceleration[i]);
+    unprojected_[i] = predicted[i];
+  });
+}
+
+/// dt/2 tr(grad u . grad v), of which the gradient of v is known.
+template <int Dim>
+void PorousLayers<Dim>::change_target(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient, double dt,
+                                      std::span<double> target) const {
+  const Particles<Dim>& particles = flow.state.particles;
+  for_each(target.size(), [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    const double n = media_[i].porosity();
+    const Vec<Dim> u = particles.velocity[i] / n;
+    const Vec<Dim> slope = field_.porosity_gradient_at(particles.position[i] + 0.5 * dt * u);
+    target[i] = (target[i] - 0.5 * dt * (velocity_gradient[i] * u).dot(slope)) / n;
+  });
+}
+
+/// The harmonic mean, so that what flows from an open into a tight medium is what both let through. Walls conduct as
+/// the water beside them.
+template <int Dim>
+double PorousLayers<Dim>::mean_conductance(const Flow<Dim>& flow, std::size_t i, std::size_t j) const {
+  const double own = conductance_[i];
+  if (!flow.state.particles.is_fluid(j)) return own;
+  return 2.0 * own * conductance_[j] / (own + conductance_[j]);
+}
+
+/// Multiplies the weights of water by the conductance of each pair, and what closes the row by that of the particle.
+template <int Dim>
+void PorousLayers<Dim>::write_rows(Flow<Dim>& flow) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (flow.role[i] != Role::water || flow.pressure_rows.scale(i) == 0.0) return;
+    const double closing = 1.0 / flow.pressure_rows.scale(i) - flow.pressure_rows.sum_of_weights(i);
+    LinearSystem::Row row = flow.pressure_rows.row(i);
+    const double sum = row.write_weights([&](float* weights) {
+      double weights_sum = 0.0;
+      for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k, ++weights) {
+        *weights *= static_cast<float>(mean_conductance(flow, i, pairs.j[k]));
+        weights_sum += *weights;
+      }
+      return weights_sum;
+    });
+    row.finish(sum + conductance_[i] * closing, 0.0);
+  });
+}
+
+/// Adds the divergence of the weight where the conductance varies, in the two-point form of the rows: water at rest is
+/// as much at rest in layers as outside.
+template <int Dim>
+int PorousLayers<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Particles<Dim>& particles = flow.state.particles;
+  const Setup<Dim>& setup = flow.setup;
+  const Vec<Dim> weight = setup.liquid.density * setup.gravity;
+  std::vector<double> source(particles.owned, 0.0);
+  for_each(pairs.owned(), [&](std::size_t i) {
+    if (flow.role[i] != Role::water) return;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const std::size_t j = pairs.j[k];
+      const double excess = mean_conductance(flow, i, j) - conductance_[i];
+      if (excess == 0.0) continue;
+      const Vec<Dim> d = pairs.d(i, k);
+      const double c =
+          morris_laplacian_weight(particles.volume[j], pairs.F(i, k), d.squaredNorm(), setup.scale.spacing);
+      source[i] += c * excess * weight.dot(d);
+    }
+  });
+  take_out_mean(flow, find_fullness(flow), source);
+  LinearSystem& rows = flow.pressure_rows;
+  for_each(source.size(), [&](std::size_t i) { rows.rhs()[i] += rows.scale(i) * source[i]; });
+  return 0;
+}
+
+/// What pressure and gravity changed in open water they change by the conductance here; then turns v into u.
+template <int Dim>
+void PorousLayers<Dim>::finish_projection(Flow<Dim>& flow) {
+  Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    const Vec<Dim> change = particles.velocity[i] - unprojected_[i];
+    particles.velocity[i] = (unprojected_[i] + conductance_[i] * change) / media_[i].porosity();
+  });
+}
+
+template <int Dim>
+void PorousLayers<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
+  finish_projection(flow);
+}
+
+template <int Dim>
+void PorousLayers<Dim>::project_again(Flow<Dim>& flow, const std::vector<double>& /*correction*/, double /*dt*/) {
+  finish_projection(flow);
+}
+
+/// Nothing has been corrected, and the velocity is still that with which the projection began.
+template <int Dim>
+void PorousLayers<Dim>::stay(Flow<Dim>& flow) {
+  Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) particles.velocity[i] /= media_[i].porosity();
+  });
+}
+
+/// What the resistance takes from the water, and what the work of viscous forces counted where there is no water.
+template <int Dim>
+void PorousLayers<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& /*on_walls*/, double /*dt*/,
+                                 Works& works) const {
+  const Particles<Dim>& particles = flow.state.particles;
+  const double resisted = sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return 0.0;
+    const double mobility = conductance_[i] / media_[i].porosity();
+    const double slowing = 1.0 / mobility - 1.0 - media_[i].added_mass;  // r dt
+    const double mass = flow.setup.liquid.density * flow.water_volume_of(i);
+    return mass * slowing * particles.velocity[i].squaredNorm();
+  });
+  works.viscous -= resisted + work_of_solid_;
+}
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_porous_layers(const CaseSpec& spec, const Setup<Dim>& setup,
+                                              const Boundary<Dim>& boundary) {
+  if (spec.porous.empty()) return nullptr;
+  return std::make_unique<PorousLayers<Dim>>(spec, setup, boundary);
+}
+
+template class PorousLayers<2>;
+template class PorousLayers<3>;
+TAILWATER_IN_2D_AND_3D(make_porous_layers);
+
+}  // namespace tailwater
