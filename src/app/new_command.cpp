@@ -33,6 +33,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"circulation", templates::circulation},
     {"run-up", templates::run_up},
     {"wave-flume", templates::wave_flume},
+    {"rubble-mound", templates::rubble_mound},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
     {"floating-box", templates::floating_box},
@@ -112,6 +113,7 @@ void add_new_command(CLI::App& app, ExitCode&) {
       "  run-up          solitary wave on a plane beach\n"
       "  pier            3D dam break against a pier from a mesh file\n"
       "  wave-flume      regular waves, wave gauges and a damping zone\n"
+      "  rubble-mound    regular waves on a porous breakwater of two layers\n"
       "  solitary-wave   solitary wave from a piston\n"
       "  sloshing        water in a rolling tank\n"
       "  floating-box    floating body on two mooring lines");
