@@ -1,9 +1,9 @@
 """Every study of `tailwater validate`, one function of a Plan each."""
 
-from . import (comparisons, exact, flume, janosi2004, kleefsman2005, martin_moyce1952, operators, ozmen_cagatay2014, shallow,
+from . import (comparisons, exact, flume, janosi2004, kleefsman2005, liu1999, martin_moyce1952, operators, ozmen_cagatay2014, shallow,
                soares_frazao2002, zhou1999)
 
-LABORATORIES = (zhou1999, martin_moyce1952, janosi2004, ozmen_cagatay2014, soares_frazao2002, kleefsman2005)
+LABORATORIES = (zhou1999, martin_moyce1952, janosi2004, ozmen_cagatay2014, soares_frazao2002, kleefsman2005, liu1999)
 
 FUNCTIONS = (*(laboratory.study for laboratory in LABORATORIES), operators.operators, operators.poisson, exact.tank,
              exact.taylor_green, exact.standing_wave, exact.drop, exact.poiseuille, exact.couette, exact.uniform_flow,
