@@ -20,7 +20,11 @@ std::vector<double> find_divergence(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
   set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
   std::vector<double> divergence(particles.owned, 0.0);
-  flow.discretisation().find_divergence(flow, flow.filter_velocity(), divergence);
+  if (flow.pores == nullptr) {
+    flow.discretisation().find_divergence(flow, particles.velocity, divergence);
+  } else {
+    flow.discretisation().find_divergence(flow, flow.filter_velocity(), divergence);
+  }
   return divergence;
 }
 
