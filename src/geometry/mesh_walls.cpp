@@ -280,9 +280,9 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
   return std::move(mesh);
 }
 
-TriangleMesh make_water_mesh(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner,
+TriangleMesh make_water_mesh(const CaseSpec& spec, const PlacedFile& file, const CaseLabel& owner,
                              const Eigen::AlignedBox<double, 3>& walls) {
-  SoundMesh sound(spec, block, owner);
+  SoundMesh sound(spec, file, owner);
   if (!sound.rim.empty()) {
     sound.refuse({"is not watertight, so that no inside holds the water: {}", sound.rim_text()}, {"close the mesh"});
   }
@@ -294,7 +294,7 @@ TriangleMesh make_water_mesh(const CaseSpec& spec, const FluidTable& block, cons
   if (!Eigen::AlignedBox<double, 3>(Vec<3>(walls.min() - beyond), Vec<3>(walls.max() + beyond)).contains(box)) {
     sound.refuse({"reaches from {} to {}, far beyond the walls, which stand between {} and {}", place<3>(box.min()),
                   place<3>(box.max()), place<3>(walls.min()), place<3>(walls.max())},
-                 {"correct scale = {:g} (0.001 for a file in millimetres) or translate", block.scale});
+                 {"correct scale = {:g} (0.001 for a file in millimetres) or translate", file.scale});
   }
   return std::move(sound.mesh);
 }

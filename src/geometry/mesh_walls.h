@@ -18,9 +18,9 @@ TriangleMesh read_placed_mesh(const PlacedFile& file, const CaseLabel& owner);
 /// should be open, and a mesh too far from the origin for the file's digits.
 TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner);
 
-/// The closed mesh of a block of water, its front outside, among walls that are in the box `walls`. Throws CaseError
-/// as make_wall_mesh does, and for a mesh that the walls cannot hold.
-TriangleMesh make_water_mesh(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner,
+/// The closed mesh of a block of water or of a layer that water fills, its front outside, among walls that are in the
+/// box `walls`. Throws CaseError as make_wall_mesh does, and for a mesh that the walls cannot hold.
+TriangleMesh make_water_mesh(const CaseSpec& spec, const PlacedFile& file, const CaseLabel& owner,
                              const Eigen::AlignedBox<double, 3>& walls);
 
 /// Adds such a wall to the boundary.

@@ -42,9 +42,7 @@ PorousRegion<Dim>::PorousRegion(const CaseSpec& spec, const PorousTable& table) 
     }
     outline_ = Polygon(std::move(corners), 0.0);
   } else {
-    FluidTable water;  // that would fill the layer
-    static_cast<PlacedFile&>(water) = table;
-    mesh_ = std::make_shared<const MeshSurface>(make_water_mesh(spec, water, owner, {}));
+    mesh_ = std::make_shared<const MeshSurface>(make_water_mesh(spec, table, owner, {}));
     box_ = {mesh_->low(), mesh_->high()};
   }
 }
