@@ -29,7 +29,9 @@ Eigen::AlignedBox<double, Dim> box_around(const std::vector<WallFace<Dim>>& face
 
 Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x) {
   const Vec<2> edge = face.corners[1] - face.corners[0];
-  return face.corners[0] + std::clamp(edge.dot(x - face.corners[0]) / edge.squaredNorm(), 0.0, 1.0) * edge;
+  const double squared = edge.squaredNorm();
+  if (squared == 0.0) return face.corners[0];
+  return face.corners[0] + std::clamp(edge.dot(x - face.corners[0]) / squared, 0.0, 1.0) * edge;
 }
 
 // The region of a triangle (corner, edge, inside) that holds the nearest point follows from the signs of the

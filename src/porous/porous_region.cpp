@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/face.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_walls.h"
 
@@ -16,11 +17,8 @@ namespace {
 double distance_from_outline(const std::vector<Vec<2>>& corners, const Vec<2>& x) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec<2>& from = corners[k];
-    const Vec<2> edge = corners[(k + 1) % corners.size()] - from;
-    const double length = edge.squaredNorm();
-    const double along = length > 0.0 ? std::clamp((x - from).dot(edge) / length, 0.0, 1.0) : 0.0;
-    least = std::min(least, (x - from - along * edge).norm());
+    const WallFace<2> edge{{corners[k], corners[(k + 1) % corners.size()]}, Vec<2>::Zero()};
+    least = std::min(least, (x - closest_point(edge, x)).norm());
   }
   return least;
 }
