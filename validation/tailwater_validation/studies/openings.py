@@ -1,0 +1,44 @@
+"""Flows through open ends whose levels and discharges change, against the shallow-water equations: cases/openings."""
+
+from functools import partial
+
+from .. import panels
+from ..checks import Check
+from ..metric import Metric
+from ..reading import exact
+from ..study import EXACT, Plot, Study
+
+# case: (words, seconds of CPU, quantities)
+DEPTH = ("depth_error_dx", "depth at the gauge, largest error beyond 2 % of the period", "dx", 1.0)
+FLOWS = {
+    "rising_sea": ("a river runs into a sea that rises", 1.0, (DEPTH,)),
+    "draining_tank": ("a tank drains to a level outside, swings below it and refills", 5.0, (DEPTH,)),
+    "tide": ("a basin beside a sea with tides near resonance", 4.0, (DEPTH,)),
+    "ending_discharge": ("the discharge of a channel ends, the tailwater keeps its level", 5.0, (DEPTH,)),
+    "changing_level": ("the level outside a short basin rises within 3 s", 1.0, (DEPTH,)),
+    "reservoir": ("a reservoir feeds a channel with a free brink", 5.0,
+                  (("discharge_error", "discharge over critical flow, relative error", "", 0.01),)),
+    "sudden_head": ("a head stands at once beside shallow still water", 3.0,
+                    (("discharge_error", "discharge behind the bore, relative error", "", 0.03),
+                     ("depth_error", "depth behind the bore, relative error", "", 0.03))),
+}
+
+
+def draw(run):
+    return [panels.panel("", "t (s)", "depth (m)", (panels.over_time("depth at the gauge", run.curve("depth", "connected_m")),))]
+
+
+def openings(plan):
+    runs = {name: plan.run(f"openings_{name}", f"openings/{name}.toml", (), seconds) for name, (_, seconds, _) in FLOWS.items()}
+    checks = [Check(Metric(f"openings.{name}.{key}", f"{words}: {what}", unit, "shallow water", high=high), (runs[name],),
+                    partial(exact, name.replace("_", "-"), key))
+              for name, (words, _, quantities) in FLOWS.items() for key, what, unit, high in quantities]
+    checks += [Check(Metric(f"openings.{name}.density_error_rms", f"{words}: rms density error, openings included", "", "even water", high=0.02),
+                     (runs[name],), partial(exact, name.replace("_", "-"), "density_error_rms"))
+               for name, (words, _, _) in FLOWS.items()]
+    return Study(
+        "openings", "Open ends whose levels and discharges change", EXACT,
+        "Seven basins and channels without friction, 6 to 20 particles deep, whose ends hold a level, bring a discharge or take it.",
+        "Shallow water has no vertical acceleration and sharp bores; both are compared as means over two times sqrt(H/g).",
+        tuple(checks), tuple(Plot(words + ".", (runs[name],), draw) for name, (words, _, _) in FLOWS.items()),
+        shown=runs["draining_tank"], moments=(2.0, 6.0))
