@@ -30,7 +30,7 @@ WORDS = [
     (r"verdicts?", "result"),
     (r"bench(es)?", "benchmark, or robustness suite"),
     (r"tells?|telling|told", "report, print or warn"),
-    (r"wants?", "need or require"),
+    (r"wants", "needs or requires"),
     (r"glides?", "slip velocity, or slips"),
     (r"(?<!under )suction", "tension, or negative pressure"),
     (r"jolts?", "spurious acceleration"),
