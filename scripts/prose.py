@@ -18,7 +18,7 @@ import tokenize
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 UNCHECKED = ROOT / "tests" / "style" / "prose_unchecked.txt"
 TOPS = ("docs", "cases", "src", "tests", "validation", "scripts", "benchmarks", "python", "web/src", "packaging")
-# Dated records keep their text, and a generated page is written by its declaration in src/.
+# Dated records keep their text. Generated pages come from declarations in src/, generated tables from docs/validation.json.
 EXEMPT = ("docs/notebook/", "docs/reference/case-file.md", "docs/reference/study-keys.md", "docs/reference/probes.md",
           "scripts/prose.py", "tests/style/prose_test.py")
 LONGEST_SENTENCE = 30  # words
@@ -58,6 +58,7 @@ WORDS = [
     (r"nobody", "no process, or no user"),
     (r"what (a|an|the|it|is|was|are|were|they|this|that|each|one|no|else|there)", "the noun itself, as in: cost per step"),
 ]
+GENERATED = re.compile(r"<!-- validation: .*?<!-- validation: end -->", re.DOTALL)
 OUT = [(re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), better) for pattern, better in WORDS]
 COMMENT_START = re.compile(r"^(Of|What|The same|Likewise)\b(?!.*\?)")
 NOT_VERBS = set("""a all an and another any as at both by docs each fewer for from if in it its less more most nine no not of on
@@ -80,6 +81,7 @@ def plain(text):
 
 def paragraphs(text):
     """(line, text, whether sentences are counted) of each paragraph, item, heading and table row of a Markdown page."""
+    text = GENERATED.sub(lambda block: re.sub(r"[^\n]", "", block[0]), text)
     fence = False
     begin, lines = 0, []
     blank = True  # the line before was blank, so that four spaces begin a code block
