@@ -54,7 +54,7 @@ def write_case(guide):
     first, *added = blocks(guide, "toml")
     for key, value in changes(first):
         case = case_text.changed_text(case, key, value)
-    for table in re.findall(r"take out `\[\[(\w+)\]\]`", text):
+    for table in re.findall(r"[Dd]elete (?:the table|both tables) `\[\[(\w+)\]\]`", text):
         case = re.sub(rf"^(#.*\n)*\[\[{table}\]\]\n(.+\n)*\n?", "", case, flags=re.MULTILINE)
     pathlib.Path(name).write_text("\n".join([case, *added]), encoding="utf-8")
     return name
