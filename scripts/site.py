@@ -65,7 +65,9 @@ def entries(pattern, newest_first=False):
 
 def configuration(source, target):
     config = yaml.safe_load((ROOT / "site" / "mkdocs.yml").read_text(encoding="utf-8"))
-    lists = {"THEORY": entries("docs/theory/*.md"), "CASES": entries("cases/*/README.md"),
+    named = set(re.findall(r"docs/theory/[\w-]+\.md", yaml.safe_dump(config["nav"])))  # pages with a place of their own
+    theory = [entry for entry in entries("docs/theory/*.md") if not named & set(entry.values())]
+    lists = {"THEORY": theory, "CASES": entries("cases/*/README.md"),
              "NOTEBOOK": entries("docs/notebook/*.md", newest_first=True)}
 
     def fill(node):
