@@ -30,11 +30,12 @@ NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "What its gauges", "
 HEAD = """\
 # Gallery
 
-Every template of `tailwater new`, as it stands: `tailwater new NAME my.toml`, then
+For new users who choose a template. The page shows every template of `tailwater new` without changes. `tailwater new
+NAME my.toml` writes one; then
 
     tailwater check my.toml && tailwater run my.toml --out my_run --pictures 6
 
-Made by `scripts/gallery.py`. Water is coloured by its speed. CPU time is that of one core of a busy machine:
+checks and runs it. Colours show the speed. CPU times are of one core of a busy machine (`scripts/gallery.py`):
 {processor}.
 """
 
@@ -105,7 +106,7 @@ def section(name, run):
         f"\n## {name}\n", textwrap.fill(what_it_shows(name) + coarse, 118) + "\n", f"![{name}](images/gallery/{name}.webp)\n",
         f"{run.dimension}D, {particles['fluid'] + particles['wall']} particles (dx = {run.spacing:.3g} m), "
         f"{summary['time_s']['reached']:.3g} s of water in {duration(summary['cost']['cpu_s'])} of CPU time."
-        + (" Its probes tell:\n" if told else ""), *told]) + "\n"
+        + (" Results of its probes:\n" if told else ""), *told]) + "\n"
 
 
 def main(arguments):
