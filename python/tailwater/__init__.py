@@ -9,6 +9,7 @@
     run.last()["velocity"]                      # fields as arrays
     tw.sweep(case, {"particles.spacing": [0.02, 0.015, 0.01]}, jobs=2).table()
     tw.study(case, budget=600).table()          # each number with an interval
+    tw.report("my_study").write("report.html")  # a page by which others can judge and reproduce it
     with case.simulation() as simulation:       # in this process
         for step in simulation:
             step.position, step.velocity, step.pressure
@@ -21,10 +22,11 @@ from .curves import Curve
 from .errors import DataError, Error, InputError, IoError, RunWarning, SolverError
 from .fields import Frame
 from .program import program, version
+from .report import Report, report
 from .run import Probes, Run
 from .study import Study, study
 from .sweep import Sweep, sweep
 from .view import View
 
-__all__ = ["Case", "Check", "Curve", "DataError", "Error", "Frame", "InputError", "IoError", "Probes", "Run", "RunWarning",
-           "SolverError", "Study", "Sweep", "View", "program", "study", "sweep", "version"]
+__all__ = ["Case", "Check", "Curve", "DataError", "Error", "Frame", "InputError", "IoError", "Probes", "Report", "Run",
+           "RunWarning", "SolverError", "Study", "Sweep", "View", "program", "report", "study", "sweep", "version"]

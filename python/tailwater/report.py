@@ -1,0 +1,268 @@
+"""Dossier of a study or a run: the answer with its interval, and everything that is needed to judge and to reproduce it.
+
+`report` collects numbers and words (format of the JSON file: docs/reference/report.md), `report_page` makes the page, and
+`report_check` repeats the runs."""
+
+import base64
+import datetime
+import hashlib
+import json
+import zlib
+from pathlib import Path
+
+from . import case_features, report_faults
+from .case import Case
+from .errors import DataError, Error
+from .evidence import load_evidence
+from .program import version
+from .report_pictures import pictures_of
+from .run import Run
+from .study import Study, number, quantities_of
+from .whole_file import write_whole
+
+__all__ = ["Report", "report"]
+
+FORMAT = 1
+LARGEST_INPUT = 8_000_000  # bytes, compressed; larger files are named by their hash only
+RESULTS = ("steps.csv", "probes/*.csv")  # of a run; those that are compared bit for bit
+UNITS = ("All numbers are in SI units (m, kg, s, N, Pa).",
+         "In two dimensions volumes, masses, forces and discharges are per metre of width.",
+         "Coordinates and levels are those of the case: heights count from the origin of its axes, upwards against gravity. "
+         "The case gives no datum and no coordinate system of a survey.")
+
+
+class Report:
+    """A dossier. `content` is what its JSON file holds; `first_line` the answer, or why it cannot be relied on."""
+
+    def __init__(self, content: dict):
+        self.content = content
+
+    @property
+    def first_line(self) -> str:
+        return self.content["first_line"]
+
+    @property
+    def is_reliable(self) -> bool:
+        """Whether no fault was detected."""
+        return not self.content["faults"]
+
+    def html(self) -> str:
+        """The page: one file without links to others."""
+        from .report_page import page
+
+        return page(self.content)
+
+    def write(self, file) -> Path:
+        """Writes the page, and the same as JSON beside it. Returns the path of the page."""
+        file = Path(file)
+        text = json.dumps(self.content, indent=1, ensure_ascii=False) + "\n"
+        write_whole(file.with_suffix(".json"), lambda part: part.write_text(text, encoding="utf-8"))
+        write_whole(file, lambda part: part.write_text(self.html(), encoding="utf-8"))
+        return file
+
+    def __repr__(self):
+        return self.first_line
+
+    def _repr_html_(self):
+        from .report_page import body
+
+        return body(self.content)
+
+
+def report(folder, *, answer: str = "", question: str = "", pictures: int = 3) -> Report:
+    """The dossier of the study, the unfinished study or the run in a folder. `answer` is the probe that answers the
+    question, or "PROBE, QUANTITY" (default: the first quantity of the first probe); `question` is its text; so many
+    `pictures` show the water of the finest run. Throws DataError if the folder has neither."""
+    folder = Path(folder)
+    found = Material(folder)
+    row = found.row_of(answer)
+    finest = found.runs[0]
+    features = case_features.features_of(finest.case)
+    inputs = inputs_of(run for _, run in found.roles)
+    content = {
+        "format": FORMAT, "first_line": "",
+        "made": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        "made_by": version(), "question": question or question_of(finest, row), "answer": row,
+        "faults": report_faults.faults_of(found.study_fault, [run for _, run in found.roles], found.is_study),
+        "warnings": report_faults.warnings_of(found.roles), "results": found.rows, "case": case_of(finest),
+        "provenance": provenance(found.runs), "inputs": inputs, "runs": [run_record(role, run, row) for role, run in found.roles],
+        "features": sorted(features), "validated": validated(features, finest, row),
+        "limits": case_features.limits_of(features), "units": list(UNITS),
+        "pictures": pictures_of(finest, found.study, row, pictures)}
+    content["first_line"] = first_line(content)
+    return Report(content)
+
+
+class Material:
+    """Runs and results of a folder. `roles` are (role, Run), the runs at different spacings first, the finest first; `rows`
+    are results, with intervals where there is a study."""
+
+    def __init__(self, folder):
+        self.study, self.study_fault = None, ""
+        if (folder / "case.effective.toml").exists():
+            self.is_study, self.runs = False, [Run(folder)]
+            self.roles = [("run", self.runs[0])]
+        else:
+            self.is_study = True
+            self._read_study(folder)
+        self.rows = self.study.rows if self.study else rows_without_intervals(self.runs)
+        self.rows = [{name: None if value != value else value for name, value in row.items()} for row in self.rows]
+
+    def _read_study(self, folder):
+        try:
+            self.study = Study.load(folder)
+        except DataError as error:
+            self.study_fault = f"the study is unfinished ({error})"
+            found = [Run(path.parent) for path in sorted(folder.glob("*/*/case.effective.toml"))]
+            if not found:
+                raise DataError(f"{folder}: has no run and no study; remedy: name the folder that tailwater run or tailwater "
+                                "study has written") from error
+            # The folder of a run in an unfinished study names its role.
+            spacings = [run for run in found if run.path.parent.name in ("coarsest", "spacings")] or found
+            self.runs = sorted(spacings, key=lambda run: (run.status != "done", run.spacing))
+            self.roles = [("spacing", run) for run in self.runs] + [
+                (run.path.parent.name, run) for run in found if run not in self.runs]
+            return
+        self.runs = self.study.runs
+        self.roles = [("spacing", run) for run in self.runs] + [("start", run) for run in self.study.starts]
+        if self.study.step:
+            self.roles.append(("half step", self.study.step))
+
+    def row_of(self, answer):
+        """The result that answers the question; None if there is none and none is asked for."""
+        probe, _, quantity = (part.strip() for part in answer.partition(","))
+        for row in self.rows:
+            if (not probe or row["probe"] == probe) and (not quantity or row["quantity"] == quantity):
+                return row
+        if answer:
+            there = "; ".join(f"{row['probe']}, {row['quantity']}" for row in self.rows)
+            raise DataError(f'"{answer}" is no result; there are: {there or "none"}')
+        return None
+
+
+def rows_without_intervals(runs):
+    """Results of the first finished run, in the form of the rows of a study."""
+    run = next((run for run in runs if run.status == "done"), runs[0])
+    return [{"probe": probe, "quantity": quantity, "unit": unit, "value": value, "limit": None, "low": None, "high": None,
+             "notes": ""} for (probe, quantity), (value, unit) in quantities_of(run).items()]
+
+
+def question_of(run, row):
+    title = run.case["case"]["title"]
+    return (f"{title}: what is the {row['quantity']} at the probe '{row['probe']}'?" if row
+            else f"{title}: the run has no result of a probe")
+
+
+def interval_of(row):
+    """The answer in words, with the interval if there is one."""
+    if row is None:
+        return "no result"
+    unit = f" {row['unit']}" if row["unit"] else ""
+    if row["low"] is None:
+        return f"{number(row['value'], 5)}{unit}, without an interval"
+    return (f"{number(row['limit'], 5)}{unit}, 95 % interval {number(row['low'], 5)} to {number(row['high'], 5)}{unit} "
+            f"(finest run: {number(row['value'], 5)}{unit})")
+
+
+def first_line(content):
+    row, words = content["answer"], interval_of(content["answer"])
+    name = f"{row['probe']}, {row['quantity']}: " if row else ""
+    if row and not content["faults"] and f"'{row['probe']}'" in content["question"]:
+        name = ""  # the question has it
+    if content["faults"]:
+        return f"This number cannot be relied on: {'; '.join(content['faults'])}. {name}{words}."
+    return f"{content['question']} {name}{words}."
+
+
+def case_of(run):
+    """Summary, findings and drawing of the case, by the present program."""
+    found = {"title": run.case["case"]["title"], "explain": [], "findings": [], "drawing": "", "note": ""}
+    try:
+        case = Case(run.path / "case.effective.toml")
+        found["explain"] = case.explain().splitlines()
+        check = case.check()
+        found["findings"] = [{"severity": one["severity"], "message": one["message"]} for one in check.findings]
+        drawing = check.drawing
+        found["drawing"] = drawing[max(drawing.find("<svg"), 0):]
+    except Error as error:
+        found["note"] = f"the present program does not accept the case: {error}"
+    return found
+
+
+def provenance(runs):
+    """Program and machine of the runs; a key has several values if the runs differ."""
+    found = {}
+    for run in runs:
+        summary = run.summary
+        machine = summary.get("machine", {})
+        told = {name: summary.get(name, "") for name in ("version", "commit", "compiler", "options", "libraries")}
+        told["machine"] = ", ".join(str(machine[name]) for name in ("name", "processor") if name in machine)
+        told["cores"] = machine.get("cores", "")
+        for name, value in told.items():
+            if value != "" and value not in found.setdefault(name, []):
+                found[name].append(value)
+    return found
+
+
+def digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
+
+
+def named_files(case):
+    """The files that an effective case names, by the path in it; a run writes them as absolute paths."""
+    if isinstance(case, (dict, list)):
+        for each in case.values() if isinstance(case, dict) else case:
+            yield from named_files(each)
+    elif isinstance(case, str) and case.startswith("/") and Path(case).is_file():
+        yield case
+
+
+def inputs_of(runs):
+    """Each input file once: its path, bytes, hash and, where it is not too large, content."""
+    paths = dict.fromkeys(path for run in runs for path in named_files(run.case))
+    found = []
+    for path in paths:
+        data = Path(path).read_bytes()
+        packed = zlib.compress(data, 9)
+        found.append({"path": path, "bytes": len(data), "sha256": digest(data),
+                      "content": base64.b64encode(packed).decode() if len(packed) <= LARGEST_INPUT else None})
+    return found
+
+
+def run_record(role, run, row):
+    """A run with its case, balances and hashes, and its value of the answer."""
+    summary, case_text = run.summary, (run.path / "case.effective.toml").read_bytes()
+    steps, scheme = summary.get("steps", {}), run.case["scheme"]
+    outputs = {str(path.relative_to(run.path)): digest(path.read_bytes())
+               for pattern in RESULTS for path in sorted(run.path.glob(pattern))}
+    found = quantities_of(run)
+    return {"role": role, "folder": str(run.path), "status": run.status, "message": summary.get("message", ""),
+            "spacing_m": run.spacing, "fluid_particles": summary.get("particles", {}).get("fluid"),
+            "steps": steps.get("count"), "dt_mean_s": steps.get("dt_mean_s"), "integrator": run.integrator,
+            "courant": scheme.get("courant"), "jitter_dx": run.case["particles"]["jitter"],
+            "seed": run.case["particles"]["seed"], "ranks": summary.get("ranks", {}).get("count", 1),
+            "cpu_s": summary.get("cost", {}).get("cpu_s"), "time_s": summary.get("time_s", {}),
+            "value": found.get((row["probe"], row["quantity"]), (None,))[0] if row else None,
+            "water": report_faults.water_of(summary), "energy": report_faults.energy_of(summary),
+            "program": program_of(summary), "case_sha256": digest(case_text), "case": case_text.decode("utf-8"),
+            "outputs": outputs}
+
+
+def program_of(summary):
+    return f"tailwater {summary['version']} (commit {summary['commit']})" if "version" in summary else ""
+
+
+def validated(features, run, row):
+    """The validated flow most like the case, with our errors there, or a note where there is no table."""
+    types = {probe["name"]: probe["type"] for probe in run.case.get("probe", [])}
+    kind = case_features.KINDS.get(types.get(row["probe"]), "") if row else ""
+    try:
+        table = load_evidence()
+        flow = case_features.nearest_flow(features, table["flows"], kind)
+    except DataError as error:
+        return {"note": str(error)}
+    rows = [one for one in table["rows"] if one["flow"] == flow["name"] and one["result"]]
+    of_kind = [one for one in rows if one["kind"] == kind]
+    return {"name": flow["name"], "title": flow["title"], "shared": flow["shared"], "only_here": flow["only_here"],
+            "only_there": flow["only_there"], "kind": kind, "commit": table["commit"], "rows": of_kind or rows,
+            "note": "" if of_kind or not kind else f"that flow was not compared by a {kind}"}

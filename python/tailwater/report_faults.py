@@ -1,0 +1,101 @@
+"""Faults that make a number unreliable: a leak, a level not held, energy that rose, an unfinished run, one spacing only."""
+
+import re
+
+from .study import number
+
+__all__ = ["energy_of", "faults_of", "warnings_of", "water_of"]
+
+LEAK = 1e-3  # of the water that was there or came in
+MIN_SPACINGS = 3
+# Warnings of the program, by words that its messages have (a test checks that the sources still have them).
+MESSAGES = {"the energy rose": re.compile(r"energy rose"),
+            "the water is too dense or too light": re.compile(r"mean density of the water"),
+            "a level is not held": re.compile(r"not hold its level|level at .* not held"),
+            "an open end does not deliver the prescribed discharge": re.compile(r"not bring what it should")}
+
+
+def water_of(summary):
+    """The water balance [m^3], and relative to the water that was there or came in."""
+    balance = summary.get("water_balance")
+    if not balance:
+        return {}
+    volume = {name: balance[name]["volume_m3"] for name in ("start", "in", "inside", "outside", "out")}
+    total = volume["start"] + volume["in"]
+    missing = total - volume["inside"] - volume["outside"] - volume["out"]
+    # Water that is outside for a time counts as well.
+    particles = max(summary["particles"]["fluid"], 1)
+    outside = max(volume["outside"], summary["volume"]["outside_the_walls_most"] / particles * volume["inside"])
+    return volume | {"missing": missing, "missing_relative": missing / total if total else 0.0,
+                     "outside_most": outside, "outside_relative": outside / total if total else 0.0,
+                     "density_error_mean": summary["volume"]["density_error_mean"],
+                     "density_error_rms": summary["volume"]["density_error_rms"],
+                     "ends": balance["inlets"] + balance["outlets"]}
+
+
+def energy_of(summary):
+    """The energy balance [J], and its largest rise relative to the energy of the start."""
+    energy = summary.get("energy")
+    return dict(energy) if energy else {}
+
+
+def faults_of_run(run):
+    """[(kind, details)] of one run."""
+    summary = run.summary
+    if run.status != "done":
+        reached, end = summary.get("time_s", {}).get("reached"), run.case["time"]["end"]
+        place = f"at t = {reached:.4g} of {end:.4g} s" if reached is not None else f"before t = {end:.4g} s"
+        return [("a run is unfinished", f"{run.status} {place}")]
+    water, found = water_of(summary), []
+    if water["outside_relative"] > LEAK:
+        found.append(("water leaks", f"{100 * water['outside_relative']:.3g} % left the walls"))
+    if abs(water["missing_relative"]) > LEAK:
+        found.append(("the water balance does not close", f"{100 * water['missing_relative']:.3g} % is unaccounted for"))
+    for end in water["ends"]:
+        miss = end.get("level_missed")
+        if miss and miss["for_s"] > 0:
+            found.append(("a level is not held", f"'{end['name']}', off by {abs(miss['by_m']):.3g} m for {miss['for_s']:.3g} s"))
+    told = {kind for kind, _ in found}
+    for kind, words in MESSAGES.items():
+        if kind not in told and any(words.search(warning) for warning in summary["warnings"]):
+            found.append((kind, detail_of(kind, summary)))
+    return found
+
+
+def detail_of(kind, summary):
+    if kind == "the energy rose":
+        energy = summary["energy"]
+        return f"by {energy['largest_rise_J']:.3g} J, {100 * energy['largest_rise_over_start']:.3g} % of the start"
+    if kind == "the water is too dense or too light":
+        return f"by {100 * summary['volume']['density_error_mean']:.2g} % on average"
+    return ""
+
+
+def faults_of(study_fault, runs, is_study) -> list:
+    """Reasons why the number cannot be relied on, one for each kind of fault; empty if none was detected. A fault of any run
+    of a study counts, because the interval is computed from all runs."""
+    faults = [study_fault] if study_fault else []
+    if not is_study:
+        faults.append("one spacing only, so its uncertainty is unknown")
+    elif len({run.spacing for run in runs if run.status == "done"}) < MIN_SPACINGS:
+        faults.append(f"fewer than {MIN_SPACINGS} finished spacings, so its uncertainty is unknown")
+    if len({run.summary["commit"] for run in runs if "commit" in run.summary}) > 1:
+        faults.append("its runs were made by programs of different commits")
+    kinds = {}
+    for run in runs:
+        for kind, detail in faults_of_run(run):
+            kinds.setdefault(kind, []).append((run.spacing, detail))
+    for kind, where in kinds.items():
+        detail = next((detail for _, detail in where if detail), "")
+        spacings = ", ".join(number(spacing) for spacing in sorted({spacing for spacing, _ in where}))
+        faults.append(kind + (f" ({detail})" if detail else "") + (f" at the spacing {spacings} m" if is_study else ""))
+    return faults
+
+
+def warnings_of(roles) -> list:
+    """Each warning once, with the spacings of the runs that have it."""
+    found = {}
+    for _, run in roles:
+        for warning in run.summary.get("warnings", []):
+            found.setdefault(warning, []).append(run.spacing)
+    return [{"message": warning, "spacings_m": sorted(set(spacings))} for warning, spacings in found.items()]
