@@ -265,4 +265,4 @@ def validated(features, run, row):
     of_kind = [one for one in rows if one["kind"] == kind]
     return {"name": flow["name"], "title": flow["title"], "shared": flow["shared"], "only_here": flow["only_here"],
             "only_there": flow["only_there"], "kind": kind, "commit": table["commit"], "rows": of_kind or rows,
-            "note": "" if of_kind or not kind else f"that flow was not compared by a {kind}"}
+            "note": "" if of_kind or not kind else f"No {kind} was compared in that flow; its other quantities are listed."}

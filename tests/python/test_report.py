@@ -10,6 +10,7 @@ from pathlib import Path
 import tailwater as tw
 from small import DAM, PackageTest
 from tailwater import case_features, report_command, report_faults
+from tailwater.evidence import load_evidence
 from tailwater.report_check import check_report, read_report
 
 SOURCES = Path(__file__).resolve().parents[2] / "src"
@@ -221,6 +222,14 @@ class Features(unittest.TestCase):
         found = case_features.nearest_flow({"2D", "inlet", "plate"}, flows, "discharge")
         self.assertEqual([found["name"], found["shared"], found["only_here"], found["only_there"]],
                          ["weir", ["2D", "inlet"], ["plate"], ["outlet"]])
+
+
+    def test_nearest_flows_of_templates(self):
+        flows = load_evidence()["flows"]
+        for template, expected in (("weir", "weir"), ("floating-box", "floating-box"), ("solitary-wave", "solitary-wave"),
+                                   ("pier", "kleefsman2005")):
+            features = case_features.features_of(tw.Case.template(template)._data)
+            self.assertEqual(case_features.nearest_flow(features, flows)["name"], expected)
 
 
 class Messages(unittest.TestCase):

@@ -1,5 +1,6 @@
 """One number that is held against a bar."""
 
+import math
 from dataclasses import dataclass, replace
 
 from tailwater.errors import DataError
@@ -32,15 +33,30 @@ class Metric:
 
     @property
     def verdict(self):
+        """Result of the value alone."""
         if self.low is None and self.high is None:
             return ""
-        if self.value is None:
-            return "missed"
-        if self.met_because:
-            return "met"
-        above = self.low is None or self.value >= self.low
-        below = self.high is None or self.value <= self.high
-        return "met" if above and below else "missed"
+        return "met" if self.met_because else result_of(self.value, self.low, self.high)
+
+    @property
+    def result(self):
+        """Result of the value with its uncertainty: "met", "missed" or "not resolved"."""
+        return self.verdict if self.verdict == "" or self.met_because else result_of(self.value, self.low, self.high,
+                                                                                     self.uncertainty)
+
+
+RESULTS = ("met", "missed", "not resolved")
+
+
+def result_of(value, low, high, uncertainty=None):
+    """"met" or "missed", if the interval is inside or outside the target; "not resolved" if it reaches over a bound."""
+    if value is None or not math.isfinite(value):
+        return "missed"
+    least, most = -math.inf if low is None else low, math.inf if high is None else high
+    half = uncertainty or 0.0
+    if least <= value - half and value + half <= most:
+        return "met"
+    return "missed" if value + half < least or value - half > most else "not resolved"
 
 
 def shown(metric):

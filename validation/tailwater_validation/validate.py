@@ -1,6 +1,6 @@
 """`tailwater validate`: runs the papers' cases and the exact solutions, scores them, writes a report.
 
-OUT/runs/NAME are ordinary runs; OUT/validation.json holds every number with its target and verdict, OUT/report.json the
+OUT/runs/NAME are ordinary runs; OUT/validation.json holds every number with its target and result, OUT/report.json the
 same with plots, which `tailwater view OUT` shows; OUT/report.html is that page as one file.
 
 Usage: python -m tailwater_validation.validate --program FILE [CASE...] [--level quick|paper|fine] [--out DIR]
@@ -20,7 +20,7 @@ from tailwater.errors import DataError
 from tailwater.whole_file import write_whole
 
 from . import command, panels
-from .metric import bar, shown
+from .metric import RESULTS, bar, shown
 from .runs import TestRun, finished
 from .studies import studies
 from .study import LEVELS, Plan
@@ -36,7 +36,7 @@ def metric_record(check, metric):
     return {"name": metric.name, "what": metric.what, "value": finite(metric.value), "unit": metric.unit, "low": metric.low,
             "high": metric.high, "paper": metric.paper,
             "peers": [{"name": name, "range": [low, high]} for name, low, high in metric.peers or ()],
-            "verdict": metric.verdict or "shown", "reference": metric.against, "shifted_value": finite(metric.shifted_value),
+            "verdict": metric.verdict or "shown", "result": metric.result or "shown", "reference": metric.against, "shifted_value": finite(metric.shifted_value),
             "shift": metric.shift, "shift_unit": metric.shift_unit, "order": finite(metric.order), "uncertainty": finite(metric.uncertainty), "note": metric.note or metric.met_because,
             "variant": check.variant, "runs": [run.name for run in check.runs]}
 
@@ -146,12 +146,13 @@ def export(program, out):
 
 
 def overview(result):
-    """The numbers that have a target, for the terminal, with what there is to say about a verdict."""
-    rows = [(study["name"], metric["what"], shown(metric), metric["unit"], bar(metric["low"], metric["high"]), metric["verdict"],
+    """Table of the numbers that have a target, for the terminal, with notes on their results."""
+    rows = [(study["name"], metric["what"], shown(metric), metric["unit"], bar(metric["low"], metric["high"]), metric["result"],
              metric["note"])
             for study in result["studies"] for metric in study["metrics"] if metric["verdict"] != "shown"]
-    table = text_table(("study", "what", "value", "unit", "target", "verdict", "note"), rows)
-    return "\n".join([table, "", ", ".join(f"{count} {verdict}" for verdict, count in result["verdicts"].items())])
+    table = text_table(("study", "what", "value", "unit", "target", "result", "note"), rows)
+    results = [row[5] for row in rows]
+    return "\n".join([table, "", ", ".join(f"{results.count(name)} {name}" for name in RESULTS)])
 
 
 def score(chosen, program, options):

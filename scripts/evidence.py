@@ -1,0 +1,151 @@
+#!/usr/bin/python3
+"""The table of evidence, python/tailwater/evidence.json, and the figures that pages take from it.
+
+Usage: scripts/evidence.py           makes the file from docs/validation.json, targets.toml and the cases, and fills the pages
+       scripts/evidence.py --check   exit code 1 if the file or a page does not agree; it names both values
+       scripts/evidence.py --keys    prints the keys with their values
+
+A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where WHAT is `all`, names of studies, keys
+in quotes after `keys`, as in `keys "zhou1999.noise"`, or `counts`, a sentence. A figure in a sentence stands between
+`<!-- figure: KEY -->` and `<!-- figure: end -->`. docs/validation.json is what `tailwater validate` wrote.
+"""
+import json
+import pathlib
+import re
+import shlex
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
+from tailwater_validation.evidence import NOT_RUN, evidence_of, read_targets  # noqa: E402
+
+SOURCE, KEPT = ROOT / "docs" / "validation.json", ROOT / "python" / "tailwater" / "evidence.json"
+TABLE = re.compile(r"<!-- evidence: (?!end -->)(?P<what>.+?) -->\n.*?<!-- evidence: end -->", re.DOTALL)
+FIGURE = re.compile(r"<!-- figure: (?!end -->)(?P<key>.+?) -->(?P<text>.*?)<!-- figure: end -->", re.DOTALL)
+HEAD = ("quantity", "compared with", "ours", "target", "result", "finest spacing, rows in the water's height", "integrator", "walls",
+        "CPU s", "paper", "target since")
+
+
+def documents():
+    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "cases").glob("*/README.md")),
+            *sorted((ROOT / "paper").glob("*.md"))]
+
+
+def row(one):
+    result = f"**{one['result']}**" if one["result"] in ("missed", NOT_RUN) else one["result"]
+    changes = f", {one['changes']} change{'s' * (one['changes'] > 1)}" if one["changes"] else ""
+    cells = (one["what"], one["against"], one["value_text"], one["target"], result, one["spacing_text"], one["integrator"],
+             one["walls"], "" if one["cpu_s"] is None else f"{one['cpu_s']:.3g}",
+             "" if one["paper"] is None else f"{one['paper']:.3g}", one["target_date"] + changes)
+    return f"| {' | '.join(str(cell).replace('|', '/') for cell in cells)} |"
+
+
+def chosen(evidence, what):
+    """Rows of a mark. Throws ValueError for names and keys that the evidence lacks."""
+    words = shlex.split(what)
+    if words == ["all"]:
+        return evidence["rows"]
+    field, names = ("key", words[1:]) if words[0] == "keys" else ("flow", words)
+    missing = [name for name in names if not any(one[field] == name for one in evidence["rows"])]
+    if missing:
+        raise ValueError(f"the evidence has no {', '.join(missing)}")
+    return [one for name in names for one in evidence["rows"] if one[field] == name]
+
+
+def sentence(evidence):
+    counts = evidence["counts"]
+    words = ", ".join(f"{count} {name}" for name, count in counts.items())
+    return f"{sum(counts.values())} targets: {words}."
+
+
+def origin(evidence, has_commit):
+    commit = f", commit {evidence['commit']}" if has_commit else ""
+    return (f"All rows are results of one `tailwater validate --level {evidence['level']}`, {evidence['date']}{commit}, "
+            f"{evidence['processor']}.")
+
+
+def table(evidence, what):
+    """A mark with its table, as Markdown."""
+    lines = [f"<!-- evidence: {what} -->"]
+    if what == "counts":
+        return "\n".join([*lines, sentence(evidence), "<!-- evidence: end -->"])
+    lines += [origin(evidence, what == "all"), ""]
+    if what == "all":
+        lines += [sentence(evidence), ""]
+    lines += [f"| {' | '.join(HEAD)} |", f"|{' --- |' * len(HEAD)}"]
+    titles, title = {flow["name"]: flow["title"] for flow in evidence["flows"]}, ""
+    for one in chosen(evidence, what):
+        if titles.get(one["flow"], one["flow"]) != title:
+            title = titles.get(one["flow"], one["flow"])
+            lines.append(f"| **{title}** |{' |' * (len(HEAD) - 1)}")
+        lines.append(row(one))
+    return "\n".join([*lines, "<!-- evidence: end -->"])
+
+
+def filled(text, evidence):
+    """A page with its tables and figures. Throws ValueError for a key that the evidence lacks."""
+    values = {one["key"]: one["value_text"] for one in evidence["rows"]}
+
+    def figure(mark):
+        if mark["key"] not in values:
+            raise ValueError(f"the evidence has no {mark['key']}")
+        return f"<!-- figure: {mark['key']} -->{values[mark['key']]}<!-- figure: end -->"
+
+    return FIGURE.sub(figure, TABLE.sub(lambda mark: table(evidence, mark["what"]), text))
+
+
+def contradictions(text, evidence):
+    """Figures and tables of a page that differ from the evidence, one sentence each."""
+    values = {one["key"]: one["value_text"] for one in evidence["rows"]}
+    found = [f'{mark["key"]}: the page has "{mark["text"]}", the evidence {values.get(mark["key"], "no such key")}'
+             for mark in FIGURE.finditer(text) if values.get(mark["key"]) != mark["text"]]
+    for mark in TABLE.finditer(text):
+        try:
+            if table(evidence, mark["what"]) != mark[0]:
+                found.append(f"the table {mark['what']} is not that of the evidence")
+        except ValueError as error:
+            found.append(str(error))
+    return found
+
+
+def made():
+    return evidence_of(json.loads(SOURCE.read_text(encoding="utf-8")), read_targets())
+
+
+def text_of(evidence):
+    return json.dumps(evidence, indent=1, ensure_ascii=False) + "\n"
+
+
+def check(evidence):
+    found = [] if KEPT.is_file() and KEPT.read_text(encoding="utf-8") == text_of(evidence) else [
+        f"{KEPT.relative_to(ROOT)}: is not what docs/validation.json, targets.toml and the cases give"]
+    for path in documents():
+        found += [f"{path.relative_to(ROOT)}: {one}" for one in contradictions(path.read_text(encoding="utf-8"), evidence)]
+    print("\n".join([*found, "remedy: scripts/evidence.py"] if found else ["all agree"]))
+    return 1 if found else 0
+
+
+def main(arguments):
+    if arguments not in ([], ["--check"], ["--keys"]):
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        evidence = made()
+        if arguments == ["--check"]:
+            return check(evidence)
+        if arguments == ["--keys"]:
+            print("\n".join(f"{one['key']}: {one['value_text']}, {one['result']}" for one in evidence["rows"]))
+            return 0
+        pages = {path: filled(path.read_text(encoding="utf-8"), evidence) for path in documents()}
+    except ValueError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    KEPT.write_text(text_of(evidence), encoding="utf-8")
+    for path, text in pages.items():
+        if text != path.read_text(encoding="utf-8"):
+            path.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
