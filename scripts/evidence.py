@@ -17,7 +17,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
-from tailwater_validation.evidence import NOT_RUN, evidence_of, read_targets  # noqa: E402
+from tailwater_validation.evidence import NO_TARGET, NOT_RUN, evidence_of, read_targets  # noqa: E402
 
 SOURCE, KEPT = ROOT / "docs" / "validation.json", ROOT / "python" / "tailwater" / "evidence.json"
 TABLE = re.compile(r"<!-- evidence: (?!end -->)(?P<what>.+?) -->\n.*?<!-- evidence: end -->", re.DOTALL)
@@ -33,7 +33,9 @@ def documents():
 
 def row(one):
     result = f"**{one['result']}**" if one["result"] in ("missed", NOT_RUN) else one["result"]
-    changes = f", {one['changes']} change{'s' * (one['changes'] > 1)}" if one["changes"] else ""
+    if one["result"] == NO_TARGET and one["note"]:
+        result += f": {one['note']}"
+    changes = f", {one['changes']} change{'s' * (one['changes'] > 1)}" if one["changes"] and one["target_date"] else ""
     cells = (one["what"], one["against"], one["value_text"], one["target"], result, one["spacing_text"], one["integrator"],
              one["walls"], "" if one["cpu_s"] is None else f"{one['cpu_s']:.3g}",
              "" if one["paper"] is None else f"{one['paper']:.3g}", one["target_date"] + changes)
@@ -44,7 +46,7 @@ def chosen(evidence, what):
     """Rows of a mark. Throws ValueError for names and keys that the evidence lacks."""
     words = shlex.split(what)
     if words == ["all"]:
-        return evidence["rows"]
+        return [one for one in evidence["rows"] if one["target"] or one["note"]]
     field, names = ("key", words[1:]) if words[0] == "keys" else ("flow", words)
     missing = [name for name in names if not any(one[field] == name for one in evidence["rows"])]
     if missing:
@@ -84,7 +86,7 @@ def table(evidence, what):
 
 def filled(text, evidence):
     """A page with its tables and figures. Throws ValueError for a key that the evidence lacks."""
-    values = {one["key"]: one["value_text"] for one in evidence["rows"]}
+    values = evidence["figures"]
 
     def figure(mark):
         if mark["key"] not in values:
@@ -96,7 +98,7 @@ def filled(text, evidence):
 
 def contradictions(text, evidence):
     """Figures and tables of a page that differ from the evidence, one sentence each."""
-    values = {one["key"]: one["value_text"] for one in evidence["rows"]}
+    values = evidence["figures"]
     found = [f'{mark["key"]}: the page has "{mark["text"]}", the evidence {values.get(mark["key"], "no such key")}'
              for mark in FIGURE.finditer(text) if values.get(mark["key"]) != mark["text"]]
     for mark in TABLE.finditer(text):
@@ -134,7 +136,7 @@ def main(arguments):
         if arguments == ["--check"]:
             return check(evidence)
         if arguments == ["--keys"]:
-            print("\n".join(f"{one['key']}: {one['value_text']}, {one['result']}" for one in evidence["rows"]))
+            print("\n".join(f"{key}: {value}" for key, value in evidence["figures"].items()))
             return 0
         pages = {path: filled(path.read_text(encoding="utf-8"), evidence) for path in documents()}
     except ValueError as error:

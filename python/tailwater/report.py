@@ -261,7 +261,7 @@ def validated(features, run, row):
         flow = case_features.nearest_flow(features, table["flows"], kind)
     except DataError as error:
         return {"note": str(error)}
-    rows = [one for one in table["rows"] if one["flow"] == flow["name"] and one["result"]]
+    rows = [one for one in table["rows"] if one["flow"] == flow["name"] and one["target"]]
     of_kind = [one for one in rows if one["kind"] == kind]
     return {"name": flow["name"], "title": flow["title"], "shared": flow["shared"], "only_here": flow["only_here"],
             "only_there": flow["only_there"], "kind": kind, "commit": table["commit"], "rows": of_kind or rows,

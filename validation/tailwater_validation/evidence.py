@@ -10,10 +10,10 @@ from .case_values import friction_of_walls, read_case, water_height
 from .metric import RESULTS, bar, result_of, shown
 from .runs import TestRun
 from .studies import studies
-from .study import COMPARISON, Plan
+from .study import COMPARISON, LABORATORY, Plan
 
 TARGETS = Path(__file__).resolve().with_name("targets.toml")
-NOT_RUN = "not run"
+NOT_RUN, NO_TARGET = "not run", "no target"
 # Kinds of quantities by words of a row, the first that fits.
 KINDS = (("pressure", "pressure"), ("impulse", "pressure"), ("discharge", "discharge"), ("contraction", "discharge"),
          ("jet, from", "discharge"), ("force", "force"), ("front", "front"), ("arrival", "front"), ("reaches the gauge", "front"),
@@ -85,19 +85,28 @@ def resolution(runs, cases):
     return found
 
 
+def result_of_metric(metric):
+    if metric["verdict"] == "shown":
+        return NO_TARGET
+    if metric["verdict"] == "met" and metric["note"]:
+        return "met"  # for the reason that the note gives
+    return result_of(metric["value"], metric["low"], metric["high"], metric["uncertainty"])
+
+
 def row_of(study, metric, runs, cases, targets):
-    entry = targets[metric["name"]][-1]
-    result = "met" if metric["verdict"] == "met" and metric["note"] else result_of(
-        metric["value"], metric["low"], metric["high"], metric["uncertainty"])
+    """Row of a stored result. A number without a target has the reason why it lost its target, if it had one."""
+    entries = targets.get(metric["name"], [])
+    ended = bool(entries) and entries[-1].get("ended", False)
     found = resolution([runs[name] for name in metric["runs"] if name in runs], cases)
     return found | {
-        "key": metric["name"], "flow": study["name"], "kind": kind_of(metric["what"]),
+        "key": metric["name"], "flow": study, "kind": kind_of(metric["what"]),
         "what": metric["what"] + (f", {metric['variant']}" if metric["variant"] else ""),
         "against": metric["reference"], "value": metric["value"], "uncertainty": metric["uncertainty"], "unit": metric["unit"],
-        "low": metric["low"], "high": metric["high"], "target": bar(metric["low"], metric["high"]), "result": result,
-        "value_text": shown(metric) + (f" {metric['unit']}" if metric["unit"] else ""),
-        "spacing_text": spacing_text(found), "target_date": str(entry["date"]), "changes": len(targets[metric["name"]]) - 1,
-        "paper": metric["paper"], "note": metric["note"]}
+        "low": metric["low"], "high": metric["high"], "target": bar(metric["low"], metric["high"]), "result": result_of_metric(metric),
+        "value_text": value_text(metric),
+        "spacing_text": spacing_text(found), "target_date": str(entries[-1]["date"]) if entries and not ended else "",
+        "changes": max(len(entries) - 1, 0), "paper": metric["paper"],
+        "note": entries[-1]["reason"] if ended else metric["note"]}
 
 
 def spacing_text(found):
@@ -138,8 +147,9 @@ def evidence_of(result, targets):
     for name, study in planned.items():
         record = records.get(name, {"metrics": [], "runs": []})
         runs = {run["name"]: run for run in record["runs"]}
-        of_study = [row_of(study_of(record, name), metric, runs, cases, targets) for metric in record["metrics"]
-                    if metric["verdict"] != "shown"]
+        is_open = study.kind == LABORATORY and all(metric["verdict"] == "shown" for metric in record["metrics"])
+        of_study = [row_of(name, metric, runs, cases, targets) for metric in record["metrics"]
+                    if metric["verdict"] != "shown" or is_open or metric["name"] in targets]
         known = {row["key"] for row in of_study}
         of_study += [row_without_result(key, entries[-1], study) for key, entries in targets.items()
                      if key not in known and key.startswith(f"{name}.") and not entries[-1].get("ended")]
@@ -149,8 +159,13 @@ def evidence_of(result, targets):
     return {"format": 1, "commit": result["commit"], "version": result["version"], "date": result["date"][:10],
             "level": result["level"], "processor": result["machine"]["processor"],
             "counts": {name: sum(row["result"] == name for row in rows) for name in (*RESULTS, NOT_RUN)},
-            "rows": rows, "flows": list(filter(None, flows))}
+            "rows": rows, "flows": list(filter(None, flows)), "figures": figures_of(all_metrics)}
 
 
-def study_of(record, name):
-    return {"name": name, "title": record.get("title", "")}
+def figures_of(metrics):
+    """{key: text of the value} of all stored numbers, with or without a target."""
+    return {metric["name"]: value_text(metric) for metric in metrics if metric["value"] is not None}
+
+
+def value_text(metric):
+    return shown(metric) + (f" {metric['unit']}" if metric["unit"] else "")
