@@ -5,7 +5,7 @@ Usage: scripts/evidence.py           makes the file from docs/validation.json, t
        scripts/evidence.py --check   exit code 1 if the file or a page does not agree; it names both values
        scripts/evidence.py --keys    prints the keys with their values
 
-A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where WHAT is `all`, names of studies, keys
+A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where `WHAT` is `all`, names of studies, keys
 in quotes after `keys`, as in `keys "zhou1999.noise"`, or `counts`, a sentence. A figure in a sentence stands between
 `<!-- figure: KEY -->` and `<!-- figure: end -->`. docs/validation.json is what `tailwater validate` wrote.
 """

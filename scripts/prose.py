@@ -58,7 +58,7 @@ WORDS = [
     (r"nobody", "no process, or no user"),
     (r"what (a|an|the|it|is|was|are|were|they|this|that|each|one|no|else|there)", "the noun itself, as in: cost per step"),
 ]
-GENERATED = re.compile(r"<!-- validation: .*?<!-- validation: end -->", re.DOTALL)
+GENERATED = re.compile(r"<!-- (validation|evidence): .*?<!-- \1: end -->", re.DOTALL)
 OUT = [(re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), better) for pattern, better in WORDS]
 COMMENT_START = re.compile(r"^(Of|What|The same|Likewise)\b(?!.*\?)")
 NOT_VERBS = set("""a all an and another any as at both by docs each fewer for from if in it its less more most nine no not of on

@@ -62,7 +62,7 @@ def dimension_of(case):
     return len(points[0]) if points else 2
 
 
-# Where it is described, the limit, and what a case must have for it (none: every case; a set: one of these).
+# The page that describes the limit, the limit, and the features of the cases to which it applies (none: every case).
 LIMITS = (
     ("docs/limits.md#robustness", "The two outermost particle rows and all walls sustain no tension: water that moves away from "
      "a wall separates from it, and a siphon drains at its crown.", set()),

@@ -40,7 +40,7 @@ class NotRun(Run):
 
 
 def metrics_of_program():
-    """Each metric of the level paper, in the form of validation.json, without its value."""
+    """Each metric of the tier paper, in the form of validation.json, without its value."""
     for study in studies(Plan("paper")).values():
         for check in study.checks:
             if isinstance(check, AllChecks):
