@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What disorder does to the pressure equation: the table of docs/theory/robustness.md#disorder-inside-is-no-air.
+"""What disorder does to the pressure equation: the table of docs/theory/robustness.md#disorder-is-not-air.
 
 For jittered lattices and for fields of runs, over particles inside the water: the share of the Laplacian's weights A_0
 that is missing, mean of max(0, 1 - sum c/A_0); the distance over which pressure would be screened if that were air; and
