@@ -112,7 +112,8 @@ class Material:
         try:
             self.study = Study.load(folder)
         except DataError as error:
-            self.study_fault = f"the study is unfinished ({error})"
+            reason = f" ({error})" if (folder / "study.json").exists() else ""
+            self.study_fault = f"the study is unfinished{reason}"
             found = [Run(path.parent) for path in sorted(folder.glob("*/*/case.effective.toml"))]
             if not found:
                 raise DataError(f"{folder}: has no run and no study; remedy: name the folder that tailwater run or tailwater "

@@ -75,12 +75,6 @@ def faults_of(study_fault, runs, is_study) -> list:
     """Reasons why the number cannot be relied on, one for each kind of fault; empty if none was detected. A fault of any run
     of a study counts, because the interval is computed from all runs."""
     faults = [study_fault] if study_fault else []
-    if not is_study:
-        faults.append("one spacing only, so its uncertainty is unknown")
-    elif len({run.spacing for run in runs if run.status == "done"}) < MIN_SPACINGS:
-        faults.append(f"fewer than {MIN_SPACINGS} finished spacings, so its uncertainty is unknown")
-    if len({run.summary["commit"] for run in runs if "commit" in run.summary}) > 1:
-        faults.append("its runs were made by programs of different commits")
     kinds = {}
     for run in runs:
         for kind, detail in faults_of_run(run):
@@ -89,6 +83,12 @@ def faults_of(study_fault, runs, is_study) -> list:
         detail = next((detail for _, detail in where if detail), "")
         spacings = ", ".join(number(spacing) for spacing in sorted({spacing for spacing, _ in where}))
         faults.append(kind + (f" ({detail})" if detail else "") + (f" at the spacing {spacings} m" if is_study else ""))
+    if len({run.summary["commit"] for run in runs if "commit" in run.summary}) > 1:
+        faults.append("its runs were made by programs of different commits")
+    if not is_study:
+        faults.append("one spacing only, so its uncertainty is unknown")
+    elif len({run.spacing for run in runs if run.status == "done"}) < MIN_SPACINGS:
+        faults.append(f"fewer than {MIN_SPACINGS} finished spacings, so its uncertainty is unknown")
     return faults
 
 
