@@ -24,6 +24,7 @@ __all__ = ["Report", "report"]
 
 FORMAT = 1
 LARGEST_INPUT = 8_000_000  # bytes, compressed; larger files are named by their hash only
+FILE_KEYS = ("file", "motion", "points_file")  # of all tables of a case
 RESULTS = ("steps.csv", "probes/*.csv")  # of a run; those that are compared bit for bit
 UNITS = ("All numbers are in SI units (m, kg, s, N, Pa).",
          "In two dimensions volumes, masses, forces and discharges are per metre of width.",
@@ -211,18 +212,20 @@ def digest(data: bytes) -> str:
 
 def named_files(case):
     """The files that an effective case names, by the path in it; a run writes them as absolute paths."""
-    if isinstance(case, (dict, list)):
-        for each in case.values() if isinstance(case, dict) else case:
-            yield from named_files(each)
-    elif isinstance(case, str) and case.startswith("/") and Path(case).is_file():
-        yield case
+    for tables in case.values():
+        for table in tables if isinstance(tables, list) else [tables]:
+            paths = [table.get(key, "") for key in FILE_KEYS]
+            yield from (path for path in paths if isinstance(path, str) and path.startswith("/"))
 
 
 def inputs_of(runs):
-    """Each input file once: its path, bytes, hash and, where it is not too large, content."""
+    """Each input file once: its path, bytes, hash and, where it is not too large, content; no hash if the file is gone."""
     paths = dict.fromkeys(path for run in runs for path in named_files(run.case))
     found = []
     for path in paths:
+        if not Path(path).is_file():
+            found.append({"path": path, "bytes": None, "sha256": "", "content": None})
+            continue
         data = Path(path).read_bytes()
         packed = zlib.compress(data, 9)
         found.append({"path": path, "bytes": len(data), "sha256": digest(data),

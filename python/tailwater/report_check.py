@@ -62,8 +62,9 @@ def unpack(inputs, folder) -> dict:
             place.parent.mkdir()
             place.write_bytes(data)
         if hashlib.sha256(data).hexdigest() != one["sha256"]:
-            raise DataError(f"{one['path']}: is missing or is not the file of the report; remedy: put the file with SHA-256 "
-                            f"{one['sha256']} there")
+            wanted = one["sha256"] or "unknown, because the file was gone when the report was written"
+            raise DataError(f"{one['path']}: is missing or is not the file of the report; remedy: put the file there whose "
+                            f"SHA-256 is {wanted}")
         places[one["path"]] = str(place)
     return places
 

@@ -197,4 +197,4 @@ def reproduction(content):
         paragraph("This file holds the effective case of each run and the input files. The command runs all of them again with "
                   "the installed program and compares probes and steps bit for bit. For equal bits the program must be of the "
                   "same commit, compiler and processor options."),
-        paragraph(f"Too large to be held here, and needed at its place: {', '.join(missing)}") if missing else "")
+        paragraph(f"Not held here, and needed at its place: {', '.join(missing)}") if missing else "")

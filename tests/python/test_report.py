@@ -179,6 +179,14 @@ class Real(PackageTest):
         with self.assertRaisesRegex(tw.DataError, "gauge.csv: is missing or is not the file of the report; remedy"):
             check_report(content, told.append)
 
+    def test_input_file_that_is_gone(self):
+        self.case.run("run")
+        Path("data/gauge.csv").unlink()
+        made = tw.report("run", pictures=0)
+        self.assertEqual(made.content["inputs"][0]["sha256"], "")
+        with self.assertRaisesRegex(tw.DataError, "gauge.csv: is missing.*gone when the report was written"):
+            check_report(made.content, list().append)
+
     def test_command(self):
         self.case.run("run")
         self.assertEqual(report_command.main(["run", "--answer", "depth", "--pictures", "0", "--to", "page.html"]), 0)
