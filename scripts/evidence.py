@@ -6,7 +6,8 @@ Usage: scripts/evidence.py           makes the file from docs/validation.json, t
        scripts/evidence.py --keys    prints the keys with their values
 
 A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where `WHAT` is `all`, names of studies, keys
-in quotes after `keys`, as in `keys "zhou1999.noise"`, or `counts`, a sentence. A figure in a sentence stands between
+in quotes after `keys`, as in `keys "zhou1999.noise"`, or `counts`, a sentence. `short` before `WHAT` leaves only quantity,
+value, target, result and spacing. A figure in a sentence stands between
 `<!-- figure: KEY -->` and `<!-- figure: end -->`. docs/validation.json is what `tailwater validate` wrote.
 """
 import json
@@ -24,6 +25,7 @@ TABLE = re.compile(r"<!-- evidence: (?!end -->)(?P<what>.+?) -->\n.*?<!-- eviden
 FIGURE = re.compile(r"<!-- figure: (?!end -->)(?P<key>.+?) -->(?P<text>.*?)<!-- figure: end -->", re.DOTALL)
 HEAD = ("quantity", "compared with", "ours", "target", "result", "finest spacing, rows in the water's height", "integrator", "walls",
         "CPU s", "paper", "target since")
+SHORT = ("quantity", "ours", "target", "result", HEAD[5])  # columns of a short table
 
 
 def documents():
@@ -31,7 +33,7 @@ def documents():
             *sorted((ROOT / "paper").glob("*.md"))]
 
 
-def row(one):
+def row(one, columns):
     result = f"**{one['result']}**" if one["result"] in ("missed", NOT_RUN) else one["result"]
     if one["result"] == NO_TARGET and one["note"]:
         result += f": {one['note']}"
@@ -39,7 +41,7 @@ def row(one):
     cells = (one["what"], one["against"], one["value_text"], one["target"], result, one["spacing_text"], one["integrator"],
              one["walls"], "" if one["cpu_s"] is None else f"{one['cpu_s']:.3g}",
              "" if one["paper"] is None else f"{one['paper']:.3g}", one["target_date"] + changes)
-    return f"| {' | '.join(str(cell).replace('|', '/') for cell in cells)} |"
+    return f"| {' | '.join(cell.replace('|', '/') for name, cell in zip(HEAD, cells) if name in columns)} |"
 
 
 def chosen(evidence, what):
@@ -71,16 +73,18 @@ def table(evidence, what):
     lines = [f"<!-- evidence: {what} -->"]
     if what == "counts":
         return "\n".join([*lines, sentence(evidence), "<!-- evidence: end -->"])
+    words = what.removeprefix("short ")
+    columns = HEAD if words == what else SHORT
     lines += [origin(evidence, what == "all"), ""]
     if what == "all":
         lines += [sentence(evidence), ""]
-    lines += [f"| {' | '.join(HEAD)} |", f"|{' --- |' * len(HEAD)}"]
+    lines += [f"| {' | '.join(columns)} |", f"|{' --- |' * len(columns)}"]
     titles, title = {flow["name"]: flow["title"] for flow in evidence["flows"]}, ""
-    for one in chosen(evidence, what):
+    for one in chosen(evidence, words):
         if titles.get(one["flow"], one["flow"]) != title:
             title = titles.get(one["flow"], one["flow"])
-            lines.append(f"| **{title}** |{' |' * (len(HEAD) - 1)}")
-        lines.append(row(one))
+            lines.append(f"| **{title}** |{' |' * (len(columns) - 1)}")
+        lines.append(row(one, columns))
     return "\n".join([*lines, "<!-- evidence: end -->"])
 
 

@@ -172,12 +172,17 @@ class Pages(unittest.TestCase):
             script.filled(page, self.evidence)
 
     def test_tables(self):
-        for what in ("all", "zhou1999 weir", 'keys "zhou1999.noise" "weir.ideal_error"', "counts"):
+        for what in ("all", "zhou1999 weir", "short weir", 'keys "zhou1999.noise" "weir.ideal_error"', "counts"):
             page = script.filled(f"before\n<!-- evidence: {what} -->\n<!-- evidence: end -->\nafter\n", self.evidence)
             self.assertEqual(script.contradictions(page, self.evidence), [], what)
             self.assertEqual(len(script.contradictions(page.replace("met", "mat"), self.evidence)), 1, what)
         self.assertEqual(script.contradictions("<!-- evidence: nothing -->\n<!-- evidence: end -->", self.evidence),
                          ["the evidence has no nothing"])
+
+    def test_short_table_has_five_columns(self):
+        line = next(line for line in script.table(self.evidence, "short jet").splitlines() if "stagnation" in line)
+        self.assertEqual([cell.strip() for cell in line.split("|")][2:5], ["0.00804", "<= 0.03", "met"])
+        self.assertEqual(line.count("|"), 6)
 
     def test_only_the_table_of_all_names_the_commit(self):
         commit = self.evidence["commit"]
