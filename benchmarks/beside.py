@@ -3,7 +3,7 @@
 on one core each.
 
 Usage: benchmarks/beside.py [--case zhou|box]... [--dx SPACING] [--end SECONDS] [--repeats N] [--program FILE]
-                            [--dfsph FILE] [--set KEY=VALUE]...
+                            [--dfsph FILE] [--set KEY=VALUE]... [--json FILE]
 
 Cases: zhou, in 2D, at 0.015 m to 1.4 s (cases/zhou1999); box, in 3D, SPHERIC's benchmark 2, at 0.02 m to 1 s
 (benchmarks/dam_break_3d.toml). Walls are free in all codes. Of the others those run that are there:
@@ -15,10 +15,15 @@ Prints CPU seconds per simulated second, Tailwater's over theirs, and two number
 above the floor where Zhou's water arrives, or 0.06 m above it in the middle of the box: its noise, the RMS about its
 running median over 0.02 s from 0.6 s on, over rho g H; and when the water arrives, the first time that it is above 0.05
 rho g H (zhou, in the laboratory: 0.61 to 0.64 s). Times are of one machine and hour: only ratios of one call tell
-something. Of several repeats the cheapest counts.
+something. Of several repeats the cheapest counts. A code that does not finish is reported, and the others go on.
+
+--json writes all of it to a file, with the settings of each code, who chose them, the commands and the machine. The
+figures of other codes that documents quote come from such a file,
+validation/tailwater_validation/beside.json.
 """
 import argparse
 import csv
+import datetime
 import importlib.util
 import json
 import os
@@ -27,6 +32,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +40,8 @@ import numpy as np
 import dfsph
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
+from tailwater_validation.validate import processor  # noqa: E402
 WINDOW = 0.02  # s; of the running median
 NOISY_FROM = 0.6  # s
 ARRIVED = 0.05  # of rho g H
@@ -80,8 +88,18 @@ CASES = {"zhou": zhou, "box": box}
 
 
 @dataclass
+class Code:
+    """A code to compare with: its settings, who chose them, the command that runs it, and `run`, which returns a Done."""
+
+    settings: str
+    chosen_by: str
+    command: str
+    run: Callable
+
+
+@dataclass
 class Done:
-    """What a code has taken and found."""
+    """Cost and wall pressure of a finished run."""
 
     cpu: float  # s
     simulated: float  # s
@@ -148,19 +166,63 @@ def show(case_name, code, case, run, ours):
           f"  noise {or_dash(noise(run, case), '.4f'):>6}  arrival {or_dash(arrival(run, case), '.3f'):>5} s", flush=True)
 
 
-def compare(name, case, options, folder):
-    """All codes that are there, in turn."""
-    codes = {"Tailwater": lambda: tailwater(options.program, name, case, options.set, folder)}
+def available_codes(name, case, options, folder):
+    """{name: Code} of Tailwater and the other codes that are installed."""
+    words = "".join(f" --set {setting}" for setting in options.set)
+    codes = {"Tailwater": Code(f"defaults, wall.tank.slip=free{words}", "Tailwater", f"tailwater run, dx = {case.dx:g} m",
+                               lambda: tailwater(options.program, name, case, options.set, folder))}
     if name == "zhou" and importlib.util.find_spec("pysph"):
         sisph(0.1, 1e-3, folder)  # compiles
-        codes["SISPH"] = lambda: sisph(case.dx, case.end, folder)
+        codes["SISPH"] = Code("scheme, step and kernel of PySPH's own example of a dam break; free walls", "authors of PySPH",
+                              f"benchmarks/sisph_zhou.py {case.dx:g} {case.end:g} FOLDER",
+                              lambda: sisph(case.dx, case.end, folder))
     if options.dfsph:
         scene = pathlib.Path(tempfile.mkdtemp(dir=folder))
-        codes["DFSPH"] = lambda: Done(*dfsph.run(options.dfsph, case, scene))
-    turns = [{code: run() for code, run in codes.items()} for _ in range(options.repeats)]
-    best = {code: min((turn[code] for turn in turns), key=lambda run: run.price) for code in codes}
-    for code, run in best.items():
-        show(name, code, case, run, best["Tailwater"])
+        codes["DFSPH"] = Code("viscosity, tolerances and steps of SPlisHSPlasH's own scenes; free walls",
+                              "authors of SPlisHSPlasH", "benchmarks/dfsph.py: SPHSimulator scene.json --no-gui",
+                              lambda: Done(*dfsph.run(options.dfsph, case, scene)))
+    return codes
+
+
+def attempt(name, code):
+    """(Done, message): None and the reason if the code does not finish."""
+    try:
+        return code.run(), ""
+    except (subprocess.CalledProcessError, OSError, ValueError, IndexError) as error:
+        print(f"{name} did not finish: {error}", file=sys.stderr)
+        return None, str(error)
+
+
+def record(name, code, case, run, message):
+    """A code in the JSON file."""
+    found = {"code": name, "settings": code.settings, "chosen_by": code.chosen_by, "command": code.command,
+             "finished": run is not None, "message": message}
+    if run is None:
+        return found
+    return found | {"fluid_particles": run.fluid, "steps": run.steps, "cpu_s": run.cpu, "simulated_s": run.simulated,
+                    "cpu_s_per_simulated_s": run.price, "noise_over_rho_g_H": noise(run, case), "arrival_s": arrival(run, case)}
+
+
+def compare(name, case, options, folder):
+    """Runs all available codes in turn; returns the case in the JSON file."""
+    codes = available_codes(name, case, options, folder)
+    turns = [{each: attempt(each, code) for each, code in codes.items()} for _ in range(options.repeats)]
+    records, best = [], {}
+    for each, code in codes.items():
+        finished = [turn[each][0] for turn in turns if turn[each][0]]
+        best[each] = min(finished, key=lambda run: run.price, default=None)
+        records.append(record(each, code, case, best[each], "" if finished else turns[-1][each][1]))
+    for each, run in best.items():
+        if run and best["Tailwater"]:
+            show(name, each, case, run, best["Tailwater"])
+    return {"case": name, "spacing_m": case.dx, "end_s": case.end, "repeats": options.repeats, "codes": records}
+
+
+def provenance(options):
+    """Program, machine and day of a comparison."""
+    version = subprocess.run([options.program, "--version"], check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
+    return {"format": 1, "program": version, "date": datetime.date.today().isoformat(), "processor": processor(),
+            "cores": os.cpu_count(), "load": os.getloadavg()[0]}
 
 
 def main():
@@ -172,6 +234,7 @@ def main():
     parser.add_argument("--program", default=ROOT / "build/release/bin/tailwater")
     parser.add_argument("--dfsph", metavar="FILE", default=shutil.which("SPHSimulator"))
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="write figures, settings and commands there")
     options = parser.parse_args()
     if options.dfsph and not os.access(options.dfsph, os.X_OK):
         print(f"error: {options.dfsph} is no program; remedy: --dfsph with the path of SPHSimulator", file=sys.stderr)
@@ -180,8 +243,11 @@ def main():
         print("error: there is no other code; remedy: apt-get install python3-pysph, or --dfsph FILE", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory() as folder:
-        for name in options.case or ("zhou",):
-            compare(name, CASES[name](options.dx, options.end), options, pathlib.Path(folder))
+        cases = [compare(name, CASES[name](options.dx, options.end), options, pathlib.Path(folder))
+                 for name in options.case or ("zhou",)]
+    if options.json:
+        text = json.dumps(provenance(options) | {"cases": cases}, indent=1)
+        options.json.write_text(text + "\n", encoding="utf-8")
     return 0
 
 

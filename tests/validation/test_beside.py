@@ -1,5 +1,6 @@
 """Other codes beside ours: what is read of DFSPH, with a program that only pretends."""
 
+import json
 import sys
 import tempfile
 import unittest
@@ -12,6 +13,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 import beside
 import dfsph
+from tailwater_validation import peers
 
 # Ten steps, whose frames have still water on the right wall, four fifths of its pressure from one solve.
 PRETENDER = """#!/usr/bin/python3
@@ -64,6 +66,33 @@ class Dfsph(unittest.TestCase):
         corners = np.array([line[1:] for line in lines if line[0] == "v"], float)
         a, b, c = corners[np.array([line[1:] for line in lines if line[0] == "f"], int).T - 1]
         self.assertAlmostEqual(np.einsum("ij,ij", a, np.cross(b, c)) / 6, 24)  # of its volume
+
+
+class Records(unittest.TestCase):
+    def test_code_that_does_not_finish_is_recorded(self):
+        def fails():
+            raise ValueError("it blew up")
+
+        case = beside.zhou(0.03, 1.0)
+        code = beside.Code("as in its example", "its authors", "run it", fails)
+        run, message = beside.attempt("Other", code)
+        found = beside.record("Other", code, case, run, message)
+        self.assertEqual([found[name] for name in ("finished", "message", "chosen_by")], [False, "it blew up", "its authors"])
+        self.assertNotIn("cpu_s", found)
+
+    def test_finished_codes_are_the_peers(self):
+        case = beside.zhou(0.03, 1.0)
+        done = beside.Done(10.0, 2.0, 800, 100, np.array([0.5, 0.9]), np.array([0.0, case.pressure]))
+        code = beside.Code("defaults", "its authors", "run it", lambda: done)
+        cases = [{"case": "zhou", "codes": [beside.record(name, code, case, run, "") for name, run in (
+            ("Tailwater", done), ("Other", done), ("Broken", None))]}]
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "beside.json"
+            file.write_text(json.dumps({"cases": cases}), encoding="utf-8")
+            self.assertEqual(peers.peers_of("zhou", "cpu_s_per_simulated_s", file), (("Other", 5.0, 5.0),))
+            figures = peers.figures_of_peers(file)
+        self.assertEqual(figures["beside.zhou.Other.arrival_s"], "0.9 s")
+        self.assertFalse([key for key in figures if "Broken" in key])
 
 
 class Noise(unittest.TestCase):

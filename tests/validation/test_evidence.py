@@ -175,7 +175,7 @@ class Pages(unittest.TestCase):
         for what in ("all", "zhou1999 weir", "short weir", 'keys "zhou1999.noise" "weir.ideal_error"', "counts"):
             page = script.filled(f"before\n<!-- evidence: {what} -->\n<!-- evidence: end -->\nafter\n", self.evidence)
             self.assertEqual(script.contradictions(page, self.evidence), [], what)
-            self.assertEqual(len(script.contradictions(page.replace("met", "mat"), self.evidence)), 1, what)
+            self.assertEqual(len(script.contradictions(page.replace("resolved", "resoled"), self.evidence)), 1, what)
         self.assertEqual(script.contradictions("<!-- evidence: nothing -->\n<!-- evidence: end -->", self.evidence),
                          ["the evidence has no nothing"])
 

@@ -8,6 +8,7 @@ from tailwater.case_features import features_of
 
 from .case_values import friction_of_walls, read_case, water_height
 from .metric import RESULTS, bar, result_of, shown
+from .peers import figures_of_peers
 from .runs import TestRun
 from .studies import studies
 from .study import COMPARISON, LABORATORY, Plan
@@ -159,7 +160,7 @@ def evidence_of(result, targets):
     return {"format": 1, "commit": result["commit"], "version": result["version"], "date": result["date"][:10],
             "level": result["level"], "processor": result["machine"]["processor"],
             "counts": {name: sum(row["result"] == name for row in rows) for name in (*RESULTS, NOT_RUN)},
-            "rows": rows, "flows": list(filter(None, flows)), "figures": figures_of(all_metrics)}
+            "rows": rows, "flows": list(filter(None, flows)), "figures": figures_of(all_metrics) | figures_of_peers()}
 
 
 def figures_of(metrics):

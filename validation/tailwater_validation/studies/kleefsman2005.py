@@ -25,7 +25,6 @@ GRID = 0.01  # s, between the instants at which heights are compared
 
 GAUGES = ("H1", "H2", "H3", "H4")
 HEIGHT_BARS = {"H2": 4.0, "H4": 2.0}  # percent of the depth, mean over END
-HEIGHT_PEERS = {"H2": (("interFoam", 4.3, 4.3),), "H4": (("interFoam", 2.1, 2.1),)}
 
 SENSORS = {"P1": 0.021, "P2": 0.061, "P3": 0.101, "P4": 0.141}  # m, heights on the face towards the water
 # The sensors drift by some 50 Pa before the impact; ten times that is a tenth of the hydrostatic pressure at the start.
@@ -103,8 +102,8 @@ def of_heights(run):
     is_whole = end == END
     columns = (("", "joined with the bed", "connected_m"), (" highest", "highest water", "highest_m"))
     return [measure(Metric(f"mean error {gauge}{suffix}", f"water height {gauge}, {label}, mean error over t = 0..{end:.3g} s",
-                           "% of H", "laboratory", high=HEIGHT_BARS.get(gauge) if is_whole and not suffix else None,
-                           peers=HEIGHT_PEERS.get(gauge) if is_whole else None), partial(mean_error, run, gauge, end, column))
+                           "% of H", "laboratory", high=HEIGHT_BARS.get(gauge) if is_whole and not suffix else None),
+                    partial(mean_error, run, gauge, end, column))
             for gauge in GAUGES for suffix, label, column in columns]
 
 
