@@ -3,6 +3,7 @@
 import copy
 import importlib.util
 import json
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -152,6 +153,13 @@ class Evidence(unittest.TestCase):
 
 
 class Pages(unittest.TestCase):
+    def test_readme_lists_every_missed_target(self):
+        """Its list is written by hand: kinds of targets, each with the number of those missed."""
+        readme = (ROOT / "README.md").read_text(encoding="utf-8")
+        listed = [line for line in readme.partition("The misses:")[2].partition("<!--")[0].splitlines() if line.startswith("- ")]
+        counts = [int(count) for line in listed for count in re.findall(r": (\d+)\b", line)]
+        self.assertEqual(sum(counts), load_evidence()["counts"]["missed"])
+
     def setUp(self):
         self.evidence = load_evidence()
 
