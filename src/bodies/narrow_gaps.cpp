@@ -187,7 +187,7 @@ std::vector<std::size_t> NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
       indices_where(particles.owned, [&](std::size_t i) { return piece_that_holds(i) >= 0; });
   for (const std::size_t i : stagnant) {
     const std::int32_t n = piece_that_holds(i);
-    flow.role[i] = Role::prescribed;
+    flow.role[i] = Role::stagnant;
     particles.velocity[i].setZero();
     flow.pressure_rows.divide_diagonal(i, 0.0);
     flow.pressure_rows.rhs()[i] = p[n];

@@ -40,6 +40,7 @@ struct TableCollector {
 
 std::string_view names_of(Variables variables) {
   if (variables == Variables::height) return height_name[0];
+  if (variables == Variables::level) return "t, q";
   return variables == Variables::time ? time_name[0] : "x, y, z";
 }
 

@@ -38,8 +38,12 @@ inline constexpr std::array<std::string_view, 1> time_name{"t"};
 /// Name of the height above an open end's lowest point, over the depth of the water, in profiles of velocity.
 inline constexpr std::array<std::string_view, 1> height_name{"s"};
 
+/// Names of the time and of the discharge that leaves through an open end, in expressions of its level. Where a
+/// parameter has the name of the discharge, the name stands for the parameter.
+inline constexpr std::array<std::string_view, 2> level_names{"t", "q"};
+
 /// What an expression may depend on besides the named numbers.
-enum class Variables { position, time, height };
+enum class Variables { position, time, height, level };
 
 /// A number, or an expression that varies in space or time.
 using Varying = std::variant<double, std::string>;
@@ -568,6 +572,10 @@ struct PorousTable : PlacedFile {
   }
 };
 
+/// Default of `absorbing` at an inlet and an outlet: a disturbance of the level loses half of its height at each
+/// reflection, and the level lags by a third of what a fully absorbing end lags by (docs/theory/open_ends.md).
+inline constexpr double default_absorbing = 0.3;
+
 /// Keys that the open ends of both kinds have, and a discharge probe in part.
 template <class Self, class Visitor>
 void describe_opening(Self& self, Visitor& v) {
@@ -580,6 +588,13 @@ void describe_opening(Self& self, Visitor& v) {
                 Presence::required);
 }
 
+template <class Self, class Visitor>
+void describe_absorbing(Self& self, Visitor& v) {
+  v.number("absorbing", self.absorbing, "", Range::between(0.0, 1.0),
+           "With a level: 0 holds it at any instant and reflects waves; 1 holds it on average over the time in which a "
+           "wave passes through the case and lets waves out");
+}
+
 struct InletTable {
   std::string name;
   Coordinates from;
@@ -588,6 +603,7 @@ struct InletTable {
   std::optional<Varying> discharge;
   std::optional<Varying> velocity;
   std::optional<Varying> level;
+  double absorbing = default_absorbing;
   std::optional<Varying> profile;
   std::string file;
   std::string checksum;
@@ -608,9 +624,11 @@ struct InletTable {
               "Discharge that enters; in 2D m^3/s per metre of width; below 0 it is taken out");
     v.varying("velocity", self.velocity, Variables::time, "m/s",
               "Mean velocity with which water enters, instead of a discharge");
-    v.varying("level", self.level, Variables::time, "m",
-              "Height of the water's surface at the inlet, as a coordinate; without a discharge and a velocity these "
-              "follow from the flow; with one of them the flow must be supercritical, otherwise leave the level out");
+    v.varying("level", self.level, Variables::level, "m",
+              "Height of the water's surface beyond the inlet, as a coordinate; without a discharge and a velocity "
+              "these follow from the flow; with one of them the flow must be supercritical, otherwise leave the level "
+              "out");
+    describe_absorbing(self, v);
     v.varying("profile", self.profile, Variables::height, "",
               "Shape of the velocity over the depth, of any size: an expression of s, which is 0 at the bed and 1 at "
               "the surface (default: uniform)");
@@ -634,6 +652,7 @@ struct OutletTable {
   Coordinates to;
   Coordinates direction;
   std::optional<Varying> level;
+  double absorbing = default_absorbing;
   std::string file;
   std::string checksum;
 
@@ -647,9 +666,12 @@ struct OutletTable {
     describe_opening(self, v);
     v.coordinates("direction", self.direction, "",
                   "Rough direction in which the water leaves; it tells the two sides apart (default: +x)");
-    v.varying("level", self.level, Variables::time, "m",
-              "Level of the tailwater, as a coordinate; water then comes back when it is low inside (default: the "
-              "channel goes on)");
+    v.varying(
+        "level", self.level, Variables::level, "m",
+        "Level of the tailwater, as a coordinate; water then comes back when it is low inside (default: the "
+        "channel goes on). An expression of q, the discharge that leaves in m^3/s (in 2D per metre of width), is a "
+        "stage-discharge relation, such as 0.3 + 0.5*q^(2/3)");
+    describe_absorbing(self, v);
     v.text("file", self.file,
            "Instead of level: CSV file of it over time, relative to the case file, with a line that names the columns, "
            "as in \"t [s], level [m]\"; in between it is smooth");

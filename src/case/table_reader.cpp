@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "case/nearest_name.h"
 #include "case/removed_keys.h"
+#include "case/time_function.h"
 
 namespace tailwater {
 
@@ -287,11 +288,12 @@ std::optional<Varying> TableReader::read_varying(std::string_view key, const std
                                                  Variables variables, std::string_view unit) {
   // In 2D there is no z; 0: the file gives no valid dimension, which is reported.
   const auto position = std::span(position_names).first(context_.dimension == 2 ? 2 : 3);
+  NamedNumbers numbers = context_.numbers;
   const auto names = variables == Variables::time     ? std::span<const std::string_view>(time_name)
                      : variables == Variables::height ? std::span<const std::string_view>(height_name)
+                     : variables == Variables::level  ? names_of_level(numbers)
                                                       : position;
   const auto* text = node.as_string();
-  NamedNumbers numbers = context_.numbers;
   if (variables == Variables::height) numbers.erase(std::string(height_name[0]));  // a parameter may have the name
   try {
     if (text != nullptr && Formula(text->get(), numbers, names).uses_variables()) return text->get();

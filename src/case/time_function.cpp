@@ -39,19 +39,25 @@ double SmoothCurve::at(double time) const {
          h * s * (1.0 - s) * ((1.0 - s) * slopes_[k] - s * slopes_[k + 1]);
 }
 
+std::span<const std::string_view> names_of_level(const NamedNumbers& numbers) {
+  return std::span(level_names).first(numbers.contains(level_names[1]) ? 1 : 2);
+}
+
 TimeFunction::TimeFunction(SmoothCurve series) : series_(std::make_shared<const SmoothCurve>(std::move(series))) {}
 
-TimeFunction::TimeFunction(const Varying& value, const NamedNumbers& numbers) {
+TimeFunction::TimeFunction(const Varying& value, const NamedNumbers& numbers, std::span<const std::string_view> names)
+    : variables_(names.size()) {
   if (const auto* number = std::get_if<double>(&value)) {
     number_ = *number;
   } else {
-    formula_ = std::make_shared<Formula>(std::get<std::string>(value), numbers, time_name);
+    formula_ = std::make_shared<Formula>(std::get<std::string>(value), numbers, names);
   }
 }
 
-double TimeFunction::at(double time) const {
+double TimeFunction::at(double time, double discharge) const {
   if (series_) return series_->at(time);
-  return formula_ ? formula_->at(std::array{time}) : number_;
+  const std::array variables{time, discharge};
+  return formula_ ? formula_->at(std::span(variables).first(variables_)) : number_;
 }
 
 }  // namespace tailwater

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "case/expression.h"
@@ -25,21 +27,26 @@ class SmoothCurve {
   std::vector<double> slopes_;  ///< at the points
 };
 
-/// A quantity of the case as a function of the time. Copies share what they are made of.
+/// The variables of a level's expression (level_names), without the discharge where a parameter has its name.
+std::span<const std::string_view> names_of_level(const NamedNumbers& numbers);
+
+/// A quantity of the case as a function of the time, and a level of the discharge, too. Copies share what they are made
+/// of.
 class TimeFunction {
  public:
   TimeFunction() = default;  ///< 0
   explicit TimeFunction(SmoothCurve series);
-  TimeFunction(const Varying& value, const NamedNumbers& numbers);
+  TimeFunction(const Varying& value, const NamedNumbers& numbers, std::span<const std::string_view> names = time_name);
 
-  /// It may be infinite or not a number if it is an expression.
-  double at(double time) const;
+  /// It may be infinite or not a number if it is an expression. `discharge` [m^3/s] is for levels that depend on it.
+  double at(double time, double discharge = 0.0) const;
   /// The series; null if it is none.
   const SmoothCurve* series() const { return series_.get(); }
 
  private:
   double number_ = 0.0;
-  std::shared_ptr<Formula> formula_;  ///< not const: evaluating writes the time into it
+  std::shared_ptr<Formula> formula_;  ///< not const: evaluating writes the variables into it
+  std::size_t variables_ = 1;         ///< of the formula: the time, and the discharge
   std::shared_ptr<const SmoothCurve> series_;
 };
 

@@ -24,10 +24,12 @@ struct EnergyAndDensity {
   }
 };
 
-/// Whether particle i is in the bulk. Before `locate` none is.
+/// Whether particle i is in the bulk: inside the water, solved for or in the buffer of an open end. Before `locate` none
+/// is.
 template <int Dim>
 bool is_bulk(const Flow<Dim>& flow, std::size_t i) {
-  return i < flow.surroundings.interior.size() && flow.is_inside(i);
+  return i < flow.surroundings.interior.size() && flow.state.particles.is_fluid(i) &&
+         flow.role[i] != Role::stagnant && flow.surroundings.interior[i] > 0.5;
 }
 
 template <int Dim>

@@ -10,12 +10,15 @@ enum class Role : std::uint8_t {
   water,          ///< is solved for
   prescribed,     ///< water whose velocity and pressure a part gives
   following,      ///< water whose velocity a part gives; its pressure follows that of the water around it
+  stagnant,       ///< water at rest in a gap too narrow to be resolved; a part gives its pressure
   wall,           ///< its row says how its pressure follows from the water's (walls/wall_model.h)
   solved_on_wall  ///< wall particle on the wall, where the water's equation is solved too
 };
 
 /// Whether a part has claimed the particle.
-constexpr bool is_claimed(Role role) { return role == Role::prescribed || role == Role::following; }
+constexpr bool is_claimed(Role role) {
+  return role == Role::prescribed || role == Role::following || role == Role::stagnant;
+}
 
 /// Whether its pressure is solved for by the water's equation.
 constexpr bool is_solved_for(Role role) { return role == Role::water || role == Role::solved_on_wall; }

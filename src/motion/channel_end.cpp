@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <string_view>
 
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
@@ -66,10 +68,23 @@ std::vector<double> tabulated_profile(const std::optional<Varying>& profile, con
 
 /// The quantity from its key or from a column of the file.
 std::optional<TimeFunction> time_function(const std::optional<Varying>& value, const TimeSeries& series,
-                                          std::size_t column, const NamedNumbers& numbers) {
-  if (value) return TimeFunction(*value, numbers);
+                                          std::size_t column, const NamedNumbers& numbers,
+                                          std::span<const std::string_view> names = time_name) {
+  if (value) return TimeFunction(*value, numbers, names);
   if (column >= series.columns.size() || series.columns[column].empty()) return std::nullopt;
   return TimeFunction(SmoothCurve(series.time, series.columns[column]));
+}
+
+/// The lowest height [m] from 0 to `top` where a condition holds that holds above it, too; `top` where it never does.
+template <class Condition>
+double lowest_where(Condition&& holds, double top) {
+  double low = 0.0;
+  double high = top;
+  for (int halvings = 0; halvings < 60; ++halvings) {
+    const double middle = 0.5 * (low + high);
+    (holds(middle) ? high : low) = middle;
+  }
+  return high;
 }
 
 }  // namespace
@@ -93,7 +108,7 @@ double EndFlow::largest_in_profile(int rows) const {
 }
 
 template <int Dim>
-ChannelEnd<Dim>::ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity)
+ChannelEnd<Dim>::ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity, double spacing)
     : opening(std::move(place)), flow(std::move(what_flows)) {
   const Vec<Dim> along = full_gravity - opening.normal.dot(full_gravity) * opening.normal;
   gravity = along.norm() > least_gravity_share * full_gravity.norm() ? along.norm() : 0.0;
@@ -116,6 +131,31 @@ ChannelEnd<Dim>::ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Di
   }
   height = upright.norm();
   rise = upright / height;
+  const int count = Dim == 2 ? 1 : std::max(1, static_cast<int>(std::lround(width / spacing)));
+  for (int c = 0; c < count; ++c) columns.push_back({width * (c + 0.5) / count, width / count, 0.0, height});
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::area_below(double depth) const {
+  double area = 0.0;
+  for (const SectionColumn& column : columns) {
+    area += column.width * std::clamp(depth - column.bottom, 0.0, column.top - column.bottom);
+  }
+  return area;
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::breadth_at(double depth) const {
+  double breadth = 0.0;
+  for (const SectionColumn& column : columns) {
+    if (depth > column.bottom && depth <= column.top) breadth += column.width;
+  }
+  return breadth;
+}
+
+template <int Dim>
+double ChannelEnd<Dim>::depth_of_area(double area) const {
+  return lowest_where([&](double depth) { return area_below(depth) >= area; }, height);
 }
 
 template <int Dim>
@@ -124,20 +164,24 @@ double ChannelEnd<Dim>::depth_at_level(double level) const {
 }
 
 template <int Dim>
-double ChannelEnd<Dim>::discharge_per_width(double time, double depth) const {
-  if (flow.discharge) return flow.discharge->at(time) / width;
-  return flow.velocity ? flow.velocity->at(time) * depth : 0.0;
+double ChannelEnd<Dim>::discharge(double time, double depth) const {
+  if (flow.discharge) return flow.discharge->at(time);
+  return flow.velocity ? flow.velocity->at(time) * area_below(depth) : 0.0;
 }
 
 template <int Dim>
 double ChannelEnd<Dim>::critical_depth(double time) const {
-  if (gravity == 0.0) return 0.0;
-  if (flow.discharge) {
-    const double q = flow.discharge->at(time) / width;
-    return std::cbrt(q * q / gravity);
+  if (gravity == 0.0 || !flow.feeds()) return 0.0;
+  const bool is_rectangle = area_below(height) > (1.0 - 1e-9) * width * height;
+  if (!is_rectangle) {
+    const auto is_subcritical = [&](double depth) {
+      const double area = area_below(depth);
+      return area > 0.0 && std::pow(discharge(time, depth), 2) * breadth_at(depth) <= gravity * std::pow(area, 3);
+    };
+    return discharge(time, height) == 0.0 ? 0.0 : lowest_where(is_subcritical, height);
   }
-  const double u = flow.velocity ? flow.velocity->at(time) : 0.0;
-  return u * u / gravity;
+  if (flow.velocity) return std::pow(flow.velocity->at(time), 2) / gravity;
+  return std::cbrt(std::pow(flow.discharge->at(time) / width, 2) / gravity);
 }
 
 template <int Dim>
@@ -176,13 +220,14 @@ std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
       const InletTable& table = spec.inlets[inlet++];
       flow = {time_function(table.discharge, table.series, 0, numbers),
               time_function(table.velocity, table.series, 1, numbers),
-              time_function(table.level, table.series, 2, numbers),
+              time_function(table.level, table.series, 2, numbers, names_of_level(numbers)), table.absorbing,
               tabulated_profile(table.profile, spec, opening.label())};
     } else {
       const OutletTable& table = spec.outlets[outlet++];
-      flow.level = time_function(table.level, table.series, 0, numbers);
+      flow.level = time_function(table.level, table.series, 0, numbers, names_of_level(numbers));
+      flow.absorbing = table.absorbing;
     }
-    ends.emplace_back(std::move(opening), std::move(flow), gravity);
+    ends.emplace_back(std::move(opening), std::move(flow), gravity, spec.particles.spacing);
   }
   for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
     const InletTable& table = spec.inlets[k];

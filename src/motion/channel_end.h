@@ -14,6 +14,7 @@ struct EndFlow {
   std::optional<TimeFunction> discharge;  ///< m^3/s, in 2D per metre of width; into the case
   std::optional<TimeFunction> velocity;   ///< m/s; mean over the section, into the case
   std::optional<TimeFunction> level;      ///< m; of the surface, along `up`
+  double absorbing = 0.0;                 ///< 0: the level is held; 1: waves leave
   /// Share of the discharge below heights that divide the depth into equal parts, from the bed to the surface; empty:
   /// the velocity is uniform.
   std::vector<double> profile;
@@ -27,32 +28,49 @@ struct EndFlow {
   double largest_in_profile(int rows) const;
 };
 
+/// A part of the section of an open end that is open between two heights.
+struct SectionColumn {
+  double aside;   ///< m; of its middle, along ChannelEnd::aside
+  double width;   ///< m
+  double bottom;  ///< m; along ChannelEnd::rise, from ChannelEnd::low
+  double top;     ///< m
+};
+
 template <int Dim>
 struct ChannelEnd {
-  ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity);
+  /// The columns are about as wide as the `spacing` [m].
+  ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity, double spacing);
 
   Opening<Dim> opening;
   EndFlow flow;
-  double gravity;                     ///< m/s^2; the part of gravity along the opening's plane
-  Vec<Dim> up;                        ///< opposite to that part; 0 if there is none
-  double floor;                       ///< m; height of the opening's lowest point along `up`
-  double width;                       ///< m; of the opening across `up`; 1 in 2D
-  Vec<Dim> low;                       ///< m; the corner from which heights and places across are measured
-  Vec<Dim> rise;                      ///< unit vector of the edge from the floor upwards
-  double height;                      ///< m; of the opening, along `rise`
-  Vec<Dim> aside = Vec<Dim>::Zero();  ///< unit vector of the other edge (3D)
+  double gravity;                      ///< m/s^2; the part of gravity along the opening's plane
+  Vec<Dim> up;                         ///< opposite to that part; 0 if there is none
+  double floor;                        ///< m; height of the opening's lowest point along `up`
+  double width;                        ///< m; of the opening across `up`; 1 in 2D
+  Vec<Dim> low;                        ///< m; the corner from which heights and places across are measured
+  Vec<Dim> rise;                       ///< unit vector of the edge from the floor upwards
+  double height;                       ///< m; of the opening, along `rise`
+  Vec<Dim> aside = Vec<Dim>::Zero();   ///< unit vector of the other edge (3D)
+  std::vector<SectionColumn> columns;  ///< that make up the section, `aside` ascending; one in 2D
   int circuit = -1;      ///< where water circulates: the index of the outlet whose sump it draws from and fills
   double reserve = 0.0;  ///< m^Dim; what this end has put into the sump at the start
 
   /// Whether the case says more than that the channel goes on.
   bool is_driven() const { return flow.feeds() || flow.level; }
   /// Whether a level is prescribed, and the velocity follows.
-  bool holds_level() const { return flow.level && !flow.feeds() && gravity > 0.0; }
+  bool holds_level() const { return flow.level && !flow.feeds(); }
+  /// Area [m^(Dim-1)] of the section below a height [m] above the floor, and the breadth of the water's surface there.
+  double area_below(double depth) const;
+  double breadth_at(double depth) const;
+  /// The height [m] above the floor below which the section has this area; at most that of the opening.
+  double depth_of_area(double area) const;
+  /// Discharge [m^3/s] that the case prescribes, where the water is `depth` (m) deep.
+  double discharge(double time, double depth) const;
   /// Height above the floor at which a level [m] stands, at most that of the opening; the whole opening without gravity
   /// along it, where there is no level.
   double depth_at_level(double level) const;
-  /// Discharge per width [m^2/s] that the case prescribes, where the water is `depth` (m) deep.
-  double discharge_per_width(double time, double depth) const;
+  /// The same over the width [m^2/s].
+  double discharge_per_width(double time, double depth) const { return discharge(time, depth) / width; }
   /// Depth [m] at which the prescribed flow is critical: no deeper flow is supercritical. 0 without gravity.
   double critical_depth(double time) const;
   /// The largest speed [m/s] with which particles of a spacing [m] enter where nothing resists.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "base/for_each.h"
 #include "flow/flow.h"
@@ -17,6 +18,9 @@ constexpr double first_entry = 0.5;
 /// very plane would leave and enter again with every tremble of water at rest.
 constexpr double least_entry = 0.25;
 
+/// [dx]; from other water, at which a particle stands at least that comes in where a level is prescribed.
+constexpr double least_distance = 0.7;
+
 /// A particle that comes in.
 template <int Dim>
 struct Entrant {
@@ -26,25 +30,89 @@ struct Entrant {
   double volume;
 };
 
-/// How far [m] behind the opening each cell of the lattice at it is free of water, over all ranks; row by row.
+/// The cells at an opening in which particles enter: rows that divide the depth of each column, from the bottom
+/// upwards.
 template <int Dim>
-std::vector<double> free_lengths(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow) {
+class EntryLattice {
+ public:
+  EntryLattice(const OpenEnd<Dim>& end, const OpenEndState& state) : end_(end), rows_(state.rows) {
+    for (std::size_t c = 0; c < rows_.size(); ++c) {
+      first_.push_back(first_.back() + static_cast<std::size_t>(rows_[c]));
+      height_.push_back(rows_[c] > 0 ? end.depth_in(c, state) / static_cast<double>(rows_[c]) : 0.0);
+    }
+  }
+
+  std::size_t size() const { return first_.back(); }
+  /// Area [m^(Dim-1)] of a cell.
+  double area(std::size_t cell) const {
+    const std::size_t c = column_of(cell);
+    return height_[c] * end_.columns[c].width;
+  }
+  /// The middle of a cell, in the opening.
+  Vec<Dim> middle(std::size_t cell) const {
+    const std::size_t c = column_of(cell);
+    const double z = end_.columns[c].bottom + (static_cast<double>(cell - first_[c]) + 0.5) * height_[c];
+    return end_.low + z * end_.rise + end_.columns[c].aside * end_.aside;
+  }
+  /// Calls with the cell straight before a place, and with those beside it up to `around` columns and rows away.
+  template <class Body>
+  void for_cells_at(const Vec<Dim>& x, std::size_t around, Body&& body) const {
+    if (rows_.empty()) return;
+    const std::size_t middle = end_.column_at(x);
+    const std::size_t last = std::min(middle + around, rows_.size() - 1);
+    for (std::size_t c = middle - std::min(middle, around); c <= last; ++c) {
+      if (rows_[c] == 0) continue;
+      const auto row = static_cast<std::int64_t>(std::floor(end_.height_in(c, x) / height_[c]));
+      const auto beside = static_cast<std::int64_t>(around);
+      for (std::int64_t k = std::max<std::int64_t>(0, row - beside); k <= std::min(row + beside, rows_[c] - 1); ++k) {
+        body(first_[c] + static_cast<std::size_t>(k));
+      }
+    }
+  }
+
+ private:
+  std::size_t column_of(std::size_t cell) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(first_, cell) - first_.begin()) - 1;
+  }
+
+  const OpenEnd<Dim>& end_;
+  const std::vector<std::int64_t>& rows_;
+  std::vector<std::size_t> first_{0};  ///< cell of each column, and the number of all
+  std::vector<double> height_;         ///< m; of the cells of each column
+};
+
+/// How far [m] behind the opening each cell is free of water, over all ranks.
+template <int Dim>
+std::vector<double> free_lengths(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  const double row_height = state.depth / static_cast<double>(state.rows);
-  const double column_width = end.width / end.columns;
-  std::vector<double> length(static_cast<std::size_t>(state.rows) * end.columns, end.stretch);
+  std::vector<double> length(lattice.size(), end.stretch);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: several may stand in a cell
     const Vec<Dim>& x = particles.position[i];
     if (!particles.is_fluid(i) || !end.holds(x)) continue;
-    const Vec<Dim> place = x - end.low;
-    const auto row = static_cast<std::int64_t>(end.rise.dot(place) / row_height);
-    const auto column = static_cast<std::int64_t>(end.aside.dot(place) / column_width);
-    if (row >= state.rows || column >= end.columns) continue;  // above the water, or on the rim
-    double& free = length[static_cast<std::size_t>(row * end.columns + column)];
-    free = std::min(free, -end.opening.beyond(x));
+    lattice.for_cells_at(x, 0,
+                         [&](std::size_t cell) { length[cell] = std::min(length[cell], -end.opening.beyond(x)); });
   }
   flow.setup.ranks.least_of_each(length);
   return length;
+}
+
+/// Takes out what would stand too near to other water, as where water has left its row. All ranks find the same.
+template <int Dim>
+void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, const Flow<Dim>& flow,
+                    std::vector<std::optional<Entrant<Dim>>>& of_cell) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> nearest(lattice.size(), end.stretch);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: several may be near a cell
+    const Vec<Dim>& x = particles.position[i];
+    if (!particles.is_fluid(i) || !end.holds(x)) continue;
+    lattice.for_cells_at(x, 1, [&](std::size_t cell) {
+      if (of_cell[cell]) nearest[cell] = std::min(nearest[cell], (of_cell[cell]->position - x).norm());
+    });
+  }
+  flow.setup.ranks.least_of_each(nearest);
+  for (std::size_t cell = 0; cell < nearest.size(); ++cell) {
+    if (nearest[cell] < least_distance * end.spacing) of_cell[cell].reset();
+  }
 }
 
 /// The particles of a `volume` [m^Dim], or as large as a cell of the lattice one spacing long, that have room to enter
@@ -52,28 +120,25 @@ std::vector<double> free_lengths(const OpenEnd<Dim>& end, const OpenEndState& st
 template <int Dim>
 std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow,
                                         const std::optional<double>& volume) {
-  if (state.rows == 0 || state.entry_speed <= 0.0) return {};
-  const double row_height = state.depth / static_cast<double>(state.rows);
-  const double column_width = end.width / end.columns;
-  const double spacing = volume ? *volume / (row_height * column_width) : flow.setup.scale.spacing;
-  const std::vector<double> free = free_lengths(end, state, flow);
+  const EntryLattice<Dim> lattice(end, state);
+  if (lattice.size() == 0 || (end.flow.feeds() && state.entry_speed <= 0.0)) return {};
+  const double density = flow.setup.liquid.density;
+  const std::vector<double> free = free_lengths(end, lattice, flow);
+  std::vector<std::optional<Entrant<Dim>>> of_cell(lattice.size());
+  for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
+    const double length = volume ? *volume / lattice.area(cell) : end.spacing;
+    const double distance = free[cell] < 2.0 * length ? free[cell] - length : first_entry * length;
+    if (distance < (end.holds_level() ? least_entry * length : 0.0)) continue;
+    const Vec<Dim> position = lattice.middle(cell) - distance * end.opening.normal;
+    const Vec<Dim> velocity = end.velocity_at(state, position);
+    const double pressure = end.pressure_at(state, position, velocity, density);
+    if (end.opening.normal.dot(velocity) >= 0.0 || (end.holds_level() && pressure <= 0.0)) continue;
+    of_cell[cell] = {position, velocity, pressure, volume ? *volume : lattice.area(cell) * length};
+  }
+  if (end.holds_level()) remove_crowded(end, lattice, flow, of_cell);
   std::vector<Entrant<Dim>> entrants;
-  for (std::size_t cell = 0; cell < free.size(); ++cell) {
-    const bool follows = free[cell] < 2.0 * spacing;
-    const double distance = follows ? free[cell] - spacing : first_entry * spacing;
-    if (distance < (end.holds_level() ? least_entry * spacing : 0.0)) continue;
-    const std::size_t row = cell / static_cast<std::size_t>(end.columns);
-    const std::size_t column = cell % static_cast<std::size_t>(end.columns);
-    const double z = (static_cast<double>(row) + 0.5) * row_height;
-    const double y = (static_cast<double>(column) + 0.5) * column_width;
-    Entrant<Dim> entrant;
-    entrant.position = end.low + z * end.rise + y * end.aside - distance * end.opening.normal;
-    entrant.velocity =
-        end.flow.feeds() ? end.inflow_at(state, entrant.position) : Vec<Dim>(-state.entry_speed * end.opening.normal);
-    if (end.opening.normal.dot(entrant.velocity) >= 0.0) continue;
-    entrant.pressure = end.pressure_at(state, entrant.position, flow.setup.liquid.density);
-    entrant.volume = volume ? *volume : row_height * column_width * spacing;
-    entrants.push_back(entrant);
+  for (const std::optional<Entrant<Dim>>& entrant : of_cell) {
+    if (entrant) entrants.push_back(*entrant);
   }
   return entrants;
 }

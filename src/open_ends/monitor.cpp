@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "flow/flow.h"
 #include "io/messages.h"
@@ -11,10 +12,28 @@
 namespace tailwater {
 namespace {
 
-/// An inlet is short of water when more than this share of what is asked for is missing, and more than so many columns
+/// An inlet is short of water when more than this share of what is prescribed is missing, and more than so many columns
 /// of particles: some always wait for room.
 constexpr double most_missing = 0.02;
 constexpr double columns_that_wait = 3.0;
+
+/// The warning of an inlet through which the net volume that came in is less than prescribed by `missing` [m^3], which
+/// may be below 0.
+std::string discharge_warning(const std::string& label, double time, double missing, double asked) {
+  std::string_view problem = "draws less water than";
+  std::string_view remedy = "let it draw less, or make the opening or the water before it deeper";
+  if (missing * asked < 0.0) {
+    problem = "passes more water than";
+    remedy = "let it pass less, or use a smaller spacing";
+  } else if (missing > 0.0) {
+    problem = "brings less water than";
+    remedy = "make the opening larger, or use a smaller spacing";
+  }
+  return fmt::format(
+      "{} {} prescribed: at t = {:.4g} s the volume is off by {:.3g} of {:.3g} m^3 (water_balance in summary.json has "
+      "what passed); remedy: {}",
+      label, problem, time, std::abs(missing), std::abs(asked), remedy);
+}
 
 }  // namespace
 
@@ -38,14 +57,11 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
           "discharges that change more slowly",
           label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing_);
     }
-    if (!end.flow.feeds() || end.circuit >= 0) continue;
     const double missing = state.asked - (state.arrived.volume - state.departed.volume);
-    const double columns = columns_that_wait * spacing_ * state.depth * end.width;
-    if (missing > most_missing * std::abs(state.asked) + columns && is_first(label + ": discharge")) {
-      tailwater::warn(
-          "{} does not bring what it should: at t = {:.4g} s {:.3g} of {:.3g} m^3 are missing, for want of room; "
-          "water_balance in summary.json tells what came. Remedy: a higher opening, or a smaller spacing",
-          label, flow.state.time, missing, state.asked);
+    const double columns = columns_that_wait * spacing_ * end.area_below(state.depth);
+    const bool falls_short = std::abs(missing) > most_missing * state.asked_total + columns;
+    if (end.flow.feeds() && end.circuit < 0 && falls_short && is_first(label + ": discharge")) {
+      tailwater::warn("{}", discharge_warning(label, flow.state.time, missing, state.asked));
     }
   }
 }

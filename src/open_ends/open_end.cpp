@@ -11,42 +11,102 @@ constexpr double gauge_over_spacing = 2.0;
 
 }  // namespace
 
-double depth_at_speed(double invariant, double gravity, double u) {
-  const double twice_celerity = std::max(0.0, u - invariant);
-  return 0.25 * twice_celerity * twice_celerity / gravity;
+template <int Dim>
+OpenEnd<Dim>::OpenEnd(ChannelEnd<Dim> end, const Vec<Dim>& gravity_of_case, double particle_spacing, double support)
+    : ChannelEnd<Dim>(std::move(end)),
+      full_gravity(gravity_of_case),
+      spacing(particle_spacing),
+      stretch(support + particle_spacing),
+      gauge(gauge_over_spacing * particle_spacing),
+      first_fibre{0} {
+  for (const SectionColumn& column : this->columns) {
+    const auto fibres = std::max(1L, std::lround((column.top - column.bottom) / spacing));
+    first_fibre.push_back(first_fibre.back() + static_cast<std::size_t>(fibres));
+  }
 }
 
 template <int Dim>
-OpenEnd<Dim>::OpenEnd(ChannelEnd<Dim> end, double spacing, double support)
-    : ChannelEnd<Dim>(std::move(end)),
-      stretch(support + spacing),
-      gauge(gauge_over_spacing * spacing),
-      columns(Dim == 2 ? 1 : std::max(1, static_cast<int>(std::lround(this->width / spacing)))) {}
+std::size_t OpenEnd<Dim>::column_at(const Vec<Dim>& x) const {
+  const double place = this->aside.dot(x - this->low);
+  const auto beyond = std::ranges::partition_point(
+      this->columns, [&](const SectionColumn& column) { return column.aside + 0.5 * column.width <= place; });
+  return std::min(static_cast<std::size_t>(beyond - this->columns.begin()), this->columns.size() - 1);
+}
 
 template <int Dim>
-double OpenEnd<Dim>::pressure_at(const OpenEndState& state, const Vec<Dim>& x, double density) const {
-  if (this->gravity == 0.0 || !(state.is_wet || this->is_driven())) return 0.0;
-  double level = this->floor + state.depth;
-  if (!this->flow.feeds()) {
-    const auto depth_at = [&](double speed) { return depth_at_speed(state.invariant, this->gravity, speed); };
-    const double at_gauge = this->is_driven() ? state.depth_at_gauge : depth_at(state.speed);
-    const double in_middle = this->is_driven() ? state.depth_in_middle : depth_at(state.speed_beyond);
-    const double share = (this->opening.beyond(x) + stretch + gauge) / distance();
-    level = this->floor + (1.0 - share) * at_gauge + share * in_middle;
+double OpenEnd<Dim>::height_in(std::size_t column, const Vec<Dim>& x) const {
+  return this->rise.dot(x - this->low) - this->columns[column].bottom;
+}
+
+template <int Dim>
+double OpenEnd<Dim>::fibre_height(std::size_t column) const {
+  const SectionColumn& of = this->columns[column];
+  return (of.top - of.bottom) / static_cast<double>(first_fibre[column + 1] - first_fibre[column]);
+}
+
+template <int Dim>
+double OpenEnd<Dim>::depth_in(std::size_t column, const OpenEndState& state) const {
+  const SectionColumn& of = this->columns[column];
+  return std::clamp(state.depth - of.bottom, 0.0, of.top - of.bottom);
+}
+
+/// Hydrostatic below the water's surface. Below a level that is above the opening, what comes in has the energy of the
+/// water at rest beyond, each fibre for itself.
+template <int Dim>
+double OpenEnd<Dim>::pressure_at(const OpenEndState& state, const Vec<Dim>& x, const Vec<Dim>& velocity,
+                                 double density) const {
+  if (!state.is_full) {
+    return density * this->gravity * std::max(0.0, this->floor + state.depth - this->up.dot(x));
   }
-  return density * this->gravity * std::max(0.0, level - this->up.dot(x));
+  const Vec<Dim>& normal = this->opening.normal;
+  const double at_rest = this->gravity > 0.0 ? this->gravity * (state.level - this->up.dot(x)) +
+                                                   normal.dot(full_gravity) * this->opening.beyond(x)
+                                             : full_gravity.norm() * state.level + full_gravity.dot(x);
+  const double in = std::min(0.0, normal.dot(velocity));
+  return density * std::max(0.0, at_rest - 0.5 * in * in);
+}
+
+template <int Dim>
+Vec<Dim> OpenEnd<Dim>::velocity_at(const OpenEndState& state, const Vec<Dim>& x) const {
+  if (this->flow.feeds()) return inflow_at(state, x);
+  const double behind_border = this->opening.beyond(x) + stretch;
+  const double above_bottom = height_in(column_at(x), x);
+  return (fibre_speed_at(state, x) - state.stretching * behind_border) * this->opening.normal +
+         state.stretching * above_bottom * this->rise;
 }
 
 /// The water may become deeper or shallower. Then it is stretched along `rise`, and what it gains or loses along the
 /// channel makes up for it: the field has no divergence, and the discharge at the opening is the prescribed one.
 template <int Dim>
 Vec<Dim> OpenEnd<Dim>::inflow_at(const OpenEndState& state, const Vec<Dim>& x) const {
-  if (state.depth == 0.0) return Vec<Dim>::Zero();
-  const double share = this->rise.dot(x - this->low) / state.depth;
+  const std::size_t column = column_at(x);
+  const double depth = depth_in(column, state);
+  if (depth == 0.0) return Vec<Dim>::Zero();
+  const double share = height_in(column, x) / depth;
   const double inside = -this->opening.beyond(x);
-  const double row = state.rows > 0 ? 1.0 / static_cast<double>(state.rows) : 1.0;
-  const double in = state.entry_speed * this->flow.profile_of_row(share, row) - inside * state.depth_rate / state.depth;
+  const auto rows = column < state.rows.size() ? state.rows[column] : 0;
+  const double row = rows > 0 ? 1.0 / static_cast<double>(rows) : 1.0;
+  const double in =
+      state.entry_speed * this->flow.profile_of_row(share, row) - inside * state.depth_rate / std::max(depth, spacing);
   return -in * this->opening.normal + share * state.depth_rate * this->rise;
+}
+
+/// Linear between the middles of the cells.
+template <int Dim>
+double OpenEnd<Dim>::fibre_speed_at(const OpenEndState& state, const Vec<Dim>& x) const {
+  if (state.fibre_speeds.empty()) return 0.0;
+  const auto in_column = [&](std::size_t c) {
+    const std::size_t first = first_fibre[c];
+    const auto last = static_cast<double>(first_fibre[c + 1] - first - 1);
+    const double place = std::clamp(height_in(c, x) / fibre_height(c) - 0.5, 0.0, last);
+    const auto k = first + static_cast<std::size_t>(place);
+    const std::size_t next = std::min(k + 1, first_fibre[c + 1] - 1);
+    return std::lerp(state.fibre_speeds[k], state.fibre_speeds[next], place - std::floor(place));
+  };
+  const std::size_t c = column_at(x);
+  const double off = (this->aside.dot(x - this->low) - this->columns[c].aside) / this->columns[c].width;
+  const std::size_t beside = off < 0.0 ? c - std::min<std::size_t>(c, 1) : std::min(c + 1, this->columns.size() - 1);
+  return std::lerp(in_column(c), in_column(beside), std::min(std::abs(off), 0.5));
 }
 
 template struct OpenEnd<2>;

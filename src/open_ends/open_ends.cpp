@@ -15,9 +15,9 @@
 namespace tailwater {
 
 TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
-TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, speed_beyond, invariant, mean_speed, depth, depth_rate,
-                entry_speed, depth_at_gauge, depth_in_middle, border_speed, gain, miss, asked, rows, departed, arrived,
-                short_steps)
+TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, mean_speed, mean_discharge, invariant, depth, level,
+                is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows, miss, asked, asked_total, departed,
+                arrived, short_steps)
 
 namespace {
 
@@ -191,7 +191,8 @@ void OpenEnds<Dim>::write_row(Flow<Dim>& flow, std::size_t i) const {
   LinearSystem::Row row = flow.pressure_rows.row(i);
   if (total == 0.0) {
     row.set_weights([](std::size_t) { return 0.0; });
-    row.finish(1.0, end.pressure_at(states_[end_of_[i]], particles.position[i], setup.liquid.density));
+    row.finish(
+        1.0, end.pressure_at(states_[end_of_[i]], particles.position[i], particles.velocity[i], setup.liquid.density));
     return;
   }
   double hydrostatic = 0.0;
@@ -239,7 +240,8 @@ std::unique_ptr<Part<Dim>> make_open_ends_part(const CaseSpec& spec, const Setup
                                                const Boundary<Dim>& boundary) {
   std::vector<OpenEnd<Dim>> ends;
   for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
-    ends.emplace_back(std::move(end), setup.scale.spacing, traits_of(spec).support * setup.scale.spacing);
+    ends.emplace_back(std::move(end), setup.gravity, setup.scale.spacing,
+                      traits_of(spec).support * setup.scale.spacing);
     ends.back().reach = reach_of(ends.back().opening, boundary);
   }
   if (ends.empty()) return nullptr;

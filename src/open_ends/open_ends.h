@@ -48,7 +48,7 @@ class OpenEnds final : public Part<Dim> {
   void write_rows(Flow<Dim>& flow) override;
   void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
   void add_passed_water(WaterAmount& departed, WaterAmount& arrived) const override;
-  /// Of levels that are not held (LevelError) and of inlets that bring less than they should.
+  /// Of levels that are not held (LevelError) and of inlets that pass more or less than prescribed.
   void warn(const Flow<Dim>& flow) override;
   /// Again of levels that were not held: for how long, and whether they are now.
   void warn_at_end(const Flow<Dim>& flow) const override;
