@@ -16,6 +16,9 @@ constexpr double least_depth_over_spacing = 0.1;
 /// into the buffer. It is long compared with the waves that must leave, because whatever the mean follows is let back
 /// in (docs/theory/open_ends.md).
 constexpr double memory = 100.0;
+/// The same where a level is prescribed and lets waves out, in passes of a long wave through the case; one pass where
+/// the level is held.
+constexpr double passes_of_waves = 4.0;
 /// Share of its depth by which the level may follow a wave.
 constexpr double most_absorbed = 0.5;
 /// Depths that a long wave goes while the error of a prescribed level is averaged, and so many of these times the level
@@ -97,8 +100,9 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   } else if (celerity > 0.0) {
     const double crossing = end.distance() / celerity;
     state.wet_time += dt;
-    const double longest = end.holds_level() ? end.reach / celerity : memory * crossing;
-    const double window = std::clamp(state.wet_time, crossing, std::max(crossing, longest));
+    const double passes = 1.0 + (passes_of_waves - 1.0) * end.flow.absorbing;
+    const double window = end.holds_level() ? std::max(crossing, passes * end.reach / celerity)
+                                            : std::clamp(state.wet_time, crossing, memory * crossing);
     const double share = 1.0 - std::exp(-dt / window);
     state.mean_speed += share * (speed - state.mean_speed);
     state.mean_discharge += share * (discharge - state.mean_discharge);
@@ -145,8 +149,10 @@ Inflow hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const WaterIns
     return {};
   }
   if (state.is_wet) {
+    // In a wave that leaves, u - 2 sqrt(g h) is what it is beyond.
     const double depth = std::max(head, end.spacing);
-    const double wave = std::sqrt(depth / g) * (state.speed - state.mean_speed);
+    const double change = std::max(state.speed - state.mean_speed, -2.0 * std::sqrt(g * depth));
+    const double wave = (std::sqrt(g * depth) + 0.25 * change) * change / g;
     state.level += end.flow.absorbing * std::clamp(wave, -most_absorbed * depth, most_absorbed * depth);
   }
   const double surface = std::clamp(state.level - end.floor, 0.0, end.height);
