@@ -1,5 +1,6 @@
 #include "flow/measure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/for_each.h"
@@ -24,12 +25,20 @@ struct EnergyAndDensity {
   }
 };
 
-/// Whether particle i is in the bulk: inside the water, solved for or in the buffer of an open end. Before `locate` none
-/// is.
+/// Whether particle i is in the bulk: inside the water, solved for or in the buffer of an open end. Before `locate`
+/// none is.
 template <int Dim>
 bool is_bulk(const Flow<Dim>& flow, std::size_t i) {
-  return i < flow.surroundings.interior.size() && flow.state.particles.is_fluid(i) &&
-         flow.role[i] != Role::stagnant && flow.surroundings.interior[i] > 0.5;
+  return i < flow.surroundings.interior.size() && flow.state.particles.is_fluid(i) && flow.role[i] != Role::stagnant &&
+         flow.surroundings.interior[i] > 0.5;
+}
+
+/// Concentration of a bulk particle less 1. In the buffer of an open end the support ends where the case does, so only
+/// water that is too dense counts there.
+template <int Dim>
+double density_error_of(const Flow<Dim>& flow, std::size_t i) {
+  const double error = flow.surroundings.concentration[i] - 1.0;
+  return is_claimed(flow.role[i]) ? std::max(0.0, error) : error;
 }
 
 template <int Dim>
@@ -82,7 +91,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     if (!particles.is_fluid(i)) return {};
     EnergyAndDensity own{flow.kinetic_energy_of(i), flow.potential_energy_of(i)};
     if (!is_bulk(flow, i)) return own;
-    own.density_error = flow.surroundings.concentration[i] - 1.0;
+    own.density_error = density_error_of(flow, i);
     own.density_error_squared = own.density_error * own.density_error;
     own.bulk_particles = 1;
     return own;
@@ -90,7 +99,7 @@ FlowMeasures measure(const Flow<Dim>& flow) {
   FlowMeasures measures;
   measures.largest_speed = largest_speed_of_rank(flow);
   measures.density_error_largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
-    return is_bulk(flow, i) ? std::abs(flow.surroundings.concentration[i] - 1.0) : 0.0;
+    return is_bulk(flow, i) ? std::abs(density_error_of(flow, i)) : 0.0;
   });
   const Communicator& ranks = flow.setup.ranks;
   ranks.sum_each(sums.kinetic_energy, sums.potential_energy, sums.density_error, sums.density_error_squared,

@@ -19,7 +19,7 @@ constexpr double first_entry = 0.5;
 constexpr double least_entry = 0.25;
 
 /// [dx]; from other water, at which a particle stands at least that comes in where a level is prescribed.
-constexpr double least_distance = 0.7;
+constexpr double closest_entry = 0.7;
 
 /// A particle that comes in.
 template <int Dim>
@@ -111,7 +111,7 @@ void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, c
   }
   flow.setup.ranks.least_of_each(nearest);
   for (std::size_t cell = 0; cell < nearest.size(); ++cell) {
-    if (nearest[cell] < least_distance * end.spacing) of_cell[cell].reset();
+    if (nearest[cell] < closest_entry * end.spacing) of_cell[cell].reset();
   }
 }
 

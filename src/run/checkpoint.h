@@ -14,7 +14,7 @@
 namespace tailwater {
 
 /// The version of the contents of a checkpoint. It grows when they change.
-inline constexpr int checkpoint_format = 18;
+inline constexpr int checkpoint_format = 19;
 
 /// A moment at which particles have just been repartitioned and sorted, so that lists are forgotten and the
 /// state is complete.

@@ -1,13 +1,15 @@
-// Open ends: their warnings, and what they restore.
+// Open ends: their warnings, what they restore, and the inflow from a head.
 #include "open_ends/open_ends.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "case/reader.h"
 #include "io/messages.h"
+#include "open_ends/fibres.h"
 #include "published/make_flow.h"
 
 namespace tailwater {
@@ -43,6 +45,57 @@ TEST(OpenEndsWarning, ReportsAtTheEndWhetherALevelIsHeldAgain) {
   EXPECT_EQ(warning_of({.mean = 0.05, .lasts = 0.0, .since = 1.0, .total = 2.0, .most = 0.4}),
             "at t = 0 s the level at outlet 'end', not held for 2 s and off by 0.4 m at the most, is within a spacing "
             "again");
+}
+
+/// The warnings of a run after which an inlet has passed `passed` [m^3] net of what was prescribed.
+std::string warning_of_discharge(double asked, double passed) {
+  const CaseSpec spec = read_case_text(
+      "particles.spacing = 0.1\ntime.end = 1\n[[wall]]\npoints = [[0, 0], [2, 0], [2, 1]]\n[[fluid]]\nmin = [0, 0]\n"
+      "max = [2, 0.5]\n[[inlet]]\nname = \"in\"\nfrom = [0, 0]\nto = [0, 1]\ndischarge = 0.1\n",
+      "case.toml");
+  Flow<2> flow = make_flow<2>(spec);
+  auto& ends = flow.part<OpenEnds<2>>();
+  Json saved = ends.save();
+  saved["states"][0].update({{"asked", asked}, {"asked_total", std::abs(asked)}, {"depth", 0.5}});
+  saved["states"][0][passed > 0.0 ? "arrived" : "departed"]["volume"] = std::abs(passed);
+  EXPECT_TRUE(ends.restore(saved));
+  const std::size_t before = warnings().size();
+  ends.warn(flow);
+  return warnings().size() > before ? warnings().back() : "";
+}
+
+TEST(OpenEndsWarning, ReportsADischargeThatIsNotDelivered) {
+  EXPECT_EQ(warning_of_discharge(1.0, 0.9), "") << "two columns always wait for room";
+  EXPECT_EQ(warning_of_discharge(-1.0, -0.9), "");
+  EXPECT_NE(warning_of_discharge(1.0, 0.8).find("inlet 'in' brings less water than prescribed"), std::string::npos);
+  EXPECT_NE(warning_of_discharge(-1.0, -0.8).find("inlet 'in' draws less water than prescribed"), std::string::npos);
+  EXPECT_NE(warning_of_discharge(1.0, 1.2).find("inlet 'in' passes more water than prescribed"), std::string::npos);
+  EXPECT_NE(warning_of_discharge(-1.0, -1.2).find("inlet 'in' passes more water than prescribed"), std::string::npos);
+}
+
+/// Bernoulli from the water at rest, and the characteristic that leaves the case.
+TEST(InflowOfHead, HasTheEnergyOfTheHeadAndTheCharacteristicFromInside) {
+  const double g = 9.81;
+  const double head = 0.4;
+  const double still = std::sqrt(g * head);
+  for (const double invariant : {-1.9 * still, -1.5 * still, -1.0 * still}) {
+    const Inflow inflow = inflow_of_head(g, head, invariant);
+    EXPECT_NEAR(inflow.depth + inflow.speed * inflow.speed / (2.0 * g), head, 1e-12);
+    EXPECT_NEAR(inflow.speed - 2.0 * std::sqrt(g * inflow.depth), invariant, 1e-12);
+    EXPECT_NEAR(inflow.froude, inflow.speed / std::sqrt(g * inflow.depth), 1e-12);
+    EXPECT_LE(inflow.froude, 1.0);
+  }
+}
+
+TEST(InflowOfHead, IsCriticalIntoAirAndHydrostaticWhereWaterLeaves) {
+  const double g = 9.81;
+  const Inflow critical = inflow_of_head(g, 0.3, 0.0);
+  EXPECT_NEAR(critical.depth, 0.2, 1e-12);
+  EXPECT_NEAR(critical.froude, 1.0, 1e-12);
+  const Inflow leaving = inflow_of_head(g, 0.3, -3.0 * std::sqrt(g * 0.3));
+  EXPECT_NEAR(leaving.depth, 0.3, 1e-12);
+  EXPECT_EQ(leaving.froude, 0.0);
+  EXPECT_EQ(inflow_of_head(g, -0.1, 0.0).depth, 0.0);
 }
 
 TEST(OpenEnds, StatesOfAnotherNumberOfEndsAreRejected) {
