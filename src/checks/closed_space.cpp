@@ -22,17 +22,30 @@ double inflow_of(const ChannelEnd<Dim>& end, double last) {
   return sum / moments_of_inflow * last * end.width;
 }
 
+/// The water of the start in the cells that are reached, m^Dim. Collective.
+template <int Dim>
+double water_in(const Spread<Dim>& reached, const CellSpace<Dim>& space, const FluidParticles<Dim>& fluid) {
+  std::vector<bool> is_reached(space.count(), false);
+  for (const auto& cell : reached.cells) is_reached[space.index(cell)] = true;
+  double volume = 0.0;
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+    if (is_reached[space.index(space.cell_of(fluid.position[i]))]) volume += fluid.volume[i];
+  }
+  return fluid.ranks.sum(volume);
+}
+
 /// Adds an error if water that enters at an end finds no way out and too little room.
 template <int Dim>
-void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, const Boundary<Dim>& boundary, double last,
-                    Findings& findings) {
+void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, const Boundary<Dim>& boundary,
+                    const FluidParticles<Dim>& fluid, double last, Findings& findings) {
   const Vec<Dim> middle = end.low + 0.5 * (end.height * end.rise + end.width * end.aside);
   const auto start = cell_inside(space, end.opening, middle);
   if (!start) return;
   const Spread<Dim> reached = spread(space, {*start}, Vec<Dim>(Vec<Dim>::Zero()));
   // A cell at a wall counts whole or not at all, so up to half a cell may be missing per side.
   const double room =
-      space.volume() * (static_cast<double>(reached.cells.size()) + 0.5 * static_cast<double>(reached.sides));
+      space.volume() * (static_cast<double>(reached.cells.size()) + 0.5 * static_cast<double>(reached.sides)) -
+      water_in(reached, space, fluid);
   const double inflow = inflow_of(end, last);
   if (reached.way_out || inflow <= room) return;
   std::set<std::string> walls;
@@ -43,7 +56,8 @@ void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, con
     walls.insert(wall_label(boundary, wall).text());
   }
   findings.push_back(Finding::error(
-      {"{} brings {:.3g} by t = {:.6g} s into a space without a way out that holds {:.3g} m^{} at most, closed by {}",
+      {"{} brings {:.3g} by t = {:.6g} s into a space without a way out that has room for {:.3g} m^{} more at most, "
+       "closed by {}",
        end.opening.label(), Amount{inflow, fmt::format("m^{}", Dim)}, last, room, Dim, fmt::join(walls, " and ")},
       {"open it (of a box: open = [...]), give it an outlet, or let less enter"}));
 }
@@ -61,7 +75,7 @@ Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary,
   const CellSpace<Dim> space(spec, faces_with(boundary, feeding), fluid.box(), most_cells_of_case);
   Findings findings;
   for (const ChannelEnd<Dim>& end : ends) {
-    if (end.flow.feeds() && end.circuit < 0) check_space_of(end, space, boundary, spec.time.end, findings);
+    if (end.flow.feeds() && end.circuit < 0) check_space_of(end, space, boundary, fluid, spec.time.end, findings);
   }
   return findings;
 }

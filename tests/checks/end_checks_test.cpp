@@ -104,6 +104,13 @@ TEST(EndChecks, AnInletNeedsASpaceForItsWater) {
   EXPECT_NE(refused.find("inlet 'inlet1' brings 0.3 m^2 by t = 3 s into a space without a way out"), std::string::npos)
       << refused;
   EXPECT_NE(refused.find("closed by wall 'wall1'"), std::string::npos) << refused;
+  CaseSpec half_full = spec;
+  half_full.time.end = 1.5;
+  EXPECT_EQ(errors_of(half_full), "");
+  half_full.fluid.resize(1);
+  half_full.fluid[0].min = {0.0, 0.0};
+  half_full.fluid[0].max = {1.0, 0.1};
+  EXPECT_NE(errors_of(half_full).find("has room for 0.1"), std::string::npos) << errors_of(half_full);
   CaseSpec with_outlet = spec;
   with_outlet.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}}), polyline({{1.0, 0.2}, {0.0, 0.2}})};
   with_outlet.outlets = {outlet({1.0, 0.0}, {1.0, 0.2})};
