@@ -1,72 +1,133 @@
 #!/usr/bin/python3
-"""How open ends hold their level: the table of docs/theory/open_ends.md, section Measured.
+"""Levels at open ends beside shallow-water theory: the tables of docs/theory/open_ends.md, section Measured.
 
-Usage: scripts/level_study.py [NAME ...]   needs build/release/bin/tailwater (scripts/build.sh); all of it takes a minute
+Usage: scripts/level_study.py [--absorbing 0,0.3,1] [--set KEY=VALUE ...] [NAME ...]
+
+Needs build/release/bin/tailwater (scripts/build.sh). All of it takes some ten minutes on one core. The reference is the
+shallow-water equations in one dimension (finite volumes, HLL fluxes) with a level that is held at any instant, and with
+the energy of the head where water comes in.
 """
+import argparse
 import pathlib
 import subprocess
 import sys
 import tempfile
+
+import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "python"))
 from tailwater import tables  # noqa: E402
 
 PROGRAM = ROOT / "build/release/bin/tailwater"
-CHANNEL = ROOT / "cases/flume/channel.toml"
-RISE = '"0.4 + 0.3*min(1, t/3)"'
-RISE_OF_BASIN = '"0.5 + 0.3*min(1, t/5)"'
+G = 9.81
+CELLS = 200
 
 
-def tank(length, depth, level, end, side="outlet", spacing=0.05, top=1.0, scheme=""):
-    """A 2D tank with one open end, or (without water) a channel from a reservoir to a free brink."""
-    left = side == "inlet"
-    walls = [[0, 0], [length, 0]]
-    if depth:
-        walls = walls + [[length, 1.5]] if left else [[0, 1.5]] + walls
-    x = 0 if left else length
-    water = f"[[fluid]]\nmin = [0, 0]\nmax = [{length}, {depth}]\n" if depth else ""
-    brink = "" if depth else f"[[outlet]]\nfrom = [{length}, 0]\nto = [{length}, {top}]\nlevel = 0.0\n"
-    return (f"[particles]\nspacing = {spacing}\n[time]\nend = {end}\n{scheme}{water}[[wall]]\npoints = {walls}\n"
-            f'fluid_side = "left"\n[[{side}]]\nfrom = [{x}, 0]\nto = [{x}, {top}]\nlevel = {level}\n{brink}'
-            f'[[probe]]\nname = "depth"\ntype = "depth"\nat = [{length / 2}, 0]\n'
-            f'[[probe]]\nname = "discharge"\ntype = "discharge"\nfrom = [{length / 2}, 0]\nto = [{length / 2}, {top}]\n')
+def state_at_level(head, outgoing):
+    """Depth and speed out at an end with a head above its bed, where the characteristic u + 2c leaves the case."""
+    still = np.sqrt(G * max(head, 0.0))
+    critical = np.sqrt(2 / 3) * still
+    if outgoing >= 2 * still:
+        c = max(still, outgoing / 3)  # at most critical
+    elif outgoing <= critical:
+        return critical**2 / G, -critical
+    else:
+        c = (outgoing + np.sqrt(3 * still**2 - outgoing**2 / 2)) / 3
+    return c * c / G, outgoing - 2 * c
 
 
-TWO_STEP = '[scheme]\nname = "farmani2020"\n'
-IMPLICIT = '[scheme]\nintegrator = "implicit"\n'
-CASES = {  # what it is, the case, options, the probe, the times [s] at which it is shown
-    "filling tank": (tank(1, 0.5, 0.9, 40), [], "depth", (4, 10, 20, 40)),
-    "basin": (tank(2, 0.5, RISE_OF_BASIN, 20, "inlet"), [], "depth", (5, 6, 7, 9, 20)),
-    "rising tailwater": (tank(1, 0.4, RISE, 7), [], "depth", (1, 2, 3, 4, 7)),
-    "rising tailwater, implicit": (tank(1, 0.4, RISE, 7, scheme=IMPLICIT), [], "depth", (1, 2, 3, 4, 7)),
-    "rising tailwater, two-step": (tank(1, 0.4, RISE, 7, scheme=TWO_STEP), [], "depth", (1, 2, 3, 4, 7)),
-    "rising tailwater, H/16": (tank(1, 0.4, RISE, 7, spacing=0.025), [], "depth", (1, 2, 3, 4, 7)),
-    "falling tailwater": (tank(1, 0.7, '"0.7 - 0.4*min(1, t/4)"', 8), [], "depth", (1, 2, 4, 6, 8)),
-    "still tank": (tank(1, 0.5, 0.5, 10), [], "depth", (1, 5, 10)),
-    "reservoir": (tank(3, 0, 0.4, 12, "inlet", 0.04), [], "discharge", (6, 9, 12)),
-    "discharge ends": (None, ["particles.spacing=H/8", "time.end=30", "inlet[0].discharge=q*max(0, 1 - t/5)"],
-                       "depth_downstream", (3, 6, 10, 15, 20, 29)),
-    "even flow, depth": (None, ["particles.spacing=H/8"], "depth_downstream", (2, 5, 9)),
-    "even flow, discharge": (None, ["particles.spacing=H/8"], "discharge", (2, 5, 9)),
+def depth_at_discharge(discharge, incoming):
+    """Depth at an end where a discharge comes in and the characteristic u - 2c arrives."""
+    low, high = 1e-6, 10.0
+    for _ in range(60):
+        h = (low + high) / 2
+        low, high = (h, high) if discharge / h - 2 * np.sqrt(G * h) > incoming else (low, h)
+    return h
+
+
+def shallow_water(length, depth, level, end, speed=0.0, inflow=None):
+    """Times, depth of all cells over time. On the left a wall, or a discharge that comes in; on the right a level."""
+    dx = length / CELLS
+    h, t = np.full(CELLS, float(depth)), 0.0
+    q = h * speed
+    times, depths = [], []
+    while t < end:
+        u, c = q / h, np.sqrt(G * h)
+        dt = 0.45 * dx / np.max(np.abs(u) + c)
+        right, left = [h[:-1], q[:-1]], [h[1:], q[1:]]
+        slow = np.minimum(np.minimum(u[:-1] - c[:-1], u[1:] - c[1:]), 0)
+        fast = np.maximum(np.maximum(u[:-1] + c[:-1], u[1:] + c[1:]), 0)
+
+        def flux(water):
+            return [water[1], water[1]**2 / water[0] + G * water[0]**2 / 2]
+        faces = [np.zeros(CELLS + 1), np.zeros(CELLS + 1)]
+        for k in range(2):
+            faces[k][1:-1] = (fast * flux(right)[k] - slow * flux(left)[k] + slow * fast * (left[k] - right[k])) / (fast - slow)
+        h_end, u_end = (h[-1], u[-1]) if u[-1] > c[-1] else state_at_level(level(t + dt / 2), u[-1] + 2 * c[-1])
+        q_in = inflow(t + dt / 2) if inflow else 0.0
+        h_in = depth_at_discharge(q_in, u[0] - 2 * c[0])
+        for k, (first, last) in enumerate(zip(flux((h_in, q_in)), flux((h_end, h_end * u_end)))):
+            faces[k][0], faces[k][-1] = first, last
+        h = np.maximum(h - dt / dx * np.diff(faces[0]), 1e-3)
+        q = q - dt / dx * np.diff(faces[1])
+        t += dt
+        times.append(t)
+        depths.append(h)
+    return np.array(times), np.array(depths)
+
+
+def case(length, depth, level, end, spacing=0.05, top=1.0, speed=0.0, inflow=None):
+    """A 2D tank or channel: a level on the right; on the left a wall, or a discharge."""
+    walls = [[0, 0], [length, 0]] if inflow else [[0, 1.5], [0, 0], [length, 0]]
+    fed = f'[[inlet]]\nfrom = [0, 0]\nto = [0, {top}]\ndischarge = "{inflow}"\n' if inflow else ""
+    return (f"[particles]\nspacing = {spacing}\n[time]\nend = {end}\n[[fluid]]\nmin = [0, 0]\nmax = [{length}, {depth}]\n"
+            f'velocity = [{speed}, 0]\n[[wall]]\npoints = {walls}\nfluid_side = "left"\n{fed}'
+            f'[[outlet]]\nname = "end"\nfrom = [{length}, 0]\nto = [{length}, {top}]\nlevel = "{level}"\nabsorbing = ABSORBING\n'
+            f'[[probe]]\nname = "depth"\ntype = "depth"\nat = [{length / 2}, 0]\ninterval = 0.02\n')
+
+
+def formula(text):
+    return lambda t: eval(text, {"t": t, "min": min, "max": max, "sin": np.sin, "pi": np.pi})
+
+
+# name: length, depth, level, end, times at which the depth is shown, other arguments
+TRANSIENTS = {
+    "drain": (4, 0.8, "0.3", 25, (3, 5, 10, 15, 20), dict(top=1.2)),
+    "rise": (1, 0.4, "0.4 + 0.3*min(1, t/3)", 8, (1, 2, 3, 5, 7), {}),
+    "fall": (1, 0.7, "0.7 - 0.4*min(1, t/4)", 8, (2, 4, 6, 7), {}),
+    "tide": (4, 0.4, "0.4 + 0.1*sin(2*pi*t/10)", 25, (12, 15, 20, 24), dict(spacing=0.04)),
+    "discharge ends": (3, 0.2, "0.2", 25, (3, 6, 10, 15, 24), dict(spacing=0.025, top=0.4, speed=0.55, inflow="0.11*max(0, 1 - t/5)")),
+    "rising sea": (2, 0.2, "0.2 + 0.008*min(max(0, t - 1), 5)", 8, (3, 5, 7), dict(spacing=0.02, top=0.4, speed=0.1, inflow="0.02")),
+    "even flow": (3, 0.2, "0.2", 12, (3, 6, 11), dict(spacing=0.025, top=0.4, speed=0.55, inflow="0.11")),
+    "still": (1, 0.5, "0.5", 10, (1, 5, 9), {}),
 }
 
 
 def main():
-    print("| case | mean over 0.5 s around a time | least, largest | mean of the second half |")
-    print("| --- | --- | --- | --- |")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--absorbing", default="0,0.3,1")
+    parser.add_argument("--set", action="append", default=[], dest="settings")
+    parser.add_argument("names", nargs="*")
+    arguments = parser.parse_args()
+    print("depth in the middle, m; means over 0.5 s")
     with tempfile.TemporaryDirectory() as folder:
-        for name, (case, settings, probe, times) in CASES.items():
-            if sys.argv[1:] and name not in sys.argv[1:]:
+        for name, (length, depth, level, end, shown, other) in TRANSIENTS.items():
+            if arguments.names and name not in arguments.names:
                 continue
-            path = pathlib.Path(folder) / "case.toml"
-            path.write_text(case or CHANNEL.read_text())
-            options = [part for setting in settings for part in ("--set", setting)]
-            subprocess.run([PROGRAM, "run", path, "--out", f"{folder}/run", "--force", "--quiet", "-n", "1", *options], check=True)
-            values = tables.frame(f"{folder}/run/probes/{probe}.csv").iloc[:, 0]
-            shown = ", ".join(f"{values[t - 0.25:t + 0.25].mean():.3f} at {t} s" for t in times)
-            second_half = values[values.index[-1] / 2:].mean()
-            print(f"| {name} | {shown} | {values.min():.3f}, {values.max():.3f} | {second_half:.5f} |", flush=True)
+            inflow = other.get("inflow")
+            times, depths = shallow_water(length, depth, formula(level), end, other.get("speed", 0.0), inflow and formula(inflow))
+            middle = depths[:, CELLS // 2]
+            means = [middle[abs(times - t) < 0.25].mean() for t in shown]
+            print(f"{name} at t = {shown} s\n  shallow water  ", " ".join(f"{h:.3f}" for h in means), f" lowest {middle.min():.3f}, highest {middle.max():.3f}", flush=True)
+            for absorbing in arguments.absorbing.split(","):
+                path = pathlib.Path(folder) / "case.toml"
+                path.write_text(case(length, depth, level, end, **other).replace("ABSORBING", absorbing))
+                options = [part for setting in arguments.settings for part in ("--set", setting)]
+                subprocess.run([PROGRAM, "run", path, "--out", f"{folder}/run", "--force", "--quiet", "-n", "1", *options], check=True)
+                values = tables.frame(f"{folder}/run/probes/depth.csv").iloc[:, 0]
+                means = [values[t - 0.25:t + 0.25].mean() for t in shown]
+                print(f"  absorbing {absorbing:5}", " ".join(f"{h:.3f}" for h in means), f" lowest {values.min():.3f}, highest {values.max():.3f}", flush=True)
 
 
 if __name__ == "__main__":
