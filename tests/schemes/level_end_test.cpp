@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "case/formulation.h"
+#include "case/reader.h"
 #include "published/make_flow.h"
 #include "schemes/open_ends.h"
 
@@ -316,6 +318,41 @@ TEST(OpenEnd, LayersPassInOppositeDirections) {
   for (const std::size_t end : {0, 1}) {
     EXPECT_NEAR(arrived_at(flow, end).volume / layer, 0.8, 0.25) << "end " << end;
     EXPECT_NEAR(state_of_end(flow, end).departed.volume / layer, 0.8, 0.25) << "end " << end;
+  }
+}
+
+/// A tank behind a pipe or a shaft that is full, below the level beyond: it comes to that level, from above or below,
+/// wherever the opening is.
+TEST(OpenEnd, ATankComesToTheLevelBeyondAFullSection) {
+  const std::string pipe =
+      "[[wall]]\npoints = [[0, 1], [0, 0], [1.1, 0]]\n[[wall]]\npoints = [[1.1, 0.2], [0.6, 0.2], [0.6, 1]]\n"
+      "[[fluid]]\nmin = [0.6, 0]\nmax = [1.1, 0.2]\n"
+      "[[outlet]]\nfrom = [1.1, 0]\nto = [1.1, 0.2]\nlevel = 0.4\n";
+  const std::string shaft =
+      "[[wall]]\npoints = [[0, 1], [0, 0], [0.2, 0], [0.2, -0.5]]\n[[wall]]\npoints = [[0.4, -0.5], [0.4, 0], [0.6, "
+      "0], "
+      "[0.6, 1]]\n[[fluid]]\nmin = [0.2, -0.5]\nmax = [0.4, 0]\n"
+      "[[outlet]]\nfrom = [0.2, -0.5]\nto = [0.4, -0.5]\ndirection = [0, -1]\nlevel = 0.4\n";
+  for (const std::string& way : {pipe, shaft}) {
+    for (const double depth : {0.3, 0.5}) {
+      const std::string start_of_case =
+          fmt::format("particles.spacing = 0.05\ntime.end = 9\n[[fluid]]\nmin = [0, 0]\nmax = [0.6, {}]\n", depth);
+      Flow<2> flow = make_flow<2>(read_case_text(start_of_case + way, "case.toml"));
+      start(flow);
+      double mean = 0.0;
+      int count = 0;
+      while (flow.state.time < 6.0) {
+        pass_and_step(flow);
+        if (flow.state.time < 3.0) continue;
+        const Particles<2>& particles = flow.state.particles;
+        for (std::size_t i = 0; i < particles.owned; ++i) {
+          const Vec<2>& x = particles.position[i];
+          if (particles.is_fluid(i) && x[0] < 0.6 && x[1] > 0.0) mean += particles.volume[i] / 0.6;
+        }
+        ++count;
+      }
+      EXPECT_NEAR(mean / count, 0.4, dx) << way << " depth " << depth;
+    }
   }
 }
 
