@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -20,6 +22,8 @@
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/preview.h"
+#include "geometry/from_spec.h"
+#include "geometry/opening.h"
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "linear/session.h"
@@ -108,6 +112,17 @@ void show_bad_places(const CaseSpec& spec, const CheckOptions& options, const Fi
   }
 }
 
+/// Of openings that the case does not draw as a rectangle.
+void print_sections(const CaseSpec& spec) {
+  for (const Opening<3>& end : make_open_ends<3>(spec)) {
+    if (end.outline.corners().empty()) continue;
+    const std::vector<Vec<3>> rim = end.rim();
+    const auto lowest = std::ranges::min_element(rim, {}, [](const Vec<3>& x) { return x[2]; });
+    fmt::print("section:   {}: {:.4g} m^2, {:.4g} m wide, lowest at {}\n", end.label(),
+               std::abs(signed_area(end.outline.corners())), end.edges[0].norm(), place(*lowest).text());
+  }
+}
+
 template <int Dim>
 void check_in(const CaseSpec& spec, const CheckOptions& options) {
   try {
@@ -135,9 +150,11 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
       !estimate.is_from_tank ? "the case"
       : estimate.grows_much ? "a tank of about 10000 particles, because most of the water comes in later: a first guess"
                             : "a tank of about 10000 particles, because the case is large: a first guess");
+  if constexpr (Dim == 3) print_sections(spec);
   if (options.draws_nothing) return;
-  const auto fluid = make_fluid_particles(spec, flow.walls.boundary, {}, 0, StartVelocities::left_out);
-  write_previews<Dim>(spec, options, flow.walls.boundary, fluid, flow.walls.particles);
+  const Boundary<Dim> drawn = make_boundary<Dim>(spec);
+  const auto fluid = make_fluid_particles(spec, drawn, {}, 0, StartVelocities::left_out);
+  write_previews<Dim>(spec, options, drawn, fluid, flow.walls.particles);
 }
 
 void check_case(const CheckOptions& options) {

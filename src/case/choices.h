@@ -39,6 +39,10 @@ enum class Slip { free, no_slip, partial };
 template <>
 inline constexpr auto choices<Slip> = std::to_array<std::string_view>({"free", "no-slip", "partial"});
 
+enum class Beyond { channel, air };
+template <>
+inline constexpr auto choices<Beyond> = std::to_array<std::string_view>({"channel", "air"});
+
 enum class Turbulence { none, spalart_allmaras };
 template <>
 inline constexpr auto choices<Turbulence> = std::to_array<std::string_view>({"none", "spalart-allmaras"});

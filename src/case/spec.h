@@ -576,18 +576,6 @@ struct PorousTable : PlacedFile {
 /// reflection, and the level lags by a third of what a fully absorbing end lags by (docs/theory/open_ends.md).
 inline constexpr double default_absorbing = 0.3;
 
-/// Keys that the open ends of both kinds have, and a discharge probe in part.
-template <class Self, class Visitor>
-void describe_opening(Self& self, Visitor& v) {
-  v.coordinates(
-      "from", self.from, "m",
-      "Start of the open end, on the bed: one end of a segment (2D), a corner of a flat axis-parallel rectangle (3D)",
-      Presence::required);
-  v.coordinates("to", self.to, "m",
-                "Other end of the segment, above the highest water to be expected (2D); the opposite corner (3D)",
-                Presence::required);
-}
-
 template <class Self, class Visitor>
 void describe_absorbing(Self& self, Visitor& v) {
   v.number("absorbing", self.absorbing, "", Range::between(0.0, 1.0),
@@ -595,11 +583,38 @@ void describe_absorbing(Self& self, Visitor& v) {
            "wave passes through the case and lets waves out");
 }
 
-struct InletTable {
-  std::string name;
+/// The section of an inlet or outlet: a segment in 2D; in 3D a rectangle, a polygon, a disc, or what the walls leave
+/// open of a plane.
+struct Section {
   Coordinates from;
   Coordinates to;
   Coordinates direction;
+  std::vector<Coordinates> polygon;
+  Coordinates centre;
+  double radius = 0.0;
+  Coordinates through;
+
+  bool operator==(const Section&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.coordinates("from", self.from, "m",
+                  "Start of the opening, on the bed: one end of a segment (2D), a corner of a flat axis-parallel "
+                  "rectangle (3D)");
+    v.coordinates("to", self.to, "m",
+                  "Other end of the segment, above the highest water to be expected (2D); the opposite corner (3D)");
+    v.points("polygon", self.polygon, "m", "In 3D, instead of from and to: corners of a flat polygon, in order");
+    v.coordinates("centre", self.centre, "m",
+                  "In 3D, instead of from and to: centre of a disc at right angles to direction");
+    v.number("radius", self.radius, "m", Range::at_least(0.0), "With centre: radius of the disc");
+    v.coordinates("through", self.through, "m",
+                  "In 3D, instead of from and to: a point; the opening is what the walls leave open around it of the "
+                  "plane at right angles to direction. Where they are open above, it ends at the height of the point");
+  }
+};
+
+struct InletTable : Section {
+  std::string name;
   std::optional<Varying> discharge;
   std::optional<Varying> velocity;
   std::optional<Varying> level;
@@ -617,9 +632,11 @@ struct InletTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and in summary.json (default: inlet1, inlet2, ...)");
-    describe_opening(self, v);
-    v.coordinates("direction", self.direction, "",
-                  "Rough direction in which the water enters; it tells the two sides apart (default: +x)");
+    Section::describe(self, v);
+    v.coordinates(
+        "direction", self.direction, "",
+        "Direction in which the water enters; a rough one with from and to, where it tells the two sides apart "
+        "(default: +x)");
     v.varying("discharge", self.discharge, Variables::time, "m^3/s",
               "Discharge that enters; in 2D m^3/s per metre of width; below 0 it is taken out");
     v.varying("velocity", self.velocity, Variables::time, "m/s",
@@ -646,11 +663,9 @@ struct InletTable {
   }
 };
 
-struct OutletTable {
+struct OutletTable : Section {
   std::string name;
-  Coordinates from;
-  Coordinates to;
-  Coordinates direction;
+  Beyond beyond = Beyond::channel;
   std::optional<Varying> level;
   double absorbing = default_absorbing;
   std::string file;
@@ -663,13 +678,18 @@ struct OutletTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and in summary.json (default: outlet1, outlet2, ...)");
-    describe_opening(self, v);
-    v.coordinates("direction", self.direction, "",
-                  "Rough direction in which the water leaves; it tells the two sides apart (default: +x)");
+    Section::describe(self, v);
+    v.coordinates(
+        "direction", self.direction, "",
+        "Direction in which the water leaves; a rough one with from and to, where it tells the two sides apart "
+        "(default: +x)");
+    v.choice("beyond", self.beyond,
+             "Without a level: a channel that goes on, or air, as below a hole or a brink, which the water enters as a "
+             "free jet");
     v.varying(
         "level", self.level, Variables::level, "m",
-        "Level of the tailwater, as a coordinate; water then comes back when it is low inside (default: the "
-        "channel goes on). An expression of q, the discharge that leaves in m^3/s (in 2D per metre of width), is a "
+        "Level of the tailwater, as a coordinate; water then comes back when it is low inside (default: what beyond "
+        "says). An expression of q, the discharge that leaves in m^3/s (in 2D per metre of width), is a "
         "stage-discharge relation, such as 0.3 + 0.5*q^(2/3)");
     describe_absorbing(self, v);
     v.text("file", self.file,

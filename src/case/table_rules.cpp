@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "case/formulation.h"
 #include "case/key_rules.h"
@@ -196,9 +198,47 @@ void check(const WallTable& wall, TableReader& reader) {
   }
 }
 
+namespace {
+
+/// An opening has one section, drawn in one way.
+void check_section(const Section& section, TableReader& reader) {
+  check_direction(section.direction, reader);
+  check_ends(section.from, section.to, reader);
+  const std::pair<std::string_view, bool> ways[] = {{"from", !section.from.empty() || !section.to.empty()},
+                                                    {"polygon", !section.polygon.empty()},
+                                                    {"centre", !section.centre.empty()},
+                                                    {"through", !section.through.empty()}};
+  std::vector<std::string_view> given;
+  for (const auto& [key, is_given] : ways) {
+    if (!is_given && !reader.is_wrong(key)) continue;
+    given.push_back(key);
+    if (key != "from" && reader.dimension() == 2 && !reader.is_wrong(key)) {
+      reader.wrong(key, "exists in three dimensions only; give from and to, the ends of a segment");
+    }
+  }
+  if (given.size() > 1 && !reader.is_wrong(given[1])) {
+    reader.wrong(given[1], "is a second section beside {}; remove one of the two", given[0]);
+  }
+  const bool has_ends = given.empty() || given[0] == "from";
+  if (has_ends && section.from.empty() && !reader.is_wrong("from")) {
+    reader.missing("from", "say where the opening starts");
+  }
+  if (has_ends && section.to.empty() && !reader.is_wrong("to")) reader.missing("to", "say where the opening ends");
+  if (!section.polygon.empty() && section.polygon.size() < 3 && !reader.is_wrong("polygon")) {
+    reader.wrong("polygon", "has {} corners; give three or more", section.polygon.size());
+  }
+  if (!section.centre.empty() && section.radius == 0.0 && !reader.is_wrong("radius")) {
+    reader.missing("radius", "say how large the disc around centre is");
+  }
+  if (section.radius > 0.0 && section.centre.empty() && !reader.is_wrong("radius")) {
+    reader.wrong("radius", "is that of a disc; give its centre as well");
+  }
+}
+
+}  // namespace
+
 void check(const InletTable& inlet, TableReader& reader) {
-  check_direction(inlet.direction, reader);
-  check_ends(inlet.from, inlet.to, reader);
+  check_section(inlet, reader);
   if (inlet.reserve > 0.0 && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
     reader.wrong("reserve",
                  "is water that waits to circulate; say with water_from which outlet's water enters, or remove it");
@@ -206,8 +246,10 @@ void check(const InletTable& inlet, TableReader& reader) {
 }
 
 void check(const OutletTable& outlet, TableReader& reader) {
-  check_direction(outlet.direction, reader);
-  check_ends(outlet.from, outlet.to, reader);
+  check_section(outlet, reader);
+  if (outlet.beyond == Beyond::air && may_bring_water(outlet) && !reader.is_wrong("beyond")) {
+    reader.wrong("beyond", "is air, in which no level stands; remove it, or the level");
+  }
 }
 
 namespace {

@@ -62,14 +62,41 @@ Json rules_of_walls() {
   });
 }
 
-Json rules_of_inlets() {
+/// An opening has one section, drawn in one way.
+Json rules_of_openings() {
   return Json::array({
+      has_length(),
+      any_is_given({"from", "polygon", "centre", "through"}),
+      if_then(is_given("from"), is_given("to")),
+      if_then(is_given("to"), is_given("from")),
+      if_then(is_given("centre"), is_given("radius")),
+      if_then(is_given("radius"), is_given("centre")),
+      not_both("from", "polygon"),
+      not_both("from", "centre"),
+      not_both("from", "through"),
+      not_both("polygon", "centre"),
+      not_both("polygon", "through"),
+      not_both("centre", "through"),
+      rule_for("polygon", {{"not", {{"minItems", 1}, {"maxItems", 2}}}}),
+  });
+}
+
+Json rules_of_inlets() {
+  Json rules = rules_of_openings();
+  const Json own = Json::array({
       any_is_given({"discharge", "velocity", "level", "file"}),
       not_both("discharge", "velocity"),
       if_then(is_given("profile"), any_is_given({"discharge", "velocity", "file"})),
       if_then(is_given("reserve"), is_given("water_from")),
-      has_length(),
   });
+  rules.insert(rules.end(), own.begin(), own.end());
+  return rules;
+}
+
+Json rules_of_outlets() {
+  Json rules = rules_of_openings();
+  rules.push_back(if_then(is("beyond", {"air"}), {{"not", any_is_given({"level", "file"})}}));
+  return rules;
 }
 
 Json rules_of_wave_makers() {
@@ -122,7 +149,7 @@ Json table_rules_of_schema(std::string_view table) {
   }
   if (table == "wall") return rules_of_walls();
   if (table == "inlet") return rules_of_inlets();
-  if (table == "outlet") return Json::array({has_length()});
+  if (table == "outlet") return rules_of_outlets();
   if (table == "wave_maker") return rules_of_wave_makers();
   if (table == "body") return rules_of_bodies();
   if (table == "mooring") {
@@ -163,7 +190,11 @@ Json dimension_rules_of_schema(int dimension) {
     Json wall = each("shape", none_of({"mesh"}));
     wall["items"]["properties"]["open"] = {{"items", in_plane}};
     wall["items"]["properties"]["axis"] = {{"items", {{"minimum", 0}, {"maximum", 0}}}};
+    Json segment;
+    for (const char* key : {"polygon", "centre", "through"}) segment["items"]["properties"][key] = {{"maxItems", 0}};
     return {{"fluid", each("shape", none_of({"mesh"}))},
+            {"inlet", segment},
+            {"outlet", segment},
             {"wall", std::move(wall)},
             {"gate", each("side", in_plane)},
             {"wave_maker", each("side", in_plane)},

@@ -39,7 +39,7 @@ template <int Dim>
 void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, const Boundary<Dim>& boundary,
                     const FluidParticles<Dim>& fluid, double last, Findings& findings) {
   const Vec<Dim> middle = end.low + 0.5 * (end.height * end.rise + end.width * end.aside);
-  const auto start = cell_inside(space, end.opening, middle);
+  const auto start = cell_inside(space, end.mouth, end.on_mouth(middle));
   if (!start) return;
   const Spread<Dim> reached = spread(space, {*start}, Vec<Dim>(Vec<Dim>::Zero()));
   // A cell at a wall counts whole or not at all, so up to half a cell may be missing per side.
@@ -69,7 +69,7 @@ Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary,
   const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
   std::vector<Opening<Dim>> feeding;  // what leaves the other ends leaves the space
   for (const ChannelEnd<Dim>& end : ends) {
-    if (end.flow.feeds()) feeding.push_back(end.opening);
+    if (end.flow.feeds()) feeding.push_back(end.mouth);
   }
   if (feeding.empty()) return {};
   const CellSpace<Dim> space(spec, faces_with(boundary, feeding), fluid.box(), most_cells_of_case);

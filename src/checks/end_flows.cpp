@@ -19,16 +19,25 @@ constexpr double most_froude = 20.0;
 constexpr const char* unit_hint =
     "a discharge is in m^3/s, in 2D per metre of width (1 l/s is 0.001), a velocity in m/s";
 
+/// s; in which a wave crosses the end of the channel. Without gravity there are no waves, and nothing is too fast.
+template <int Dim>
+double time_of_crossing(const CaseSpec& spec, const ChannelEnd<Dim>& end) {
+  const double gravity = end.gravity > 0.0 ? end.gravity : gravity_of<Dim>(spec).norm();
+  if (gravity == 0.0) return 0.0;
+  return (traits_of(spec).support + 1.0) * spec.particles.spacing / std::sqrt(gravity * end.height);
+}
+
 /// Looks at what is prescribed at one open end, over the run.
 template <int Dim>
 class EndFlowCheck {
  public:
   EndFlowCheck(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end)
       : end_(end),
+        full_gravity_(gravity_of<Dim>(spec)),
         label_(end.opening.label()),
         dx_(spec.particles.spacing),
         last_(spec.time.end),
-        crossing_((traits_of(spec).support + 1.0) * dx_ / std::sqrt(std::max(end.gravity * end.height, 1e-30))),
+        crossing_(time_of_crossing(spec, end)),
         has_lid_(std::abs(boundary.nearest(top(), std::numeric_limits<double>::infinity()).signed_distance) <=
                  rim_on_wall * dx_) {}
 
@@ -47,11 +56,13 @@ class EndFlowCheck {
     findings_.push_back(Finding::error(std::move(problem), std::move(remedy)));
   }
 
-  Vec<Dim> top() const { return end_.low + end_.height * end_.rise + 0.5 * end_.width * end_.aside; }
+  Vec<Dim> top() const {
+    return end_.on_mouth(Vec<Dim>(end_.low + end_.height * end_.rise + 0.5 * end_.width * end_.aside));
+  }
 
   void look_at_gravity() {
-    if (end_.flow.level && end_.gravity == 0.0) {
-      error({"{} needs gravity along the opening, which has none there", label_.with_key("level")},
+    if (end_.flow.level && full_gravity_.isZero(0.0)) {
+      error({"{} needs gravity, which the case does not have", label_.with_key("level")},
             {"give a discharge or a velocity instead"});
     } else if (end_.gravity > 0.0 && end_.up.dot(end_.rise) < least_cosine) {
       error({"{}: gravity is oblique to its edges, so it has no bed", label_},
@@ -60,7 +71,9 @@ class EndFlowCheck {
   }
 
   /// The number of equal parts of the run at whose ends a quantity is looked at.
-  int samples() const { return static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, most_moments)); }
+  int samples() const {
+    return crossing_ > 0.0 ? static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, most_moments)) : 100;
+  }
 
   void look_at_values(const char* key, const char* unit, const std::optional<TimeFunction>& quantity) {
     if (!quantity) return;
@@ -134,15 +147,21 @@ class EndFlowCheck {
         {"use a smaller spacing"}));
   }
 
+  /// m; height of the lowest point of the opening
+  double floor() const {
+    if (end_.gravity > 0.0) return end_.floor;
+    return -full_gravity_.normalized().dot(end_.mouth.corner);  // a level one
+  }
+
   void look_at_level(double time, double level) {
-    if (level < end_.floor) {
+    if (level < floor()) {
       error({"{} = {:.6g} at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are heights above "
              "the origin, not depths",
-             label_.with_key("level"), Amount{level, "m"}, time, end_.floor},
+             label_.with_key("level"), Amount{level, "m"}, time, floor()},
             {"give one above the bed there"});
-    } else if (level > end_.floor + end_.height) {
-      error({"{} = {:.6g} at t = {:.6g} s is above the top of the opening, {:.6g} m", label_.with_key("level"),
-             Amount{level, "m"}, time, end_.floor + end_.height},
+    } else if (end_.gravity > 0.0 && level > end_.floor + end_.height && !has_lid_) {
+      error({"{} = {:.6g} at t = {:.6g} s is above the top of the opening, {:.6g} m, where no wall is",
+             label_.with_key("level"), Amount{level, "m"}, time, end_.floor + end_.height},
             {"make the opening and the walls beside it higher, or lower the level"});
     }
   }
@@ -163,6 +182,7 @@ class EndFlowCheck {
   }
 
   const ChannelEnd<Dim>& end_;
+  Vec<Dim> full_gravity_;  ///< m/s^2
   CaseLabel label_;
   double dx_, last_;
   double crossing_;  ///< s; of a wave, of the end stretch

@@ -53,10 +53,13 @@ void add_cells_at_ends(const CaseSpec& spec, const CellSpace<Dim>& space,
   const double step = space.edge();
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     if (end.largest_depth(spec.time.end) <= 0.0) continue;
-    const Vec<Dim> above_floor = end.low + 0.5 * std::min(step, end.height) * end.rise;
     for (double aside = 0.5 * std::min(step, end.width); aside < end.width; aside += step) {
-      const auto inside = cell_inside(space, end.opening, Vec<Dim>(above_floor + aside * end.aside));
-      if (inside) cells.push_back(*inside);
+      for (double above = 0.5 * std::min(step, end.height); above < end.height; above += step) {
+        const Vec<Dim> place = end.on_mouth(Vec<Dim>(end.low + above * end.rise + aside * end.aside));
+        if (!end.mouth.spans(place)) continue;  // below the bed
+        if (const auto inside = cell_inside(space, end.mouth, place)) cells.push_back(*inside);
+        break;
+      }
     }
   }
 }

@@ -2,19 +2,17 @@
 #include <cmath>
 #include <limits>
 
-#include "case/formulation.h"
 #include "checks/checks.h"
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
-#include "geometry/opening.h"
+#include "motion/channel_end.h"
 #include "parallel/at_start.h"
 
 namespace tailwater {
 namespace {
 
-constexpr double rim_tolerance = 0.1;    // dx, between an opening's rim and the walls
 constexpr double wall_clearance = 0.25;  // dx, between walls and the path of the water
-constexpr double least_flush = 0.9;      // cosine of the slope of a wall that leads to a hole in the floor
-constexpr double least_downward = 0.9;   // cosine between gravity and the way out through a floor
+constexpr double least_flush = 0.9;      // cosine between an opening's normal and that of the wall that it is cut into
 
 /// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
 template <int Dim>
@@ -25,45 +23,70 @@ std::vector<Vec<Dim>> points_along(const Vec<Dim>& first, const Vec<Dim>& last, 
   return points;
 }
 
-/// Points at most dx apart on the rim of an opening, without its top, which may be open to the air.
+/// Points at most dx apart on the whole rim of an opening.
 template <int Dim>
-std::vector<Vec<Dim>> closed_rim(const Opening<Dim>& end, const Vec<Dim>& gravity, double dx) {
+std::vector<Vec<Dim>> whole_rim(const Opening<Dim>& end, double dx) {
+  const std::vector<Vec<Dim>> corners = end.rim();
+  if constexpr (Dim == 2) return corners;
   std::vector<Vec<Dim>> rim;
-  if constexpr (Dim == 2) {
-    rim = {end.corner, end.corner + end.edges[0]};
-  } else {
-    for (int k = 0; k < 2; ++k) {
-      for (const Vec<3>& start : {end.corner, Vec<3>(end.corner + end.edges[1 - k])}) {
-        const std::vector<Vec<3>> side = points_along<3>(start, start + end.edges[k], dx);
-        rim.insert(rim.end(), side.begin(), side.end());
-      }
-    }
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const std::vector<Vec<Dim>> side = points_along<Dim>(corners[k], corners[(k + 1) % corners.size()], dx);
+    rim.insert(rim.end(), side.begin(), side.end());
   }
+  return rim;
+}
+
+/// The same without its top, which may be open to the air, and without what lies in a periodic plane.
+template <int Dim>
+std::vector<Vec<Dim>> closed_rim(const CaseSpec& spec, const Opening<Dim>& end) {
+  const double dx = spec.particles.spacing;
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  std::vector<Vec<Dim>> rim = whole_rim(end, dx);
   const auto depth_of = [&](const Vec<Dim>& x) { return gravity.dot(x); };
   const auto [top, bottom] = std::minmax_element(
       rim.begin(), rim.end(), [&](const Vec<Dim>& a, const Vec<Dim>& b) { return depth_of(a) < depth_of(b); });
   const double open_above = depth_of(*top) + corner_tolerance * dx * gravity.norm();
   if (depth_of(*bottom) > open_above) std::erase_if(rim, [&](const Vec<Dim>& x) { return depth_of(x) <= open_above; });
+  std::erase_if(rim, [&](const Vec<Dim>& x) { return is_in_periodic_plane(spec, x); });
   return rim;
 }
 
-/// Places in an opening and in front of it, up to `depth` (m) inside, dx/2 apart and away from the rim.
+/// m; of a place in the plane of an opening from its rim
 template <int Dim>
-std::vector<Vec<Dim>> places_before(const Opening<Dim>& end, double depth, double dx) {
+double distance_from_rim(const Opening<Dim>& end, const Vec<Dim>& x) {
+  const std::vector<Vec<Dim>> corners = end.rim();
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec<Dim>& from = corners[k];
+    const Vec<Dim> side = Dim == 2 ? Vec<Dim>(Vec<Dim>::Zero()) : Vec<Dim>(corners[(k + 1) % corners.size()] - from);
+    const double squared = side.squaredNorm();
+    const double share = squared > 0.0 ? std::clamp(side.dot(x - from) / squared, 0.0, 1.0) : 0.0;
+    distance = std::min(distance, (x - from - share * side).norm());
+  }
+  return distance;
+}
+
+/// Places in an opening, dx/2 apart and as far from its rim, and straight beyond it, up to `depth` (m) outside.
+template <int Dim>
+std::vector<Vec<Dim>> places_beyond(const Opening<Dim>& end, double depth, double dx) {
   const double step = 0.5 * dx;
-  std::vector<Vec<Dim>> places = points_along<Dim>(end.corner, end.corner - depth * end.normal, step);
+  std::vector<Vec<Dim>> places{end.corner};
   for (const Vec<Dim>& edge : end.edges) {
-    const double length = edge.norm();
-    if (length <= 2.0 * step) return {};
-    const Vec<Dim> along = edge / length;
     std::vector<Vec<Dim>> more;
     for (const Vec<Dim>& x : places) {
-      const std::vector<Vec<Dim>> row = points_along<Dim>(x + step * along, x + (length - step) * along, step);
+      const std::vector<Vec<Dim>> row = points_along<Dim>(x, x + edge, step);
       more.insert(more.end(), row.begin(), row.end());
     }
     places = std::move(more);
   }
-  return places;
+  std::erase_if(places, [&](const Vec<Dim>& x) {
+    return !end.spans(x) || distance_from_rim(end, x) < (1.0 - corner_tolerance) * step;
+  });
+  std::vector<Vec<Dim>> beyond;
+  for (const Vec<Dim>& out : points_along<Dim>(Vec<Dim>::Zero(), depth * end.normal, step)) {
+    for (const Vec<Dim>& x : places) beyond.push_back(x + out);
+  }
+  return beyond;
 }
 
 template <int Dim>
@@ -79,15 +102,15 @@ void check_direction(const CaseSpec& spec, const Opening<Dim>& end, Findings& fi
 
 template <int Dim>
 void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
-  const double dx = spec.particles.spacing;
-  for (const Vec<Dim>& x : closed_rim(end, gravity_of<Dim>(spec), dx)) {
+  const double tolerance = rim_tolerance(end) * spec.particles.spacing;
+  for (const Vec<Dim>& x : closed_rim(spec, end)) {
     const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
     if (wall.face < 0) {
       findings.push_back(Finding::error({"{} has its rim at {}, but the case has no wall", end.label(), place(x)},
                                         {"draw a bed that ends there"}));
       return;
     }
-    if (std::abs(wall.signed_distance) <= rim_tolerance * dx) continue;
+    if (std::abs(wall.signed_distance) <= tolerance) continue;
     findings.push_back(
         Finding::error({"{} {} at {}: the nearest point of {} is {}, {:.6g} away", end.label(),
                         wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
@@ -98,40 +121,52 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
   }
 }
 
+/// Neither walls nor water of the case may be where the duct is that the program adds, or where a free jet falls.
 template <int Dim>
-void check_way_out(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
+void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end,
+                        Findings& findings) {
   const double dx = spec.particles.spacing;
-  const double depth = traits_of(spec).support * dx;
-  for (const Vec<Dim>& x : places_before(end, depth, dx)) {
+  const double depth = end.meets_air ? lead_over_spacing * dx : duct_length(spec);
+  for (const Vec<Dim>& x : places_beyond(end, depth, dx)) {
     const NearestWall<Dim> wall = boundary.nearest(x, wall_clearance * dx);
     if (wall.face < 0) continue;
-    findings.push_back(
-        Finding::error({"{} overlaps {} at {}: no wall may stand in it, nor in the last {:.6g} m before it",
-                        end.label(), wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point), depth},
-                       {"leave that piece of wall out (of a box: open = [...]), or move the open end"}));
+    const CaseLabel label = wall_label(boundary, boundary.faces[wall.face].wall);
+    if (end.beyond(x) <= wall_clearance * dx) {
+      findings.push_back(
+          Finding::error({"{} overlaps {} at {}: no wall may stand in it", end.label(), label, place(wall.point)},
+                         {"leave that piece of wall out (of a box: open = [...]), or move the {}", end.label().table}));
+    } else {
+      findings.push_back(
+          Finding::error({"{} stands beyond {} at {}: the space up to {:.6g} m outside of it must be free, because the "
+                          "program {} there",
+                          label, end.label(), place(wall.point), depth,
+                          end.meets_air ? "follows the jet" : "adds a duct, in which what is prescribed holds,"},
+                         {"end the walls at the {}, or move it out to where they end", end.label().table}));
+    }
     return;
   }
 }
 
-/// The end stretch of a hole in the floor stands between walls, or water comes into it from the sides, where it presses
-/// on nothing.
+/// Whether the wall beside a place on the rim is one that the opening is cut into, and does not lead to it.
 template <int Dim>
-void check_pit(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
-  const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  if (gravity.norm() == 0.0 || end.normal.dot(gravity) < least_downward * gravity.norm()) return;
+bool is_cut_into_wall(const Boundary<Dim>& boundary, const Opening<Dim>& end, const Vec<Dim>& on_rim, double dx) {
+  Vec<Dim> middle = end.corner;
+  for (const Vec<Dim>& edge : end.edges) middle += 0.5 * edge;
+  const NearestWall<Dim> wall = boundary.nearest(on_rim + dx * (on_rim - middle).normalized(), 0.5 * dx);
+  return wall.face >= 0 && std::abs(boundary.faces[wall.face].normal.dot(end.normal)) >= least_flush;
+}
+
+/// Water that leaves through a hole in a wall needs something beyond it: a channel that goes on would not do.
+template <int Dim>
+void check_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end, Findings& findings) {
+  const Opening<Dim>& mouth = end.mouth;
+  if (mouth.kind == OpeningKind::inlet || end.air() || end.flow.level) return;
   const double dx = spec.particles.spacing;
-  const double depth = (traits_of(spec).support + 1.0) * dx;
-  for (const Vec<Dim>& x : closed_rim(end, gravity, dx)) {
-    const NearestWall<Dim> wall = boundary.nearest(x - depth * end.normal, std::numeric_limits<double>::infinity());
-    if (wall.face >= 0 && std::abs(wall.signed_distance) <= least_flush * depth) continue;
-    findings.push_back(Finding::error(
-        {"{} is a hole in the floor without walls above its edge at {}: water that comes to it from the sides would be "
-         "crushed",
-         end.label(), place(x)},
-        {"draw a pit below the hole, with upright walls {:.3g} m deep or more, and put the {} on its floor", depth,
-         end.kind == OpeningKind::inlet ? "inlet" : "outlet"}));
-    return;
-  }
+  const auto is_cut = [&](const Vec<Dim>& x) { return is_cut_into_wall(boundary, mouth, x, dx); };
+  if (!std::ranges::all_of(whole_rim(mouth, dx), is_cut)) return;
+  findings.push_back(Finding::error(
+      {"{} at {} is a hole in a wall, and the case does not say what is beyond it", mouth.label(), place(mouth.corner)},
+      {"give beyond = \"air\" for a free jet, or the level of the water beyond"}));
 }
 
 /// Returns whether it is sound.
@@ -162,8 +197,10 @@ bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const Flu
 template <int Dim>
 void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
   const double dx = spec.particles.spacing;
+  const std::vector<Vec<Dim>> rim = closed_rim(spec, end);
+  const auto is_cut = [&](const Vec<Dim>& x) { return is_cut_into_wall(boundary, end, x, dx); };
+  if (std::ranges::any_of(rim, is_cut)) return;
   const auto has_walls = [&](double distance) {
-    std::vector<Vec<Dim>> rim = closed_rim(end, gravity_of<Dim>(spec), dx);
     return std::ranges::any_of(
         rim, [&](const Vec<Dim>& x) { return boundary.nearest(x + distance * end.normal, 0.5 * dx).face >= 0; });
   };
@@ -179,12 +216,12 @@ void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Ope
 template <int Dim>
 Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Findings findings;
-  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
-    check_direction(spec, end, findings);
-    check_rim(spec, boundary, end, findings);
-    check_way_out(spec, boundary, end, findings);
-    check_pit(spec, boundary, end, findings);
-    if (check_fluid_beyond(spec, end, fluid, findings)) check_facing(spec, boundary, end, findings);
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+    check_direction(spec, end.mouth, findings);
+    check_rim(spec, boundary, end.mouth, findings);
+    check_space_beyond(spec, boundary, end.mouth, findings);
+    check_beyond(spec, boundary, end, findings);
+    if (check_fluid_beyond(spec, end.mouth, fluid, findings)) check_facing(spec, boundary, end.mouth, findings);
   }
   return findings;
 }

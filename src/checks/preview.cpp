@@ -201,10 +201,9 @@ void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View&
   for (const Opening<Dim>& end : ends) {
     Vec<Dim> far_corner = end.corner;
     for (const Vec<Dim>& edge : end.edges) far_corner += edge;
-    for (const WallFace<Dim>& face : end.as_faces()) {
-      for (int c = 0; c < Dim; ++c) {
-        svg.line(view(project(face.corners[c])), view(project(face.corners[(c + 1) % Dim])), opening_colour, 3.0);
-      }
+    const std::vector<Vec<Dim>> rim = end.rim();
+    for (std::size_t c = 0; c < rim.size(); ++c) {
+      svg.line(view(project(rim[c])), view(project(rim[(c + 1) % rim.size()])), opening_colour, 3.0);
     }
     const Vec<2> middle = view(project(Vec<Dim>(0.5 * (end.corner + far_corner))));
     const Vec<2> out(project(end.direction())[0], -project(end.direction())[1]);
@@ -216,6 +215,12 @@ void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View&
     const bool is_on_the_right = middle[0] > 0.5 * (view.left + view.right());
     svg.text(middle[0] + (is_on_the_right ? -6.0 : 6.0), middle[1] - 6.0, is_on_the_right ? "end" : "start", end.name);
   }
+}
+
+/// Whether a wall particle is of a wall of the case: those of ducts come later.
+template <int Dim>
+bool is_drawn(const Boundary<Dim>& boundary, const WallParticles<Dim>& walls, std::size_t i) {
+  return walls.wall[i] < static_cast<int>(boundary.walls.size());
 }
 
 /// The extent of all that the picture must show.
@@ -230,7 +235,9 @@ Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid
     }
   };
   for (const Vec<Dim>& x : fluid.position) extent.include(project(x));
-  for (const Vec<Dim>& x : walls.position) extent.include(project(x));
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (is_drawn(boundary, walls, i)) extent.include(project(walls.position[i]));
+  }
   include_faces(boundary.faces);
   for (const Opening<Dim>& end : ends) include_faces(end.as_faces());
   for (const Marker& marker : markers) {
@@ -256,11 +263,13 @@ View fitted_view(const Extent& extent, double dx) {
 }
 
 template <int Dim>
-void draw_wall_particles(Svg& svg, const WallParticles<Dim>& walls, const View& view, double diameter) {
+void draw_wall_particles(Svg& svg, const Boundary<Dim>& boundary, const WallParticles<Dim>& walls, const View& view,
+                         double diameter) {
   // Seen along y, the walls before and behind the scene would hide it.
   std::vector<Vec<Dim>> shown;
   for (std::size_t i = 0; i < walls.size(); ++i) {
-    if (Dim == 2 || walls.blocked[i](1, 1) < 0.5) shown.push_back(walls.position[i]);
+    const bool is_seen = Dim == 2 || walls.blocked[i](1, 1) < 0.5;
+    if (is_seen && is_drawn(boundary, walls, i)) shown.push_back(walls.position[i]);
   }
   if (shown.size() <= most_drawn) svg.dots(shown, view, dummy_colour, diameter);
 }
@@ -355,7 +364,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   svg.text(view.left, 50.0, "start", summary);
 
   const double diameter = 0.85 * dx * view.scale;
-  draw_wall_particles(svg, walls, view, diameter);
+  draw_wall_particles(svg, boundary, walls, view, diameter);
   draw_fluid(svg, spec, fluid, view, diameter);
   draw_walls(svg, boundary, view);
   draw_open_ends(svg, ends, view);

@@ -5,8 +5,10 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "motion/channel_end.h"
+#include "sampling/duct_water.h"
 #include "sampling/water_lattice.h"
 #include "walls/facing_walls.h"
 #include "walls/turning_walls.h"
@@ -29,16 +31,17 @@ PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
 /// to find out which have room at its border.
 constexpr double cube_over_spacing = 32.0;
 
-/// The walls with the rows in this rank's share of space.
+/// The walls, with those of ducts, and the rows in this rank's share of space.
 template <int Dim>
 Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks) {
   Walls<Dim> walls;
   walls.boundary = make_boundary<Dim>(spec);
+  const Lattice<Dim> lattice = lattice_behind_meshes<Dim>(spec, walls.boundary);
+  append_ducts(spec, walls.boundary);
   walls.boundary.file_faces(search_distance * spec.particles.spacing);
   const SpaceShare share{
       .edge = cube_over_spacing * spec.particles.spacing, .share = ranks.rank(), .shares = ranks.size()};
-  walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share,
-                                         lattice_behind_meshes<Dim>(spec, walls.boundary));
+  walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share, lattice);
   const double reach = 2.0 * dummy_layers(spec) * spec.particles.spacing;
   for (std::vector<double>* field : {&walls.friction, &walls.roughness, &walls.depth}) {
     field->reserve(walls.particles.size());
@@ -61,6 +64,22 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   walls.is_curved = ranks.any(std::ranges::any_of(walls.curvature, [](const Mat<Dim>& S) { return !S.isZero(0.0); }));
   if (!walls.is_curved) std::vector<Mat<Dim>>().swap(walls.curvature);
   return walls;
+}
+
+/// The water at the start: that of the case file, and in ducts. Collective.
+template <int Dim>
+FluidParticles<Dim> make_fluid(const CaseSpec& spec, const Walls<Dim>& walls, const Communicator& ranks) {
+  const auto moving = static_cast<std::int64_t>(walls.moving);
+  if (walls.boundary.ducts.empty()) return make_fluid_particles(spec, walls.boundary, ranks, moving);
+  Boundary<Dim> drawn = make_boundary<Dim>(spec);
+  drawn.file_faces(walls.boundary.filed_reach());
+  FluidParticles<Dim> fluid = make_fluid_particles(spec, drawn, ranks, moving);
+  const std::vector<WaterParticle<Dim>> in_ducts = water_in_ducts(walls.boundary.ducts, spec.particles.spacing, fluid);
+  if (in_ducts.empty()) return fluid;
+  const std::int64_t others = moving + static_cast<std::int64_t>(in_ducts.size());
+  if (!ranks.is_alone()) fluid = make_fluid_particles(spec, drawn, ranks, others);
+  append_water(in_ducts, others, fluid);
+  return fluid;
 }
 
 /// What of `v` is across the directions that are periodic.
@@ -101,7 +120,7 @@ Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const C
     : walls(make_walls(spec, model, ranks)),
       shared_rows(ranks, walls),
       wall_motion(spec, walls.boundary, walls.particles),
-      fluid(make_fluid_particles(spec, walls.boundary, ranks, static_cast<std::int64_t>(walls.moving))) {}
+      fluid(make_fluid(spec, walls, ranks)) {}
 
 template <int Dim>
 Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, const Communicator& all_ranks,

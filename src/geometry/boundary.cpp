@@ -73,10 +73,13 @@ class WallSearch {
     const SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
     if (place.triangle < 0) return;
     const double distance = std::abs(place.signed_distance);
-    // A point behind either of two walls that touch is behind the walls.
+    const int face = mesh.first_face + place.triangle;
+    const double plane_distance = place.is_on_rim ? std::abs(boundary_.faces[face].height(x_)) : 0.0;
+    // A point behind either of two walls that touch is behind the walls. Where they join at a rim, that whose plane is
+    // farther away shows the side.
     const bool are_equal = best_.wall.face >= 0 && best_.distance - distance <= 1e-9 * distance;
-    if (are_equal && place.signed_distance >= 0.0) return;
-    best_ = {{mesh.first_face + place.triangle, place.point + moved, place.signed_distance}, distance};
+    if (are_equal && (place.is_on_rim ? plane_distance <= best_.plane_distance : place.signed_distance >= 0.0)) return;
+    best_ = {{face, place.point + moved, place.signed_distance}, distance, plane_distance};
   }
 
   const Boundary<Dim>& boundary_;

@@ -1,6 +1,7 @@
 // Solid walls as oriented faces: segments in 2D, triangles in 3D. Every face knows on which side the fluid is.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include "case/spec.h"
 #include "geometry/face.h"
 #include "geometry/face_grid.h"
+#include "geometry/opening.h"
 #include "geometry/screen.h"
 
 namespace tailwater {
@@ -26,6 +28,7 @@ struct WallProperties {
   int body = resting_body;    ///< walls of one body never move relative to each other
   std::string kind = "wall";  ///< the table of the case file that it is from
   bool is_plate = false;      ///< without thickness, with water on both sides
+  bool is_duct = false;       ///< outside of an opening; no wall of the case file
 
   bool moves() const { return body != resting_body; }
 };
@@ -58,6 +61,18 @@ struct WallPlate {
   std::shared_ptr<const MeshSurface> sheet = nullptr;  ///< as drawn, if it is from a mesh
 };
 
+/// The space outside of an inlet or outlet in which the water beyond it stands (geometry/ducts.h).
+template <int Dim>
+struct Duct {
+  Opening<Dim> mouth;  ///< where the case ends
+  double length;       ///< m; of the duct, along the normal of the mouth
+
+  bool holds(const Vec<Dim>& x) const {
+    const double beyond = mouth.beyond(x);
+    return beyond > 0.0 && beyond <= length && mouth.spans(x);
+  }
+};
+
 template <int Dim>
 struct Boundary {
   std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
@@ -66,6 +81,7 @@ struct Boundary {
   std::vector<WallPlate> plates;
   std::vector<Screen<Dim>> screens;                       ///< of the plates at their present places
   std::vector<std::shared_ptr<const MeshSurface>> water;  ///< the mesh of each block of water; null if it has none
+  std::vector<Duct<Dim>> ducts;                           ///< none, where the walls are those of the case file alone
 
   /// Files the faces of resting walls by place, for searches up to `reach` (m). Afterwards no face may be added, and
   /// only faces of moving walls may change.
@@ -109,6 +125,10 @@ struct Boundary {
   /// The wall, if it is a plate, else -1.
   int plate_of(int wall) const { return walls[wall].is_plate ? wall : -1; }
 
+  bool is_in_duct(const Vec<Dim>& x) const {
+    return std::ranges::any_of(ducts, [&](const Duct<Dim>& duct) { return duct.holds(x); });
+  }
+
   /// The mesh that a face belongs to; null if it belongs to none.
   const WallMesh* mesh_of(int face) const;
 
@@ -127,9 +147,9 @@ CaseLabel wall_label(const Boundary<Dim>& boundary, int wall) {
   return CaseLabel(boundary.walls[wall].kind, boundary.walls[wall].name);
 }
 
-/// The walls of a case. Left and right of a polygon are as seen when walking along its points. A box is walked
-/// counter-clockwise, so its left is its inside. Throws CaseError for a wall without extent
-/// or normal, repeated points, points of the wrong dimension, or an open face that does not exist.
+/// The walls of a case file, without ducts. Left and right of a polygon are as seen when walking along its points. A
+/// box is walked counter-clockwise, so its left is its inside. Throws CaseError for a wall without extent or normal,
+/// repeated points, points of the wrong dimension, or an open face that does not exist.
 template <int Dim>
 Boundary<Dim> make_boundary(const CaseSpec& spec);
 

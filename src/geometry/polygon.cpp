@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/face.h"
 
@@ -39,6 +40,42 @@ Where Polygon::where(const Vec<2>& x) const {
     }
   }
   return is_inside ? Where::inside : Where::outside;
+}
+
+namespace {
+
+/// Twice the area of a triangle, positive if its corners run counter-clockwise.
+double turn(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+}  // namespace
+
+std::vector<std::array<int, 3>> triangles_in(const std::vector<Vec<2>>& corners) {
+  std::vector<int> left(corners.size());
+  std::iota(left.begin(), left.end(), 0);
+  double area = 0.0;
+  for (std::size_t k = 2; k < corners.size(); ++k) area += turn(corners[0], corners[k - 1], corners[k]);
+  if (area < 0.0) std::ranges::reverse(left);
+  std::vector<std::array<int, 3>> triangles;
+  while (left.size() >= 3) {  // cuts off one ear after the other
+    const std::size_t count = left.size();
+    std::size_t ear = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::array<int, 3> t{left[(k + count - 1) % count], left[k], left[(k + 1) % count]};
+      const auto holds = [&](int other) {
+        const Vec<2>& x = corners[other];
+        return other != t[0] && other != t[1] && other != t[2] && turn(corners[t[0]], corners[t[1]], x) >= 0.0 &&
+               turn(corners[t[1]], corners[t[2]], x) >= 0.0 && turn(corners[t[2]], corners[t[0]], x) >= 0.0;
+      };
+      if (turn(corners[t[0]], corners[t[1]], corners[t[2]]) < 0.0 || std::ranges::any_of(left, holds)) continue;
+      ear = k;
+      break;
+    }
+    triangles.push_back({left[(ear + count - 1) % count], left[ear], left[(ear + 1) % count]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  return triangles;
 }
 
 }  // namespace tailwater

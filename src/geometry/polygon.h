@@ -1,6 +1,7 @@
 // Which side of a polygon's outline a point is on.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/vec.h"
@@ -27,5 +28,8 @@ class Polygon {
   double band_ = 1.0;                    ///< m; height of a band
   std::vector<std::vector<int>> edges_;  ///< of each band, by their second corner
 };
+
+/// Triangles that fill a polygon whose outline does not cross itself, by the indices of their corners.
+std::vector<std::array<int, 3>> triangles_in(const std::vector<Vec<2>>& corners);
 
 }  // namespace tailwater

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "case/named_numbers.h"
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 
 namespace tailwater {
@@ -15,6 +16,9 @@ namespace {
 
 /// A smaller share of gravity along an opening is rounding error.
 constexpr double least_gravity_share = 1e-9;
+/// Lines along a column of a section, and the steps in which its ends are found.
+constexpr int lines_per_column = 4;
+constexpr double steps_per_spacing = 50.0;
 /// Parts of a tabulated profile. The share of the discharge in a part is its middle's: in a seventh root 1e-4 is
 /// missing in all.
 constexpr int profile_parts = 1000;
@@ -75,6 +79,31 @@ std::optional<TimeFunction> time_function(const std::optional<Varying>& value, c
   return TimeFunction(SmoothCurve(series.time, series.columns[column]));
 }
 
+/// What of a column is within the outline of a section, on average over lines along it; none if that is less than half
+/// a spacing high.
+template <int Dim>
+std::optional<SectionColumn> open_part(const Opening<Dim>& opening, const SectionColumn& column, const Vec<Dim>& low,
+                                       const Vec<Dim>& aside, const Vec<Dim>& rise, double spacing) {
+  if (opening.outline.corners().empty()) return column;
+  const int steps = std::max(1, static_cast<int>(std::ceil(steps_per_spacing * column.top / spacing)));
+  const double step = column.top / steps;
+  SectionColumn open{column.aside, column.width, 0.0, 0.0};
+  for (int line = 0; line < lines_per_column; ++line) {
+    const double across = column.aside + ((line + 0.5) / lines_per_column - 0.5) * column.width;
+    const auto is_open = [&](int k) { return opening.spans(Vec<Dim>(low + across * aside + (k + 0.5) * step * rise)); };
+    int bottom = 0;
+    while (bottom < steps && !is_open(bottom)) ++bottom;
+    int top = bottom;
+    while (top < steps && is_open(top)) ++top;
+    // A line without an open part closes its share of the column.
+    const double closed = 0.5 * column.top;
+    open.bottom += (bottom < steps ? bottom * step : closed) / lines_per_column;
+    open.top += (bottom < steps ? top * step : closed) / lines_per_column;
+  }
+  if (open.top - open.bottom < 0.5 * spacing) return std::nullopt;
+  return open;
+}
+
 /// The lowest height [m] from 0 to `top` where a condition holds that holds above it, too; `top` where it never does.
 template <class Condition>
 double lowest_where(Condition&& holds, double top) {
@@ -108,8 +137,9 @@ double EndFlow::largest_in_profile(int rows) const {
 }
 
 template <int Dim>
-ChannelEnd<Dim>::ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity, double spacing)
-    : opening(std::move(place)), flow(std::move(what_flows)) {
+ChannelEnd<Dim>::ChannelEnd(const Opening<Dim>& place, EndFlow what_flows, const Vec<Dim>& full_gravity, double spacing,
+                            double duct_length)
+    : mouth(place), duct(duct_length), opening(place.moved_out(duct_length)), flow(std::move(what_flows)) {
   const Vec<Dim> along = full_gravity - opening.normal.dot(full_gravity) * opening.normal;
   gravity = along.norm() > least_gravity_share * full_gravity.norm() ? along.norm() : 0.0;
   up = gravity > 0.0 ? Vec<Dim>(-along / gravity) : Vec<Dim>(Vec<Dim>::Zero());
@@ -132,7 +162,11 @@ ChannelEnd<Dim>::ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Di
   height = upright.norm();
   rise = upright / height;
   const int count = Dim == 2 ? 1 : std::max(1, static_cast<int>(std::lround(width / spacing)));
-  for (int c = 0; c < count; ++c) columns.push_back({width * (c + 0.5) / count, width / count, 0.0, height});
+  for (int c = 0; c < count; ++c) {
+    const SectionColumn whole{width * (c + 0.5) / count, width / count, 0.0, height};
+    const auto open = open_part(opening, whole, low, aside, rise, spacing);
+    if (open || count == 1) columns.push_back(open.value_or(whole));
+  }
 }
 
 template <int Dim>
@@ -156,6 +190,15 @@ double ChannelEnd<Dim>::breadth_at(double depth) const {
 template <int Dim>
 double ChannelEnd<Dim>::depth_of_area(double area) const {
   return lowest_where([&](double depth) { return area_below(depth) >= area; }, height);
+}
+
+template <int Dim>
+bool ChannelEnd<Dim>::is_passed_by(const Vec<Dim>& x) const {
+  if (!air()) return opening.is_passed_by(x);
+  constexpr double shell = 3.0;  // [far_out]; other water of the case may be farther away on the same side of the plane
+  const double out = mouth.beyond(x);
+  const double farthest = std::max(out, mouth.aside(x));
+  return out > 0.0 && farthest > far_out && farthest <= shell * far_out;
 }
 
 template <int Dim>
@@ -214,7 +257,7 @@ std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
   std::vector<ChannelEnd<Dim>> ends;
   std::size_t outlet = 0;
   std::size_t inlet = 0;
-  for (Opening<Dim>& opening : make_open_ends<Dim>(spec)) {
+  for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) {
     EndFlow flow;
     if (opening.kind == OpeningKind::inlet) {
       const InletTable& table = spec.inlets[inlet++];
@@ -227,7 +270,9 @@ std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
       flow.level = time_function(table.level, table.series, 0, numbers, names_of_level(numbers));
       flow.absorbing = table.absorbing;
     }
-    ends.emplace_back(std::move(opening), std::move(flow), gravity, spec.particles.spacing);
+    const double duct = opening.meets_air ? 0.0 : duct_length(spec);
+    ends.emplace_back(opening, std::move(flow), gravity, spec.particles.spacing, duct);
+    if (opening.meets_air) ends.back().far_out = lead_over_spacing * spec.particles.spacing;
   }
   for (std::size_t k = 0; k < spec.inlets.size(); ++k) {
     const InletTable& table = spec.inlets[k];

@@ -38,10 +38,14 @@ struct SectionColumn {
 
 template <int Dim>
 struct ChannelEnd {
-  /// The columns are about as wide as the `spacing` [m].
-  ChannelEnd(Opening<Dim> place, EndFlow what_flows, const Vec<Dim>& full_gravity, double spacing);
+  /// The columns are about as wide as the `spacing` [m]. `duct_length` [m] is that of the duct outside of the mouth; 0:
+  /// there is none.
+  ChannelEnd(const Opening<Dim>& place, EndFlow what_flows, const Vec<Dim>& full_gravity, double spacing,
+             double duct_length);
 
-  Opening<Dim> opening;
+  Opening<Dim> mouth;    ///< where the case ends
+  double duct;           ///< m; length of the duct outside of it
+  Opening<Dim> opening;  ///< at the end of the duct: what is beyond it has left
   EndFlow flow;
   double gravity;                      ///< m/s^2; the part of gravity along the opening's plane
   Vec<Dim> up;                         ///< opposite to that part; 0 if there is none
@@ -53,8 +57,15 @@ struct ChannelEnd {
   Vec<Dim> aside = Vec<Dim>::Zero();   ///< unit vector of the other edge (3D)
   std::vector<SectionColumn> columns;  ///< that make up the section, `aside` ascending; one in 2D
   int circuit = -1;      ///< where water circulates: the index of the outlet whose sump it draws from and fills
+  double far_out = 0.0;  ///< m; into air: from the mouth, along its normal or aside, to where free jets are removed
   double reserve = 0.0;  ///< m^Dim; what this end has put into the sump at the start
 
+  /// Whether beyond is air, into which water falls.
+  bool air() const { return mouth.meets_air; }
+  /// Whether water at `x` has left.
+  bool is_passed_by(const Vec<Dim>& x) const;
+  /// A place on the opening as the place on the mouth before it.
+  Vec<Dim> on_mouth(const Vec<Dim>& x) const { return x - duct * mouth.normal; }
   /// Whether the case says more than that the channel goes on.
   bool is_driven() const { return flow.feeds() || flow.level; }
   /// Whether a level is prescribed, and the velocity follows.

@@ -68,7 +68,9 @@ struct OpenEnd : ChannelEnd<Dim> {
   double reach = 0.0;     ///< m; length of the case along the opening's normal
   std::vector<std::size_t> first_fibre;  ///< of each column, from its bottom upwards; and the number of all
 
-  bool holds(const Vec<Dim>& x) const { return this->opening.beyond(x) > -stretch && this->opening.spans(x); }
+  bool holds(const Vec<Dim>& x) const {
+    return !this->air() && this->opening.beyond(x) > -stretch && this->opening.spans(x);
+  }
   /// Distance [m] from the gauge to the middle of the buffer.
   double distance() const { return 0.5 * stretch + gauge; }
   /// Index of the column that holds a place.

@@ -48,7 +48,7 @@ double reach_of(const Opening<Dim>& opening, const Boundary<Dim>& boundary) {
 
 template <int Dim>
 bool OpenEnds<Dim>::is_passed_by(const Vec<Dim>& x) const {
-  return std::ranges::any_of(ends_, [&](const OpenEnd<Dim>& end) { return end.opening.is_passed_by(x); });
+  return std::ranges::any_of(ends_, [&](const OpenEnd<Dim>& end) { return end.is_passed_by(x); });
 }
 
 template <int Dim>
@@ -115,7 +115,14 @@ void OpenEnds<Dim>::set_discharge(const std::string& inlet, double time, double 
 
 template <int Dim>
 void OpenEnds<Dim>::extend_box(Eigen::AlignedBox<double, Dim>& box) const {
-  for (const OpenEnd<Dim>& end : ends_) box.extend(box_around(end.opening.as_faces()));
+  for (const OpenEnd<Dim>& end : ends_) {
+    box.extend(box_around(end.opening.as_faces()));
+    if (!end.air()) continue;
+    for (const Vec<Dim>& x : end.mouth.rim()) {
+      box.extend(Vec<Dim>(x.array() - end.far_out));
+      box.extend(Vec<Dim>(x.array() + end.far_out));
+    }
+  }
 }
 
 template <int Dim>
@@ -136,7 +143,7 @@ void OpenEnds<Dim>::take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leav
   std::vector<std::vector<std::size_t>> left_by(ends_.size());
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     left_by[e] = indices_where(particles.owned, [&](std::size_t i) {
-      return particles.is_fluid(i) && leaves[i] == 0 && ends_[e].opening.is_passed_by(particles.position[i]);
+      return particles.is_fluid(i) && leaves[i] == 0 && ends_[e].is_passed_by(particles.position[i]);
     });
     for (const std::size_t i : left_by[e]) leaves[i] = 1;
   }

@@ -38,7 +38,8 @@ void SideWalls<Dim>::add_damping_rate(const Flow<Dim>& flow, const StepStart<Dim
   const Particles<Dim>& particles = flow.state.particles;
   rate.resize(particles.owned);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) rate[i] += law_.rate(start.velocity[i].norm());
+    const bool is_in_case = particles.is_fluid(i) && !flow.walls.boundary.is_in_duct(particles.position[i]);
+    if (is_in_case) rate[i] += law_.rate(start.velocity[i].norm());
   });
 }
 

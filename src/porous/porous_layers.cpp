@@ -6,8 +6,8 @@
 #include "base/finding.h"
 #include "base/for_each.h"
 #include "flow/flow.h"
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
-#include "geometry/opening.h"
 #include "operators/laplacian_morris.h"
 #include "porous/porous_region.h"
 #include "pressure/full_water.h"
@@ -17,11 +17,11 @@ namespace {
 
 constexpr int lattice_count = 65;
 
-/// Throws CaseError where a layer reaches into the buffer zone of an open end: what enters there fills all of space.
+/// Throws CaseError where a layer reaches into the duct of an open end: what enters there fills all of space.
 template <int Dim>
-void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim>& field, double radius) {
+void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim>& field) {
   const double dx = spec.particles.spacing;
-  const double zone = radius + dx;
+  const double zone = duct_length(spec);
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) {
     double points = std::ceil(zone / dx);
     for (const Vec<Dim>& edge : opening.edges) points *= std::ceil(edge.norm() / dx);
@@ -33,13 +33,13 @@ void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim
         rest = std::floor(rest / count);
         return share;
       };
-      Vec<Dim> x = opening.corner - next_share(zone) * zone * opening.normal;
+      Vec<Dim> x = opening.corner + next_share(zone) * zone * opening.normal;
       for (const Vec<Dim>& edge : opening.edges) x += next_share(edge.norm()) * edge;
       if (field.porosity_at(x) == 1.0) continue;
       throw CaseError(
-          {"{}: a porous layer is at {}, nearer than {:.4g} m, where water enters and leaves as in open water",
-           opening.label(), place<Dim>(x), zone},
-          {"end the layer before it"});
+          {"{}: a porous layer is at {}, beyond the opening, where water enters and leaves as in open water",
+           opening.label(), place<Dim>(x)},
+          {"end the layer there"});
     }
   }
 }
@@ -66,7 +66,7 @@ template <int Dim>
 PorousLayers<Dim>::PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary)
     : field_(spec, boundary, setup.scale.kernel, setup.domain) {
   require_layers_in_case(spec, boundary);
-  require_open_ends_in_open_water(spec, field_, kernel_radius(setup.scale.kernel));
+  require_open_ends_in_open_water(spec, field_);
   // From water that has left the tightest layer to water that has entered it.
   const double dx = setup.scale.spacing;
   const double widening = std::pow(field_.least_porosity(), -1.0 / Dim);

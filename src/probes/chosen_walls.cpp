@@ -17,9 +17,12 @@ constexpr double longest_piece_edge = 0.4;
 /// By wall, whether the probe names it.
 template <int Dim>
 std::vector<std::uint8_t> named_walls(const ProbeTable& probe, const Boundary<Dim>& boundary) {
-  std::vector<std::uint8_t> named(boundary.walls.size(), probe.walls.empty());
+  std::vector<std::uint8_t> named;
   std::vector<std::string_view> known;
-  for (const WallProperties& wall : boundary.walls) known.emplace_back(wall.name);
+  for (const WallProperties& wall : boundary.walls) {
+    named.push_back(!wall.is_duct && probe.walls.empty());
+    if (!wall.is_duct) known.emplace_back(wall.name);  // ducts are the last
+  }
   for (const std::string& name : probe.walls) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {

@@ -32,7 +32,10 @@ template <int Dim>
 Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   const Particles<Dim>& particles = context.particles;
   std::vector<std::pair<double, std::int32_t>> heap;
-  for (const std::size_t i : indices_where(particles.owned, [&](std::size_t k) { return particles.is_fluid(k); })) {
+  const auto counts = [&](std::size_t k) {
+    return particles.is_fluid(k) && !context.boundary.is_in_duct(particles.position[k]);
+  };
+  for (const std::size_t i : indices_where(particles.owned, counts)) {
     heap.emplace_back(particles.position[i].dot(direction), static_cast<std::int32_t>(i));
   }
   if (heap.empty()) return {};

@@ -38,7 +38,9 @@ template <int Dim>
 Reading<Dim> volume_reading(const ProbeTable& probe) {
   return {columns_of(probe, Dim), [](const ProbeContext<Dim>& context) -> std::vector<Row> {
             const Particles<Dim>& particles = context.particles;
-            const std::size_t count = count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
+            const std::size_t count = count_each(particles.owned, [&](std::size_t i) {
+              return particles.is_fluid(i) && !context.boundary.is_in_duct(particles.position[i]);
+            });
             return {{context.ranks.sum(static_cast<double>(count)), context.totals.density_error_mean,
                      context.totals.density_error_rms, context.totals.volume_out, context.totals.volume_in}};
           }};

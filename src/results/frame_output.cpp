@@ -58,8 +58,9 @@ void FrameOutput<Dim>::write(const Flow<Dim>& flow) {
   if (schedule_.last() == flow.state.time) return;
   schedule_.set_last(flow.state.time);
   const Particles<Dim>& particles = flow.state.particles;
-  const std::vector<std::size_t> fluid =
-      indices_where(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
+  const std::vector<std::size_t> fluid = indices_where(particles.owned, [&](std::size_t i) {
+    return particles.is_fluid(i) && !flow.walls.boundary.is_in_duct(particles.position[i]);
+  });
   std::vector<std::int64_t> id(fluid.size());
   std::vector<Vec<Dim>> position(fluid.size());
   std::vector<double> pressure(fluid.size());

@@ -135,17 +135,14 @@ Json bodies_json(const CaseSpec& spec, const std::vector<int>& poses) {
   return bodies;
 }
 
-/// Inlets or outlets, with the corners of their faces: two in 2D, four in 3D.
+/// Inlets or outlets, with the corners of their rims: two in 2D, four or more in 3D.
 template <int Dim>
 Json open_ends_json(const std::vector<Opening<Dim>>& ends, OpeningKind kind) {
   Json all = Json::array();
   for (const Opening<Dim>& end : ends) {
     if (end.kind != kind) continue;
-    Json corners = Json::array({point<Dim>(end.corner), point<Dim>(end.corner + end.edges[0])});
-    if constexpr (Dim == 3) {
-      corners.push_back(point<Dim>(end.corner + end.edges[0] + end.edges[1]));
-      corners.push_back(point<Dim>(end.corner + end.edges[1]));
-    }
+    Json corners = Json::array();
+    for (const Vec<Dim>& corner : end.rim()) corners.push_back(point<Dim>(corner));
     all.push_back({{"name", end.name}, {"corners", std::move(corners)}, {"direction", point<Dim>(end.direction())}});
   }
   return all;

@@ -1,5 +1,5 @@
-// What `check` says of holes in the floor, of profiles of inlets and the space they open into, of water from them that
-// finds a way out, and of the depth of wave makers.
+// What `check` says of holes in walls, of what is beyond openings, of profiles of inlets and the space they open into,
+// of water from them that finds a way out, and of the depth of wave makers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "checks/check.h"
+#include "checks/checks.h"
 #include "geometry/cases.h"
 #include "motion/channel_end.h"
 
@@ -25,31 +26,86 @@ std::string errors_of(const CaseSpec& spec) {
   return text;
 }
 
-/// A tank 1 m wide with a slot in its floor, and walls of that height below the slot's edges.
-CaseSpec tank_over_slot(double pit) {
+/// A tank 1 m wide with a slot in its floor.
+CaseSpec tank_over_slot() {
   CaseSpec spec = empty_case(0.02);
   spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {0.4, 0.0}}), polyline({{0.6, 0.0}, {1.0, 0.0}, {1.0, 0.8}})};
   spec.fluid = {box_fluid({0.0, 0.0}, {1.0, 0.4})};
-  if (pit > 0.0) {
-    spec.walls[0].points.push_back({0.4, -pit});
-    spec.walls[1].points.insert(spec.walls[1].points.begin(), {0.6, -pit});
-  }
-  spec.outlets = {outlet({0.4, -pit}, {0.6, -pit})};
+  spec.outlets = {outlet({0.4, 0.0}, {0.6, 0.0})};
   spec.outlets[0].direction = {0.0, -1.0};
   return spec;
 }
 
-TEST(EndChecks, AHoleInTheFloorNeedsAPit) {
-  const std::string refused = errors_of(tank_over_slot(0.0));
-  EXPECT_NE(refused.find("outlet 'outlet1' is a hole in the floor without walls above its edge at (0.4, 0)"),
-            std::string::npos)
-      << refused;
-  EXPECT_NE(refused.find("draw a pit below the hole"), std::string::npos) << refused;
-  EXPECT_EQ(errors_of(tank_over_slot(0.2)), "");
-  CaseSpec spillway = tank_over_slot(0.0);  // a face of 45 degrees leads to the hole
-  spillway.walls = {polyline({{0.0, 0.8}, {0.0, 0.3}, {0.1, 0.3}, {0.4, 0.0}}), polyline({{0.6, 0.0}, {0.6, 0.8}})};
-  spillway.fluid = {box_fluid({0.02, 0.32}, {0.1, 0.4})};
-  EXPECT_EQ(errors_of(spillway), "");
+/// The same tank with a slot in its side.
+CaseSpec tank_with_slot() {
+  CaseSpec spec = tank_over_slot();
+  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.1}}), polyline({{1.0, 0.2}, {1.0, 0.8}})};
+  spec.outlets = {outlet({1.0, 0.1}, {1.0, 0.2})};
+  return spec;
+}
+
+TEST(EndChecks, AHoleNeedsSomethingBeyond) {
+  for (CaseSpec spec : {tank_over_slot(), tank_with_slot()}) {
+    const std::string refused = errors_of(spec);
+    EXPECT_NE(refused.find("is a hole in a wall, and the case does not say what is beyond it"), std::string::npos)
+        << refused;
+    EXPECT_NE(refused.find("give beyond = \"air\""), std::string::npos) << refused;
+    spec.outlets[0].beyond = Beyond::air;
+    EXPECT_EQ(errors_of(spec), "");
+  }
+  CaseSpec drowned = tank_with_slot();
+  drowned.outlets[0].level = Varying{0.4};  // above its top
+  EXPECT_EQ(errors_of(drowned), "");
+  CaseSpec flush_inlet = tank_with_slot();
+  flush_inlet.outlets.clear();
+  flush_inlet.inlets = {inlet({1.0, 0.1}, {1.0, 0.2}, 0.01)};
+  flush_inlet.inlets[0].direction = {-1.0, 0.0};
+  EXPECT_EQ(errors_of(flush_inlet), "");
+}
+
+/// A shaft leads to this outlet: the channel goes on below it.
+TEST(EndChecks, AShaftIsNoHole) {
+  CaseSpec spec = tank_over_slot();
+  spec.walls[0].points.push_back({0.4, -0.2});
+  spec.walls[1].points.insert(spec.walls[1].points.begin(), {0.6, -0.2});
+  spec.outlets[0].from = {0.4, -0.2};
+  spec.outlets[0].to = {0.6, -0.2};
+  EXPECT_EQ(errors_of(spec), "");
+}
+
+TEST(EndChecks, TheSpaceBeyondIsFree) {
+  CaseSpec spec = tank_with_slot();
+  spec.outlets[0].level = Varying{0.3};
+  spec.walls.push_back(polyline({{1.15, 0.0}, {1.15, 0.5}}));  // 10 spacings are 0.2 m
+  const std::string refused = errors_of(spec);
+  EXPECT_NE(refused.find("wall 'wall3' stands beyond outlet 'outlet1' at (1.15, "), std::string::npos) << refused;
+  EXPECT_NE(refused.find("up to 0.2 m outside of it must be free"), std::string::npos) << refused;
+  spec.walls.back() = polyline({{1.25, 0.0}, {1.25, 0.5}});
+  EXPECT_EQ(errors_of(spec), "");
+}
+
+/// An inlet that enters upwards is told a time, as any other.
+TEST(EndChecks, AnUprightInletMayStopWithinAWave) {
+  CaseSpec spec = tank_over_slot();
+  spec.outlets.clear();
+  spec.inlets = {inlet({0.4, 0.0}, {0.6, 0.0}, Varying("t < 0.5 ? 0.01 : 0"))};
+  spec.inlets[0].direction = {0.0, 1.0};
+  spec.time.end = 1.0;
+  const std::string refused = errors_of(spec);
+  // Four times 4 dx/sqrt(g 0.2 m).
+  EXPECT_NE(refused.find("let it change over 0.23 s or more"), std::string::npos) << refused;
+}
+
+/// The sides of an inlet across a periodic channel are open to the next period, and on no wall.
+TEST(EndChecks, AnInletMaySpanAPeriod) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.domain.periodic_y = {0.0, 1.2};
+  spec.walls = {box_wall({0, 0, 0}, {1.6, 1.2, 1.0}, {"+z", "-y", "+y", "-x"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {1.0, 1.2, 0.4})};
+  spec.inlets = {inlet({0, 0, 0}, {0, 1.2, 0.9}, 0.1)};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  const Findings findings = check_open_ends(spec, boundary, make_fluid_particles<3>(spec, boundary));
+  EXPECT_TRUE(findings.empty()) << findings.front().message();
 }
 
 std::string refusal_of_profile(const std::string& profile) {

@@ -22,7 +22,8 @@ double mean_depth(const Flow<2>& flow, double length) {
   const Particles<2>& particles = flow.state.particles;
   double volume = 0.0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
-    if (particles.is_fluid(i)) volume += particles.volume[i];
+    const bool is_in_case = !flow.walls.boundary.is_in_duct(particles.position[i]);
+    if (particles.is_fluid(i) && is_in_case) volume += particles.volume[i];
   }
   return volume / length;
 }

@@ -53,7 +53,8 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
     Flow<Dim> flow = make_flow<Dim>(spec);
     const auto ids_at_start = fluid_ids(flow.state.particles);
     const double energy_at_start = measure(flow).kinetic_energy;
-    while (flow.state.time < 0.4 / speed + 2.0 * dx / speed) {
+    const double duct = flow.walls.boundary.ducts[0].length;
+    while (flow.state.time < (0.4 + duct + 2.0 * dx) / speed) {
       remove_outflow(flow);
       const auto before = fluid_ids(flow.state.particles);
       step(flow);

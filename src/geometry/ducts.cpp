@@ -1,0 +1,179 @@
+#include "geometry/ducts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
+
+namespace tailwater {
+namespace {
+
+/// [dx]; walls of which so much lies beside an edge of the rim close it. Of shorter edges they close half.
+constexpr double least_closed = 2.0;
+constexpr double march = 0.25;  // dx; with which walls that lead on are followed
+constexpr double exact = 1e-9;  // dx; to which their ends are found: much finer than what counts as one corner
+
+/// Where walls are beside the rim of one opening, and how far they lead on along its normal.
+template <int Dim>
+class Rim {
+ public:
+  Rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& mouth)
+      : spec_(spec), boundary_(boundary), mouth_(mouth), dx_(spec.particles.spacing), length_(duct_length(spec)) {}
+
+  /// The wall beside a place on the rim; no face if it is open there.
+  NearestWall<Dim> wall_at(const Vec<Dim>& x) const {
+    if (is_in_periodic_plane(spec_, x)) return {};
+    return boundary_.nearest(x, rim_tolerance(mouth_) * dx_);
+  }
+
+  /// Whether walls lie beside an edge of the rim (3D). Its ends do not count: what lies there is beside the next edge.
+  bool is_closed(const Vec<Dim>& from, const Vec<Dim>& to) const {
+    const double length = (to - from).norm();
+    const double margin = std::min(0.25 * length, dx_);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * (length - 2.0 * margin) / dx_)));
+    const double piece = (length - 2.0 * margin) / pieces;
+    int closed = 0;
+    for (int k = 0; k < pieces; ++k) {
+      closed += wall_at(Vec<Dim>(from + (margin + (k + 0.5) * piece) / length * (to - from))).face >= 0;
+    }
+    return closed > 0 && closed * piece >= std::min(0.5 * (length - 2.0 * margin), least_closed * dx_);
+  }
+
+  /// How far [m] walls lead on from a place on the rim, at most as far as the duct.
+  double led_on(const Vec<Dim>& x) const {
+    double low = 0.0;
+    double high = 0.0;
+    while (high < length_ && (high == 0.0 || is_beside_wall(x, high))) {
+      low = high;
+      high = std::min(length_, high + march * dx_);
+    }
+    if (high >= length_ && is_beside_wall(x, high)) return length_;
+    while (high - low > exact * dx_) {
+      const double middle = 0.5 * (low + high);
+      (is_beside_wall(x, middle) ? low : high) = middle;
+    }
+    return low;
+  }
+
+  double length() const { return length_; }
+  const Opening<Dim>& mouth() const { return mouth_; }
+
+ private:
+  /// Whether a wall is beside the place that is `distance` farther out, and not only behind it.
+  bool is_beside_wall(const Vec<Dim>& x, double distance) const {
+    const Vec<Dim> there = x + distance * mouth_.normal;
+    const NearestWall<Dim> wall = boundary_.nearest(there, rim_tolerance(mouth_) * dx_);
+    return wall.face >= 0 && std::abs(mouth_.normal.dot(wall.point - there)) <= exact * dx_;
+  }
+
+  const CaseSpec& spec_;
+  const Boundary<Dim>& boundary_;
+  const Opening<Dim>& mouth_;
+  double dx_, length_;
+};
+
+/// The walls of a duct in 2D: a line from each end of the mouth that is on a wall, from the wall itself.
+std::vector<WallFace<2>> walls_of(const Rim<2>& rim, int wall) {
+  const Opening<2>& mouth = rim.mouth();
+  std::vector<WallFace<2>> faces;
+  for (const Vec<2>& x : mouth.rim()) {
+    const NearestWall<2> beside = rim.wall_at(x);
+    if (beside.face < 0) continue;
+    const Vec<2> inwards = (mouth.corner + 0.5 * mouth.edges[0] - x).normalized();
+    const double begin = rim.led_on(beside.point);
+    const double end = rim.length() - mouth.beyond(beside.point);
+    if (end - begin <= corner_tolerance * rim.length()) continue;
+    Vec<2> from = beside.point + begin * mouth.normal;
+    Vec<2> to = beside.point + end * mouth.normal;
+    const bool fluid_is_left = -mouth.normal[1] * inwards[0] + mouth.normal[0] * inwards[1] > 0.0;
+    if (!fluid_is_left) std::swap(from, to);
+    faces.push_back({{from, to}, inwards, wall});
+  }
+  return faces;
+}
+
+/// The triangles of a duct in 3D, with their fronts inside, over the edges of the rim that are closed.
+TriangleMesh tube(const Rim<3>& rim) {
+  const Opening<3>& mouth = rim.mouth();
+  std::vector<Vec<3>> corners = mouth.rim();
+  Vec<3> area = Vec<3>::Zero();
+  for (std::size_t k = 0; k < corners.size(); ++k) area += corners[k].cross(corners[(k + 1) % corners.size()]);
+  if (area.dot(mouth.normal) < 0.0) std::ranges::reverse(corners);
+  const auto next = [&](std::size_t k) -> const Vec<3>& { return corners[(k + 1) % corners.size()]; };
+  std::vector<std::size_t> closed;
+  double begin = rim.length();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    if (!rim.is_closed(corners[k], next(k))) continue;
+    closed.push_back(k);
+    begin = std::min(begin, rim.led_on(Vec<3>(0.5 * (corners[k] + next(k)))));
+  }
+  TriangleMesh mesh;
+  if (rim.length() - begin <= corner_tolerance * rim.length()) return mesh;
+  for (const std::size_t k : closed) {
+    const int first = static_cast<int>(mesh.points.size());
+    for (const double along : {begin, rim.length()}) {
+      mesh.points.push_back(corners[k] + along * mouth.normal);
+      mesh.points.push_back(next(k) + along * mouth.normal);
+    }
+    mesh.triangles.push_back({first, first + 2, first + 1});
+    mesh.triangles.push_back({first + 1, first + 2, first + 3});
+  }
+  return mesh;
+}
+
+void append_walls(const Rim<2>& rim, int wall, double /*spacing*/, Boundary<2>& boundary) {
+  for (const WallFace<2>& face : walls_of(rim, wall)) boundary.faces.push_back(face);
+}
+
+/// A rectangle's duct is a box, whose particles go on with the lattice of boxes before it; others are meshes.
+void append_walls(const Rim<3>& rim, int wall, double spacing, Boundary<3>& boundary) {
+  TriangleMesh mesh = tube(rim);
+  if (mesh.triangles.empty()) return;
+  weld(mesh, corner_tolerance * spacing);
+  const int first = static_cast<int>(boundary.faces.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) boundary.faces.push_back(face_of(mesh, t, wall));
+  if (rim.mouth().outline.corners().empty()) return;
+  boundary.meshes.push_back({std::make_shared<const MeshSurface>(std::move(mesh)), first, wall});
+}
+
+}  // namespace
+
+double duct_length(const CaseSpec& spec) {
+  const double stretch = traits_of(spec).support + 1.0;
+  return std::ceil(lead_over_spacing + stretch - corner_tolerance) * spec.particles.spacing;
+}
+
+template <int Dim>
+double rim_tolerance(const Opening<Dim>& opening) {
+  return opening.outline.corners().empty() ? 0.1 : 0.3;
+}
+
+template <int Dim>
+bool is_in_periodic_plane(const CaseSpec& spec, const Vec<Dim>& x) {
+  const double tolerance = corner_tolerance * spec.particles.spacing;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (const double end : periodic_range(spec.domain, axis)) {
+      if (std::abs(x[axis] - end) <= tolerance) return true;
+    }
+  }
+  return false;
+}
+
+template <int Dim>
+void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary) {
+  const std::vector<Opening<Dim>> mouths = make_open_ends<Dim>(spec);
+  for (const Opening<Dim>& mouth : mouths) {
+    if (mouth.meets_air) continue;
+    const int wall = static_cast<int>(boundary.walls.size());
+    boundary.walls.push_back({.name = mouth.name, .kind = mouth.label().table, .is_duct = true});
+    append_walls(Rim<Dim>(spec, boundary, mouth), wall, spec.particles.spacing, boundary);
+    boundary.ducts.push_back({mouth, duct_length(spec)});
+  }
+}
+
+TAILWATER_IN_2D_AND_3D(rim_tolerance);
+TAILWATER_IN_2D_AND_3D(is_in_periodic_plane);
+TAILWATER_IN_2D_AND_3D(append_ducts);
+
+}  // namespace tailwater

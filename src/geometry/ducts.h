@@ -1,0 +1,31 @@
+// Ducts: what an inlet or outlet prescribes is prescribed outside of the case, at the end of a duct with which the
+// walls beside the opening go on along its normal. Water in its first part, the lead, is solved for like that of the
+// case; the last part is the buffer zone (open_ends). An opening into air has none: what has left it falls freely.
+#pragma once
+
+#include "case/spec.h"
+#include "geometry/boundary.h"
+
+namespace tailwater {
+
+/// [dx]; along a duct before its buffer zone. Free jets are removed so far beyond their opening.
+inline constexpr double lead_over_spacing = 6.0;
+
+/// m; a whole number of spacings
+double duct_length(const CaseSpec& spec);
+
+/// [dx]; walls at most so far from the rim of an opening are beside it. A polygon may stand for a curve.
+template <int Dim>
+double rim_tolerance(const Opening<Dim>& opening);
+
+/// Whether `x` is where the domain repeats: a rim there is open to the next period.
+template <int Dim>
+bool is_in_periodic_plane(const CaseSpec& spec, const Vec<Dim>& x);
+
+/// Adds the ducts and their walls, one wall for each opening that has some: without friction, facing the inside, joined
+/// to the walls on which the rim of the opening lies. Parts of the rim that are on no wall, or in a periodic plane,
+/// stay open. Where walls of the case lead on along the normal, those of the duct begin at their end.
+template <int Dim>
+void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary);
+
+}  // namespace tailwater

@@ -1,0 +1,238 @@
+// The ducts outside of openings: where their walls stand, and that they go on with those of the case.
+#include "geometry/ducts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/cases.h"
+#include "geometry/meshes.h"
+#include "sampling/duct_water.h"
+#include "sampling/wall_particles.h"
+
+namespace tailwater {
+namespace {
+
+using namespace testing_cases;
+
+constexpr double length = 10.0;  // dx, of a duct: a lead of 6, a support of 3, and 1
+
+template <int Dim>
+Boundary<Dim> with_ducts(const CaseSpec& spec) {
+  Boundary<Dim> boundary = make_boundary<Dim>(spec);
+  append_ducts(spec, boundary);
+  return boundary;
+}
+
+template <int Dim>
+std::vector<WallFace<Dim>> duct_faces(const Boundary<Dim>& boundary) {
+  std::vector<WallFace<Dim>> faces;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    if (boundary.walls[face.wall].is_duct) faces.push_back(face);
+  }
+  return faces;
+}
+
+TEST(Ducts, GoOnWithTheBedOfAChannel) {
+  const Boundary<2> boundary = with_ducts<2>(open_channel());
+  const std::vector<WallFace<2>> faces = duct_faces(boundary);
+  ASSERT_EQ(faces.size(), 1u) << "the top of the opening is open";
+  EXPECT_LT((faces[0].corners[0] - Vec<2>(2.0, 0.0)).norm(), 1e-9);
+  EXPECT_LT((faces[0].corners[1] - Vec<2>(2.0 + length * 0.1, 0.0)).norm(), 1e-12);
+  EXPECT_LT((faces[0].normal - Vec<2>(0.0, 1.0)).norm(), 1e-12);
+  const WallProperties& wall = boundary.walls[faces[0].wall];
+  EXPECT_EQ(wall.friction, 0.0);
+  EXPECT_EQ(wall_label(boundary, faces[0].wall).text(), "outlet 'outlet1'");
+  EXPECT_TRUE(boundary.is_in_duct({2.5, 0.3}));
+  EXPECT_FALSE(boundary.is_in_duct({1.9, 0.3}));
+  EXPECT_FALSE(boundary.is_in_duct({3.1, 0.3}));
+}
+
+/// Walls that the case draws beyond the opening are not drawn twice.
+TEST(Ducts, BeginWhereTheWallsOfTheCaseEnd) {
+  for (const double beyond : {0.37, 5.0}) {
+    CaseSpec spec = open_channel();
+    spec.walls[0].points.back() = {2.0 + beyond, 0.0};
+    const std::vector<WallFace<2>> faces = duct_faces(with_ducts<2>(spec));
+    ASSERT_EQ(faces.size(), beyond < 1.0 ? 1u : 0u);
+    for (const WallFace<2>& face : faces) EXPECT_NEAR(face.corners[0][0], 2.0 + beyond, 1e-6);
+  }
+}
+
+TEST(Ducts, OpeningsIntoAirHaveNone) {
+  CaseSpec spec = open_channel();
+  spec.outlets[0].beyond = Beyond::air;
+  const Boundary<2> boundary = with_ducts<2>(spec);
+  EXPECT_TRUE(duct_faces(boundary).empty());
+  EXPECT_TRUE(boundary.ducts.empty());
+}
+
+/// An upright opening at the end of a wall, with this angle between the wall and the duct, measured in the water.
+CaseSpec slot(double degrees) {
+  const double angle = degrees * std::numbers::pi / 180.0;
+  CaseSpec spec = empty_case(0.1);
+  const Vec<2> from = Vec<2>(0.0, 0.0) + 2.0 * Vec<2>(std::cos(angle), std::sin(angle));
+  spec.walls = {polyline({{from[0], from[1]}, {0.0, 0.0}})};
+  spec.outlets = {outlet({0.0, 0.0}, {0.0, 0.5})};
+  return spec;
+}
+
+/// Behind the joint of a duct with a wall there are particles as behind any corner: all places up to three layers deep
+/// have one within the diagonal of a cell, and none is in front of a wall.
+TEST(Ducts, JoinWallsWithoutGapAtAnyAngle) {
+  for (const double degrees : {180.0, 240.0, 270.0, 300.0, 150.0, 120.0}) {
+    const Boundary<2> boundary = with_ducts<2>(slot(degrees));
+    ASSERT_EQ(duct_faces(boundary).size(), 1u) << degrees;
+    const WallParticles<2> dummies = make_dummy_particles<2>(boundary, 0.1, 3);
+    for (const Vec<2>& x : dummies.position) {
+      EXPECT_LT(boundary.nearest(x, 1.0).signed_distance, 0.0) << degrees << ": " << x.transpose();
+    }
+    for (double x = -0.6; x < 0.6; x += 0.02) {
+      for (double y = -0.6; y < 0.6; y += 0.02) {
+        const Vec<2> place(x, y);
+        const double depth = -boundary.nearest(place, 1.0).signed_distance;
+        if (depth < 0.05 || depth > 0.25) continue;
+        double nearest = 1.0;
+        for (const Vec<2>& other : dummies.position) nearest = std::min(nearest, (place - other).norm());
+        EXPECT_LT(nearest, 0.1 * std::sqrt(0.5) + 0.03) << degrees << ": " << place.transpose();
+      }
+    }
+  }
+}
+
+/// A hole in an upright wall has a duct with two walls, whose corners with the wall are the wall's own.
+TEST(Ducts, AHoleIsClosedOnBothSides) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0.0, 0.0}, {2.0, 0.0}, {2.0, 0.5}}), polyline({{2.0, 1.0}, {2.0, 2.0}})};
+  spec.outlets = {outlet({2.0, 1.0}, {2.0, 0.5})};
+  spec.outlets[0].level = 1.5;
+  const Boundary<2> boundary = with_ducts<2>(spec);
+  const std::vector<WallFace<2>> faces = duct_faces(boundary);
+  ASSERT_EQ(faces.size(), 2u);
+  for (const WallFace<2>& face : faces) EXPECT_GT(face.normal.dot(Vec<2>(2.5, 0.75) - face.corners[0]), 0.0);
+  EXPECT_GT(boundary.nearest({2.3, 0.6}, 1.0).signed_distance, 0.0);
+  EXPECT_LT(boundary.nearest({2.3, 0.4}, 1.0).signed_distance, 0.0);
+  EXPECT_GT(boundary.nearest({1.9, 0.45}, 1.0).signed_distance, 0.0);
+}
+
+/// The tank of a channel in 3D: 1.0 m long, 0.5 m wide, 0.6 m high.
+CaseSpec channel_in_3d() {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.0, 0.5, 0.6}, {"+z", "+x"})};
+  spec.fluid = {box_fluid({0, 0, 0}, {1.0, 0.5, 0.4})};
+  spec.outlets = {outlet({1.0, 0.0, 0.0}, {1.0, 0.5, 0.6})};
+  return spec;
+}
+
+TEST(Ducts, OfARectangleAreOpenWhereTheRimIs) {
+  CaseSpec spec = channel_in_3d();
+  for (const bool is_periodic : {false, true}) {
+    if (is_periodic) {
+      spec.walls[0].open = {"+z", "+x", "-y", "+y"};
+      spec.domain.periodic_y = {0.0, 0.5};
+    }
+    double area = 0.0;
+    for (const WallFace<3>& face : duct_faces(with_ducts<3>(spec))) {
+      EXPECT_GT(face.height(Vec<3>(1.5, 0.25, 0.3)), 0.0) << "faces look inwards";
+      area += face.measure();
+    }
+    EXPECT_NEAR(area, length * 0.1 * (is_periodic ? 0.5 : 0.5 + 2.0 * 0.6), 1e-9);
+  }
+}
+
+/// The particles behind the walls of the box go on behind those of its duct, on the same lattice.
+TEST(Ducts, OfARectangleGoOnWithTheLatticeOfItsBox) {
+  CaseSpec spec = channel_in_3d();
+  const Boundary<3> boundary = with_ducts<3>(spec);
+  const auto count_beside = [&](double low, double high) {
+    int count = 0;
+    for (const Vec<3>& x : make_dummy_particles<3>(boundary, 0.1, 3).position) count += x[0] > low && x[0] < high;
+    return count;
+  };
+  EXPECT_EQ(count_beside(1.0, 1.3), count_beside(0.7, 1.0));
+  EXPECT_EQ(count_beside(0.9, 1.1), count_beside(0.7, 0.9)) << "across the joint";
+}
+
+/// A pipe around the x axis, its front inside.
+TriangleMesh pipe(double radius, double end, int pieces) {
+  TriangleMesh mesh;
+  for (int k = 0; k < pieces; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / pieces;
+    for (const double x : {0.0, end}) mesh.points.emplace_back(x, radius * std::cos(angle), radius * std::sin(angle));
+  }
+  for (int k = 0; k < pieces; ++k) {
+    const int next = (k + 1) % pieces;
+    add_quad(mesh, 2 * k, 2 * k + 1, 2 * next + 1, 2 * next);
+  }
+  return mesh;
+}
+
+TEST(Ducts, OfADiscAreTubes) {
+  const double radius = 0.5;
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {folder.wall(pipe(radius, 2.0, 48), FluidSide::front)};
+  OutletTable end;
+  end.direction = {1.0, 0.0, 0.0};
+  end.centre = {2.0, 0.0, 0.0};
+  end.radius = radius;
+  end.level = 0.4;
+  spec.outlets = {end};
+  const Boundary<3> boundary = with_ducts<3>(spec);
+  double area = 0.0;
+  for (const WallFace<3>& face : duct_faces(boundary)) {
+    EXPECT_GT(face.height(Vec<3>(2.5, 0.0, 0.0)), 0.0);
+    area += face.measure();
+  }
+  EXPECT_NEAR(area, 2.0 * std::numbers::pi * radius * length * 0.1, 0.02);
+  ASSERT_EQ(boundary.meshes.size(), 2u);
+  for (const double x : {1.5, 2.0, 2.5}) {
+    EXPECT_GT(boundary.nearest({x, 0.0, 0.4}, 1.0).signed_distance, 0.0) << x;
+    EXPECT_LT(boundary.nearest({x, 0.0, 0.6}, 1.0).signed_distance, 0.0) << x;
+  }
+}
+
+/// Initial water stands in the duct as before its mouth, column by column, and nowhere else.
+TEST(Ducts, HoldTheWaterThatStandsAtTheirMouth) {
+  CaseSpec spec = channel_in_3d();
+  spec.fluid[0].velocity = {0.3, 0.0, 0.0};
+  const Boundary<3> drawn = make_boundary<3>(spec);
+  const Boundary<3> boundary = with_ducts<3>(spec);
+  FluidParticles<3> fluid = make_fluid_particles<3>(spec, drawn);
+  const auto at_start = static_cast<std::size_t>(fluid.all);
+  const auto water = water_in_ducts<3>(boundary.ducts, 0.1, fluid);
+  EXPECT_EQ(water.size(), 10u * 5u * 4u);
+  append_water<3>(water, static_cast<std::int64_t>(water.size()), fluid);
+  ASSERT_EQ(fluid.position.size(), at_start + water.size());
+  for (std::size_t i = at_start; i < fluid.position.size(); ++i) {
+    const Vec<3> steps = fluid.position[i] / 0.1 - Vec<3>::Constant(0.5);
+    EXPECT_LT((steps - Vec<3>(steps.array().round())).norm(), 1e-9);
+    EXPECT_GT(fluid.position[i][0], 1.0);
+    EXPECT_LT(fluid.position[i][0], 2.0);
+    EXPECT_NEAR(fluid.velocity[i][0], 0.3, 1e-15);
+  }
+  spec.fluid = {box_fluid({0, 0, 0}, {0.8, 0.5, 0.4})};
+  EXPECT_TRUE(water_in_ducts<3>(boundary.ducts, 0.1, make_fluid_particles<3>(spec, drawn)).empty());
+}
+
+/// Across a mouth of 45 degrees the water's lattice has no columns. The duct's own fills it as densely.
+TEST(Ducts, ThatLeanAreFilledAsDensely) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{2.0, 1.0}, {1.0, 1.0}})};
+  spec.fluid = {polygon_fluid({{0.0, 0.0}, {1.0, 0.0}, {2.0, 1.0}, {0.0, 1.0}})};
+  spec.outlets = {outlet({1.0, 0.0}, {2.0, 1.0})};
+  const Boundary<2> boundary = with_ducts<2>(spec);
+  const FluidParticles<2> fluid = make_fluid_particles<2>(spec, make_boundary<2>(spec));
+  double volume = 0.0;
+  double nearest = 1.0;
+  for (const WaterParticle<2>& particle : water_in_ducts<2>(boundary.ducts, 0.05, fluid)) {
+    volume += particle.volume;
+    for (const Vec<2>& x : fluid.position) nearest = std::min(nearest, (x - particle.position).norm());
+  }
+  EXPECT_NEAR(volume, std::sqrt(2.0) * length * 0.05, 1e-9);
+  EXPECT_GE(nearest, (0.5 - 1e-9) * 0.05);
+}
+
+}  // namespace
+}  // namespace tailwater
