@@ -124,7 +124,8 @@ void AirWatch<Dim>::mark_plate(const Walls<Dim>& walls, std::size_t row, CellMar
       const Vec<Dim> centre = grid_->centre(grid_->cell(r, place));
       for (const int s : boundary.screens_near(centre, reach)) {
         const Screen<Dim>& screen = boundary.screens[s];
-        if (screen.distance(centre) <= reach) plates.mark(r, place, place + 1);
+        const bool is_wall = screen.is_plate && !screen.is_beyond;
+        if (is_wall && screen.distance(centre) <= reach) plates.mark(r, place, place + 1);
       }
     }
   });

@@ -63,7 +63,7 @@ Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, cons
     grid.visit_near(candidate.position, [&](int j) {
       const auto& [position, block] = candidates[j];
       if (block == candidate.block) return;
-      if (!is_hidden<Dim>(boundary.screens, screens, position, candidate.position, -1)) other = block;
+      if (!is_hidden<Dim>(boundary.screens, screens, position, candidate.position)) other = block;
     });
     grid.add(candidate.position);
     if (other < 0) continue;

@@ -40,7 +40,7 @@ void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   if (ghosts_are_new && !setup.ranks.is_alone()) {
     flow.shared_rows.find_rows(flow.walls, flow.state.particles, flow.state.particles.owned, setup.first_wall_id);
   }
-  hide_pairs_behind_plates(flow.walls, flow.state.particles, flow.neighbourhood);
+  hide_pairs_behind_screens(flow.walls, flow.state.particles, flow.neighbourhood);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   Surroundings<Dim>& surroundings = flow.surroundings;

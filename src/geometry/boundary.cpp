@@ -57,7 +57,8 @@ class WallSearch {
     if (height < 0.0 && boundary_.plate_of(face.wall) >= 0) return;  // the plate's opposite face is as near
     const Vec<Dim> point = closest_point(face, x_);
     const double distance = (x_ - point).norm();
-    const WallInSight<Dim> seen{{f, point, height < 0.0 ? -distance : distance}, distance, std::abs(height)};
+    const bool is_behind = height < 0.0 && !boundary_.is_free_end(f, point);
+    const WallInSight<Dim> seen{{f, point, is_behind ? -distance : distance}, distance, std::abs(height)};
     if (nearer(seen, best_, tolerance)) best_ = seen;
   }
 
@@ -68,10 +69,16 @@ class WallSearch {
   }
 
  private:
+  static bool is_at_free_edge(const WallMesh& mesh, const SurfacePlace& place) {
+    return !mesh.free_edges.empty() &&
+           std::ranges::any_of(place.triangles, [&](int t) { return mesh.free_edges[t] != 0; });
+  }
+
   void visit_mesh(const WallMesh& mesh) {
     const Vec<Dim> moved = boundary_.displacement_of(mesh);
-    const SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
+    SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
     if (place.triangle < 0) return;
+    if (place.is_on_rim && is_at_free_edge(mesh, place)) place.signed_distance = std::abs(place.signed_distance);
     const double distance = std::abs(place.signed_distance);
     const int face = mesh.first_face + place.triangle;
     const double plane_distance = place.is_on_rim ? std::abs(boundary_.faces[face].height(x_)) : 0.0;
@@ -142,6 +149,23 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
   visit_plain_faces([&](int f) { search.visit_face(f); });
   search.visit_meshes();
   return search.nearest();
+}
+
+template <int Dim>
+NearestWall<Dim> Boundary<Dim>::nearest_to_water(const Vec<Dim>& x, double search_distance) const {
+  NearestWall<Dim> wall = nearest(x, search_distance);
+  if (wall.face < 0 || wall.signed_distance >= 0.0) return wall;
+  if (is_beside_free_end(faces[wall.face].wall, wall.point)) wall.signed_distance = -wall.signed_distance;
+  return wall;
+}
+
+template <int Dim>
+bool Boundary<Dim>::is_free_end(int face, const Vec<Dim>& x) const {
+  return std::ranges::any_of(ends, [&](const WallEnd& end) {
+    if (!end.is_free || end.face != face) return false;
+    const auto& corners = faces[face].corners;
+    return (x - corners[end.corner]).norm() <= 1e-9 * (corners[1] - corners[0]).norm();
+  });
 }
 
 template struct Boundary<2>;

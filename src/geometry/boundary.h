@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -48,8 +49,19 @@ struct WallMesh {
   std::shared_ptr<const MeshSurface> surface;  ///< as drawn
   int first_face = 0;
   int wall = 0;
+  std::vector<std::uint8_t> free_edges = {};  ///< of each triangle, a bit for each edge that is a free rim; empty: none
 
   int end_face() const;
+  bool has_free_edge(int triangle, int edge) const {
+    return !free_edges.empty() && (free_edges[triangle] >> edge & 1) != 0;
+  }
+};
+
+/// An end of a wall that is no plate, in 2D: no other face continues there.
+struct WallEnd {
+  int face = 0;          ///< index into Boundary::faces
+  int corner = 0;        ///< of the face
+  bool is_free = false;  ///< whether it ends in the water: not on another wall, nor nearer to it than half a spacing
 };
 
 /// A wall without thickness. Every piece of it, a segment (2D) or a triangle (3D), has two faces back to back: first
@@ -79,7 +91,9 @@ struct Boundary {
   std::vector<WallProperties> walls;
   std::vector<WallMesh> meshes;  ///< by first face; none in 2D
   std::vector<WallPlate> plates;
-  std::vector<Screen<Dim>> screens;                       ///< of the plates at their present places
+  std::vector<WallFace<Dim>> continued;  ///< openings and periodic planes: walls that end there continue beyond
+  std::vector<WallEnd> ends;             ///< none in 3D
+  std::vector<Screen<Dim>> screens;      ///< of plates and beside free ends, at their present places
   std::vector<std::shared_ptr<const MeshSurface>> water;  ///< the mesh of each block of water; null if it has none
   std::vector<Duct<Dim>> ducts;                           ///< none, where the walls are those of the case file alone
 
@@ -88,19 +102,31 @@ struct Boundary {
   void file_faces(double reach);
   double filed_reach() const { return resting_.reach(); }
 
-  /// Makes the screens of the plates where the faces are now. An end of a plate that is on another wall, or nearer to
-  /// it than `closed_gap` (m), leaves no opening: the screen goes on behind that wall by `reach` (m). An end that
-  /// points away from the wall does not.
-  void hang_screens(double closed_gap, double reach);
-  void hang_screens() { hang_screens(closed_gap_, screen_reach_); }
+  /// Finds the free ends of walls that are no plates. Without it they have no screens.
+  void find_free_ends(double spacing, double reach);
+
+  /// Makes the screens where the faces are now. An end that is on another wall, or nearer to it than half a `spacing`
+  /// (m), leaves no opening: the screen of a plate goes on behind that wall by `reach` (m), the support of the kernel,
+  /// and other walls have none there. An end that points away from the wall is not closed by it.
+  void hang_screens(double spacing, double reach);
+  void hang_screens() { hang_screens(screen_spacing_, screen_reach_); }
 
   /// The screens, by index, that a displacement of this length (m) may pass which ends at `x`.
   std::span<const int> screens_near(const Vec<Dim>& x, double length) const {
     if (screens.empty()) return {};
-    return length <= hung_.reach() ? hung_.near(x) : all_screens_;
+    if (length > hung_.reach()) return all_screens_;
+    return has_screens_near(x) ? hung_.near(x) : std::span<const int>();
   }
 
-  /// Nearest wall within `search_distance` (m, may be infinite) of `x`. No place is behind a plate. Where several faces
+  /// False only where nothing is felt through screens or hidden by them.
+  bool has_screens_near(const Vec<Dim>& x) const { return !screens.empty() && hung_box_.contains(x); }
+
+  /// Whether `x` is so near to a free end of a wall that is no plate that the wall counts as a plate there: it has two
+  /// sides, no place is behind it, and its particles are felt through its screens.
+  bool is_beside_free_end(int wall, const Vec<Dim>& x) const;
+
+  /// Nearest wall within `search_distance` (m, may be infinite) of `x`. No place is behind a plate, nor behind a wall
+  /// whose nearest place is a free end. Where several faces
   /// are equally near (a shared corner), the sign is that of the face whose plane is farthest from `x`, which is right
   /// at convex and concave corners. The sign of a mesh is right at saddles as well (mesh_surface.h).
   NearestWall<Dim> nearest(const Vec<Dim>& x, double search_distance) const;
@@ -132,10 +158,18 @@ struct Boundary {
   /// The mesh that a face belongs to; null if it belongs to none.
   const WallMesh* mesh_of(int face) const;
 
+  /// The same, but beside a free end no place is behind the wall either: water that is there has come around the end.
+  NearestWall<Dim> nearest_to_water(const Vec<Dim>& x, double search_distance) const;
+
+  /// Whether a place on a face is a free end of its wall.
+  bool is_free_end(int face, const Vec<Dim>& x) const;
+
  private:
-  double closed_gap_ = 0.0;    ///< m
-  double screen_reach_ = 0.0;  ///< m
-  FaceGrid<Dim> hung_;         ///< the screens
+  double screen_spacing_ = 0.0;              ///< m
+  double screen_reach_ = 0.0;                ///< m
+  FaceGrid<Dim> hung_;                       ///< the screens
+  Eigen::AlignedBox<double, Dim> hung_box_;  ///< around all that is felt through screens
+  std::vector<Screen<Dim>> mesh_rims_;       ///< the screens beside free rims of meshes, as drawn
   std::vector<int> all_screens_;
   FaceGrid<Dim> resting_;    ///< without meshes; reach 0: nothing is filed
   std::vector<int> moving_;  ///< faces that are not of a mesh, when others are filed

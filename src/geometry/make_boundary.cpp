@@ -6,6 +6,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/mesh_walls.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
@@ -229,6 +230,24 @@ std::vector<std::shared_ptr<const MeshSurface>> water_meshes(const CaseSpec& spe
   return water;
 }
 
+/// The openings, and the planes between which the case repeats itself, as far as the walls reach.
+template <int Dim>
+std::vector<WallFace<Dim>> places_where_walls_continue(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  std::vector<WallFace<Dim>> faces;
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+    for (const WallFace<Dim>& face : end.as_faces()) faces.push_back(face);
+  }
+  const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  for (int axis = 0; axis < Dim && !box.isEmpty(); ++axis) {
+    for (const double at : periodic_range(spec.domain, axis)) {
+      std::array<Vec<Dim>, 2> ends{box.min(), box.max()};
+      for (const int side : {0, 1}) ends[side][axis] = at;
+      append_box_face<Dim>(ends, axis, 0, true, -1, faces);
+    }
+  }
+  return faces;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -267,7 +286,11 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
                       {"draw them coarser"});
     }
   }
-  boundary.hang_screens(0.5 * spec.particles.spacing, dummy_layers(spec) * spec.particles.spacing);
+  const double reach = dummy_layers(spec) * spec.particles.spacing;
+  boundary.continued = places_where_walls_continue(spec, boundary);
+  // Particles on the wall itself would be felt from both of its sides.
+  if (!traits_of(spec).walls.on_wall) boundary.find_free_ends(spec.particles.spacing, reach);
+  boundary.hang_screens(spec.particles.spacing, reach);
   if constexpr (Dim == 3) boundary.water = water_meshes(spec, boundary);
   return boundary;
 }

@@ -17,12 +17,12 @@ constexpr double straight = 1e-6;
 }  // namespace
 
 template <int Dim>
-WallBesidePlate wall_beside_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x) {
+WallBesidePlate wall_beside_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x, int except) {
   WallBesidePlate beside;
   double nearest = infinity;
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
-    if (boundary.walls[face.wall].is_plate) return;
+    if (boundary.walls[face.wall].is_plate || face.wall == except) return;
     const double distance = (closest_point(face, x) - x).norm();
     if (distance > nearest) return;
     nearest = distance;
@@ -30,6 +30,7 @@ WallBesidePlate wall_beside_plate(const Boundary<Dim>& boundary, const Vec<Dim>&
   });
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : boundary.meshes) {
+      if (mesh.wall == except) continue;
       const SurfacePlace place = mesh.surface->nearest(x - boundary.displacement_of(mesh), infinity);
       if (place.triangle < 0 || place.signed_distance >= beside.distance) continue;
       beside = {mesh.first_face + place.triangle, place.signed_distance};
@@ -55,26 +56,29 @@ Screen<3> rectangle_of(const Boundary<3>& boundary, const WallPlate& plate) {
 }
 
 WidenedSheet widened(const MeshSurface& sheet, double reach,
-                     const std::function<bool(const Vec<3>&, const Vec<3>&, const Vec<3>&)>& is_wanted) {
+                     const std::function<bool(int, int, const Vec<3>&)>& is_wanted) {
   struct Strip {
     int triangle;
     Vec<3> out;      ///< unit vector
     int begin, end;  ///< points of its outer edge
+    int edge;        ///< index into WidenedSheet::edges
   };
-  WidenedSheet wide{sheet.mesh(), {}};
+  WidenedSheet wide{sheet.mesh(), {}, {}, {}};
   TriangleMesh& mesh = wide.mesh;
   const int drawn = static_cast<int>(mesh.triangles.size());
   for (int t = 0; t < drawn; ++t) wide.from.push_back(t);
-  const auto add = [&](int a, int b, int c, int from) {
+  wide.beyond.assign(drawn, {-1, -1});
+  const auto add = [&](int a, int b, int c, int from, const std::array<int, 2>& beyond) {
     mesh.triangles.push_back({a, b, c});
     wide.from.push_back(from);
+    wide.beyond.push_back(beyond);
   };
   const auto add_point = [&](const Vec<3>& x) {
     mesh.points.push_back(x);
     return static_cast<int>(mesh.points.size()) - 1;
   };
-  std::map<int, Strip> strips;  // by the point at which the edge begins
-  std::vector<std::array<int, 2>> edges;
+  std::map<int, Strip> strips;           // by the point at which the edge begins
+  std::vector<std::array<int, 2>> ends;  // of the edges, in the order of WidenedSheet::edges
   for (int t = 0; t < drawn; ++t) {
     for (int e = 0; e < 3; ++e) {
       const int a = mesh.triangles[t][e];
@@ -82,26 +86,30 @@ WidenedSheet widened(const MeshSurface& sheet, double reach,
       const Vec<3> from = mesh.points[a];
       const Vec<3> to = mesh.points[b];
       const Vec<3> out = (to - from).cross(mesh.area_normal(t)).normalized();
-      if (sheet.neighbours()[t][e] >= 0 || !is_wanted(from, to, out)) continue;
-      const Strip strip{t, out, add_point(from + reach * out), add_point(to + reach * out)};
-      add(b, a, strip.begin, t);
-      add(b, strip.begin, strip.end, t);
+      if (sheet.neighbours()[t][e] >= 0 || !is_wanted(t, e, out)) continue;
+      const int edge = static_cast<int>(wide.edges.size());
+      wide.edges.push_back({from, to, from + reach * out, to + reach * out});
+      const Strip strip{t, out, add_point(from + reach * out), add_point(to + reach * out), edge};
+      add(b, a, strip.begin, t, {edge, -1});
+      add(b, strip.begin, strip.end, t, {edge, -1});
       strips[a] = strip;
-      edges.push_back({a, b});
+      ends.push_back({a, b});
     }
   }
-  for (const auto& [a, b] : edges) {
+  for (const auto& [a, b] : ends) {
     const auto next = strips.find(b);
     if (next == strips.end()) continue;
     const Strip& one = strips.at(a);
     const Strip& other = next->second;
+    wide.edges[one.edge].after = other.edge;
+    wide.edges[other.edge].before = one.edge;
     const double turn = one.out.cross(other.out).dot(mesh.area_normal(one.triangle).normalized());
     const double opening = 1.0 + one.out.dot(other.out);
     if (turn <= straight || opening < least_opening)
       continue;  // the strips touch or overlap, or the corner is a needle
     const int corner = add_point(mesh.points[b] + reach / opening * (one.out + other.out));
-    add(b, one.end, corner, one.triangle);
-    add(b, corner, other.begin, other.triangle);
+    add(b, one.end, corner, one.triangle, {one.edge, other.edge});
+    add(b, corner, other.begin, other.triangle, {one.edge, other.edge});
   }
   weld(mesh, 2.0 * straight * reach);
   return wide;

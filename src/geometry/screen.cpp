@@ -1,4 +1,6 @@
-// What plates hide.
+// What walls hide of the water on their other side.
+#include "geometry/screen.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +11,30 @@
 
 namespace tailwater {
 namespace {
+
+/// dx; what a wall hides fades over this distance on either side of its rim. A pair that appears at once changes the
+/// energy (p_i + p_j) w_i w_j W_ij without work, and still water beside the rim then never comes to rest.
+constexpr double fade_width = 1.0;
+
+/// dx; an end that is as near to another wall leaves no opening.
+constexpr double closed_gap = 0.5;
+
+/// In supports of the kernel: how far from a free end a wall counts as a plate, and how far its screens reach, past
+/// which water feels the wall particles that stand as near to the end.
+constexpr double plate_reach = 1.5;
+constexpr double screened_reach = plate_reach + 1.0;
+
+/// How a piece of the rim of a wall ends. Screens end at once where the wall is continued by something else.
+enum class RimEnd { on_wall, continued, free };
+
+/// The spacing of the particles and the support of the kernel, m.
+struct Lengths {
+  double spacing;
+  double reach;
+  double gap() const { return closed_gap * spacing; }
+  double fade() const { return fade_width * spacing; }
+  double tolerance() const { return corner_tolerance * spacing; }
+};
 
 /// The front of one piece, without other walls.
 Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int piece) {
@@ -23,22 +49,51 @@ Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int p
           plate.first_face + plate.pieces + piece};
 }
 
-/// Whether a plate that ends at `x` and points `out` there ends on a wall that is no plate, nearer to it than `gap`, or
-/// behind it. A wall that it points away from, as that of a pipe which opens beside the plate, does not close it.
+/// Whether a wall that ends at `x` and points `out` there ends on another wall that is no plate, nearer to it than
+/// `gap`, or behind it. A wall that it points away from, as that of a pipe which opens beside a plate, does not close
+/// it.
 template <int Dim>
-bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap) {
-  const WallBesidePlate beside = wall_beside_plate(boundary, x);
+bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap, int own) {
+  const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
   return beside.distance <= gap && boundary.faces[beside.face].normal.dot(out) <= corner_tolerance;
 }
 
-/// Whether an edge, looked at in steps of dx, is closed by walls all along.
-bool is_closed_by_walls(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out,
-                        double gap) {
-  const int last = std::max(1, static_cast<int>(std::ceil((to - from).norm() / (2.0 * gap))));
-  for (int k = 0; k <= last; ++k) {
-    if (!is_closed_by_wall(boundary, Vec<3>(from + k * (to - from) / last), out, gap)) return false;
+/// Whether another plate, an opening or a periodic plane is at an end of wall `own`. Another piece of the wall itself
+/// must touch the end; `piece` is the face that ends there, -1: no piece of the wall counts.
+template <int Dim>
+bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths) {
+  const auto is_near = [&](const WallFace<Dim>& face, double distance) {
+    return (closest_point(face, x) - x).norm() <= distance;
+  };
+  if (std::ranges::any_of(boundary.continued, [&](const auto& face) { return is_near(face, lengths.gap()); })) {
+    return true;
   }
-  return true;
+  for (const WallPlate& plate : boundary.plates) {
+    for (int f = plate.first_face; f < plate.first_face + plate.pieces; ++f) {
+      if (plate.wall == own && (piece < 0 || f == piece)) continue;
+      if (is_near(boundary.faces[f], plate.wall == own ? lengths.tolerance() : lengths.gap())) return true;
+    }
+  }
+  return false;
+}
+
+/// How an edge of wall `own` ends, looked at in steps of dx.
+RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
+                 const Lengths& lengths) {
+  const auto is_closed = [&](double share) {
+    return is_closed_by_wall(boundary, Vec<3>(from + share * (to - from)), out, lengths.gap(), own);
+  };
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / lengths.spacing)));
+  int on_wall = 0;
+  for (int k = 0; k <= steps; ++k) on_wall += is_closed(static_cast<double>(k) / steps) ? 1 : 0;
+  if (on_wall == steps + 1) return RimEnd::on_wall;
+  int ended = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double share = (k + 0.5) / steps;
+    const Vec<3> x = from + share * (to - from);
+    ended += is_closed(share) || is_continued(boundary, x, own, -1, lengths) ? 1 : 0;
+  }
+  return 2 * ended >= steps ? RimEnd::continued : RimEnd::free;
 }
 
 /// How far a plate from a mesh is from where it is drawn.
@@ -70,54 +125,245 @@ Screen<3> triangle_screen(const TriangleMesh& mesh, int t, const Vec<3>& moved, 
   return screen;
 }
 
+/// A free end of a chain of faces: what its screens hide fades out there, also on a screen beyond the end.
+void fade_out(const Vec<2>& end, const Vec<2>& out, const Screen<2>& last, double fade,
+              std::vector<Screen<2>>& screens) {
+  for (Screen<2>& screen : screens) {
+    screen.fade = fade;
+    if (screen.distance(end) < fade) screen.rim.push_back({end});
+  }
+  Screen<2> beyond = last;
+  beyond.corner = end;
+  beyond.along = {out};
+  beyond.range = {{{0.0, fade}}};
+  beyond.is_beyond = true;
+  beyond.fade = fade;
+  beyond.rim = {{end}};
+  screens.push_back(beyond);
+}
+
 /// The screens of one plate, drawn on behind the walls at which it ends.
-std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& plate, double gap, double reach) {
+std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& plate, const Lengths& lengths) {
   std::vector<Screen<2>> screens;
   for (int piece = 0; piece < plate.pieces; ++piece) screens.push_back(bare_screen(boundary, plate, piece));
-  const WallFace<2>& last = boundary.faces[plate.first_face + plate.pieces - 1];
-  const Vec<2> before = -screens.front().along[0];
-  const Vec<2> after = screens.back().along[0];
-  if (is_closed_by_wall(boundary, screens.front().corner, before, gap)) screens.front().range[0][0] -= reach;
-  if (is_closed_by_wall(boundary, last.corners[1], after, gap)) screens.back().range[0][1] += reach;
+  const std::array<Screen<2>, 2> last{screens.front(), screens.back()};
+  const std::array<int, 2> piece{0, plate.pieces - 1};
+  for (const int end : {0, 1}) {
+    const int f = plate.first_face + piece[end];
+    const Vec<2>& x = boundary.faces[f].corners[end];
+    const double side = end == 0 ? -1.0 : 1.0;
+    const Vec<2> out = side * last[end].along[0];
+    if (is_closed_by_wall(boundary, x, out, lengths.gap(), plate.wall)) {
+      screens[piece[end]].range[0][end] += side * lengths.reach;
+    } else if (!is_continued(boundary, x, plate.wall, f, lengths)) {
+      fade_out(x, out, last[end], lengths.fade(), screens);
+    }
+  }
   return screens;
 }
 
-std::vector<Screen<3>> screens_of_sheet(const Boundary<3>& boundary, const WallPlate& plate, double gap, double reach) {
-  const Vec<3> moved = displacement_of(boundary, plate);
-  const WidenedSheet wide = widened(*plate.sheet, reach, [&](const Vec<3>& from, const Vec<3>& to, const Vec<3>& out) {
-    return is_closed_by_walls(boundary, from + moved, to + moved, out, gap);
-  });
+/// Gives each screen the pieces of the rim that are near it.
+void share_rim(const std::vector<RimPiece<3>>& rim, double fade, std::vector<Screen<3>>& screens) {
+  for (Screen<3>& screen : screens) {
+    screen.fade = fade;
+    const Eigen::AlignedBox<double, 3> box = screen.box();
+    for (const RimPiece<3>& piece : rim) {
+      const Eigen::AlignedBox<double, 3> around(piece[0].cwiseMin(piece[1]), piece[0].cwiseMax(piece[1]));
+      if (box.exteriorDistance(around) < fade) screen.rim.push_back(piece);
+    }
+  }
+}
+
+/// The rim of a sheet that was drawn on, from the edges that are free: they, and the sides of the strips beside them
+/// that are drawn on behind walls.
+std::vector<RimPiece<3>> rim_of(const WidenedSheet& wide, const std::vector<bool>& is_free) {
+  std::vector<RimPiece<3>> rim;
+  for (std::size_t k = 0; k < wide.edges.size(); ++k) {
+    const DrawnOnEdge& edge = wide.edges[k];
+    if (is_free[k]) {
+      rim.push_back({edge.from, edge.to});
+      continue;
+    }
+    if (edge.before >= 0 && is_free[edge.before]) rim.push_back({edge.from, edge.outer_from});
+    if (edge.after >= 0 && is_free[edge.after]) rim.push_back({edge.to, edge.outer_to});
+  }
+  return rim;
+}
+
+/// The screens of the triangles of a sheet of wall `wall` whose faces begin at `first_face`, and of what was drawn on.
+std::vector<Screen<3>> screens_of_triangles(const WidenedSheet& wide, const std::vector<bool>& is_free,
+                                            const Vec<3>& moved, const WallPlate& plate, double fade) {
   std::vector<Screen<3>> screens;
   for (int t = 0; t < static_cast<int>(wide.mesh.triangles.size()); ++t) {
     screens.push_back(triangle_screen(wide.mesh, t, moved, plate, wide.from[t]));
+    for (const int edge : wide.beyond[t]) screens.back().is_beyond |= edge >= 0 && is_free[edge];
   }
+  std::vector<RimPiece<3>> rim = rim_of(wide, is_free);
+  for (RimPiece<3>& piece : rim) piece = {piece[0] + moved, piece[1] + moved};
+  share_rim(rim, fade, screens);
   return screens;
 }
 
-std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& plate, double gap, double reach) {
-  if (plate.sheet) return screens_of_sheet(boundary, plate, gap, reach);
+std::vector<Screen<3>> screens_of_sheet(const Boundary<3>& boundary, const WallPlate& plate, const Lengths& lengths) {
+  const Vec<3> moved = displacement_of(boundary, plate);
+  const TriangleMesh& mesh = plate.sheet->mesh();
+  std::vector<bool> is_free;
+  const WidenedSheet wide = widened(*plate.sheet, lengths.reach, [&](int t, int e, const Vec<3>& out) {
+    const RimEnd end =
+        end_along(boundary, mesh.corner(t, e) + moved, mesh.corner(t, (e + 1) % 3) + moved, out, plate.wall, lengths);
+    if (end != RimEnd::continued) is_free.push_back(end == RimEnd::free);
+    return end != RimEnd::continued;
+  });
+  return screens_of_triangles(wide, is_free, moved, plate, lengths.fade());
+}
+
+std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& plate, const Lengths& lengths) {
+  if (plate.sheet) return screens_of_sheet(boundary, plate, lengths);
   const Screen<3> bare = rectangle_of(boundary, plate);
-  Screen<3> screen = bare;
+  Screen<3> whole = bare;
+  std::vector<std::array<int, 2>> free_ends;  // axis, end
   for (const int axis : {0, 1}) {
-    const double length = bare.range[1 - axis][1];
     for (const int end : {0, 1}) {
       const Vec<3> from = bare.corner + bare.range[axis][end] * bare.along[axis];
-      const Vec<3> to = from + length * bare.along[1 - axis];
+      const Vec<3> to = from + bare.range[1 - axis][1] * bare.along[1 - axis];
       const double side = end == 0 ? -1.0 : 1.0;
-      if (is_closed_by_walls(boundary, from, to, side * bare.along[axis], gap)) screen.range[axis][end] += side * reach;
+      const RimEnd kind = end_along(boundary, from, to, side * bare.along[axis], plate.wall, lengths);
+      if (kind == RimEnd::on_wall) whole.range[axis][end] += side * lengths.reach;
+      if (kind == RimEnd::free) free_ends.push_back({axis, end});
     }
   }
-  return {screen};
+  const auto at = [&](double x, double y) { return Vec<3>(whole.corner + x * whole.along[0] + y * whole.along[1]); };
+  Screen<3> wide = whole;
+  for (const auto& [axis, end] : free_ends) wide.range[axis][end] += (end == 0 ? -1.0 : 1.0) * lengths.fade();
+  std::vector<Screen<3>> screens{whole};
+  std::vector<RimPiece<3>> rim;
+  for (const auto& [axis, end] : free_ends) {
+    const double edge = whole.range[axis][end];
+    const std::array<double, 2>& across = whole.range[1 - axis];
+    rim.push_back(axis == 0 ? RimPiece<3>{at(edge, across[0]), at(edge, across[1])}
+                            : RimPiece<3>{at(across[0], edge), at(across[1], edge)});
+    Screen<3> strip = wide;
+    strip.range[axis][1 - end] = edge;
+    strip.is_beyond = true;
+    screens.push_back(strip);
+  }
+  share_rim(rim, lengths.fade(), screens);
+  return screens;
+}
+
+/// The face that continues a chain at a corner of a face, whose other corner it has there; -1: none.
+int next_in_chain(const Boundary<2>& boundary, int f, int corner, double tolerance) {
+  const Vec<2>& x = boundary.faces[f].corners[corner];
+  for (int g = 0; g < static_cast<int>(boundary.faces.size()); ++g) {
+    const WallFace<2>& face = boundary.faces[g];
+    const bool moves_alike = boundary.walls[face.wall].body == boundary.walls[boundary.faces[f].wall].body;
+    if (g == f || boundary.walls[face.wall].is_plate || !moves_alike) continue;
+    if ((face.corners[1 - corner] - x).norm() <= tolerance) return g;
+  }
+  return -1;
+}
+
+/// The screens beside a free end: of the faces of its chain from the end inwards.
+std::vector<Screen<2>> screens_beside(const Boundary<2>& boundary, const WallEnd& end, const Lengths& lengths) {
+  std::vector<Screen<2>> screens;
+  double left = screened_reach * lengths.reach;
+  for (int f = end.face; f >= 0 && left > 0.0; f = next_in_chain(boundary, f, 1 - end.corner, lengths.tolerance())) {
+    const WallFace<2>& face = boundary.faces[f];
+    const Vec<2> inwards = face.corners[1 - end.corner] - face.corners[end.corner];
+    Screen<2> screen{face.corners[end.corner], face.normal, {inwards.normalized()}, {}, 0, f, f};
+    screen.range = {{{0.0, std::min(inwards.norm(), left)}}};
+    screen.wall = boundary.faces[end.face].wall;
+    screen.is_plate = false;
+    screens.push_back(screen);
+    left -= inwards.norm();
+  }
+  const Screen<2> last = screens.front();
+  fade_out(last.corner, -last.along[0], last, lengths.fade(), screens);
+  return screens;
+}
+
+/// The ends of walls that are no plates, at which no other face begins.
+std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengths) {
+  std::vector<WallEnd> ends;
+  for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
+    const WallFace<2>& face = boundary.faces[f];
+    if (boundary.walls[face.wall].is_plate) continue;
+    for (const int corner : {0, 1}) {
+      const Vec<2>& x = face.corners[corner];
+      bool is_end = !is_continued(boundary, x, face.wall, -1, lengths);
+      for (int g = 0; g < static_cast<int>(boundary.faces.size()) && is_end; ++g) {
+        is_end = g == f || (closest_point(boundary.faces[g], x) - x).norm() > lengths.tolerance();
+      }
+      if (is_end) ends.push_back({f, corner, false});
+    }
+  }
+  return ends;
+}
+
+/// Finds the free edges of the rim of a mesh.
+void find_free_edges(const Boundary<3>& boundary, const Lengths& lengths, WallMesh& mesh) {
+  const MeshSurface& surface = *mesh.surface;
+  const TriangleMesh& triangles = surface.mesh();
+  for (int t = 0; t < static_cast<int>(triangles.triangles.size()); ++t) {
+    for (int e = 0; e < 3; ++e) {
+      if (surface.neighbours()[t][e] >= 0) continue;
+      const Vec<3>& from = triangles.corner(t, e);
+      const Vec<3>& to = triangles.corner(t, (e + 1) % 3);
+      const Vec<3> out = (to - from).cross(triangles.area_normal(t)).normalized();
+      if (end_along(boundary, from, to, out, mesh.wall, lengths) != RimEnd::free) continue;
+      mesh.free_edges.resize(triangles.triangles.size(), 0);
+      mesh.free_edges[t] |= static_cast<std::uint8_t>(1U << e);
+    }
+  }
+}
+
+/// The screens beside the free rim of a mesh.
+std::vector<Screen<3>> screens_beside(const WallMesh& mesh, const Lengths& lengths) {
+  const WidenedSheet wide = widened(*mesh.surface, lengths.fade(),
+                                    [&](int t, int e, const Vec<3>& /*out*/) { return mesh.has_free_edge(t, e); });
+  const std::vector<bool> is_free(wide.edges.size(), true);
+  const WallPlate as_plate{mesh.wall, mesh.first_face, 0};
+  std::vector<Screen<3>> screens = screens_of_triangles(wide, is_free, Vec<3>::Zero(), as_plate, lengths.fade());
+  const std::vector<RimPiece<3>> rim = rim_of(wide, is_free);
+  std::erase_if(screens, [&](const Screen<3>& screen) {
+    const Eigen::AlignedBox<double, 3> box = screen.box();
+    return std::ranges::none_of(rim, [&](const RimPiece<3>& piece) {
+      const Eigen::AlignedBox<double, 3> around(piece[0].cwiseMin(piece[1]), piece[0].cwiseMax(piece[1]));
+      return box.exteriorDistance(around) < screened_reach * lengths.reach;
+    });
+  });
+  for (Screen<3>& screen : screens) screen.is_plate = false;
+  return screens;
+}
+
+template <int Dim>
+void append(std::vector<Screen<Dim>>& screens, std::vector<Screen<Dim>> more) {
+  screens.insert(screens.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+double distance_to(const RimPiece<2>& piece, const Vec<2>& x) { return (x - piece[0]).norm(); }
+double distance_to(const RimPiece<3>& piece, const Vec<3>& x) {
+  const Vec<3> edge = piece[1] - piece[0];
+  const double share = std::clamp(edge.dot(x - piece[0]) / edge.squaredNorm(), 0.0, 1.0);
+  return (x - piece[0] - share * edge).norm();
 }
 
 }  // namespace
 
 template <int Dim>
-bool Screen<Dim>::is_between(const Vec<Dim>& from, const Vec<Dim>& to) const {
+double distance_to_rim(std::span<const RimPiece<Dim>> rim, const Vec<Dim>& x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const RimPiece<Dim>& piece : rim) nearest = std::min(nearest, distance_to(piece, x));
+  return nearest;
+}
+
+template <int Dim>
+bool Screen<Dim>::find_passage(const Vec<Dim>& from, const Vec<Dim>& to, Vec<Dim>& passage) const {
   const double before = height(from);
   const double after = height(to);
   if ((before >= 0.0) == (after >= 0.0)) return false;
-  const Vec<Dim> hit = from + before / (before - after) * (to - from) - corner;
+  passage = from + before / (before - after) * (to - from);
+  const Vec<Dim> hit = passage - corner;
   std::array<double, 2> place{};
   for (int axis = 0; axis < Dim - 1; ++axis) {
     place[axis] = along[axis].dot(hit);
@@ -125,6 +371,22 @@ bool Screen<Dim>::is_between(const Vec<Dim>& from, const Vec<Dim>& to) const {
   }
   return std::ranges::all_of(
       cuts, [&](const ScreenCut& cut) { return cut.outwards[0] * place[0] + cut.outwards[1] * place[1] <= cut.most; });
+}
+
+template <int Dim>
+bool Screen<Dim>::is_between(const Vec<Dim>& from, const Vec<Dim>& to) const {
+  Vec<Dim> passage;
+  return find_passage(from, to, passage);
+}
+
+template <int Dim>
+double Screen<Dim>::hidden_fraction(const Vec<Dim>& from, const Vec<Dim>& to) const {
+  Vec<Dim> passage;
+  if (!find_passage(from, to, passage)) return 0.0;
+  if (rim.empty()) return 1.0;
+  const double inside = (is_beyond ? -1.0 : 1.0) * distance_to_rim<Dim>(rim, passage);
+  const double q = std::clamp(0.5 * (1.0 + inside / fade), 0.0, 1.0);
+  return q * q * (3.0 - 2.0 * q);
 }
 
 template <int Dim>
@@ -150,49 +412,109 @@ Eigen::AlignedBox<double, Dim> Screen<Dim>::box() const {
 }
 
 template <int Dim>
-bool is_hidden(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
-               const Vec<Dim>& to, int plate) {
-  bool is_behind_own = plate < 0;
+double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
+                        const Vec<Dim>& to, int felt) {
+  if (felt == never_felt) return 0.0;
+  double through_own = felt >= 0 ? 0.0 : 1.0;
+  double visible = 1.0;
+  double hidden = 0.0;  // by the last wall
+  int wall = -1;
   for (const int s : near) {
     const Screen<Dim>& screen = screens[s];
-    if (!screen.is_between(from, to)) continue;
-    if (screen.wall != plate) return true;
-    is_behind_own = true;
+    const double fraction = screen.hidden_fraction(from, to);
+    if (fraction == 0.0) continue;
+    if (screen.wall == felt) {
+      through_own = std::max(through_own, fraction);
+    } else if (screen.is_plate || felt == felt_past_screens) {
+      if (screen.wall != wall) {
+        visible *= 1.0 - hidden;
+        hidden = 0.0;
+        wall = screen.wall;
+      }
+      hidden = std::max(hidden, fraction);
+    }
   }
-  return !is_behind_own;
+  return through_own * visible * (1.0 - hidden);
 }
 
 template <int Dim>
-void Boundary<Dim>::hang_screens(double closed_gap, double reach) {
-  closed_gap_ = closed_gap;
+void Boundary<Dim>::find_free_ends(double spacing, double reach) {
+  const Lengths lengths{spacing, reach};
+  if constexpr (Dim == 2) {
+    ends = find_ends(*this, lengths);
+  } else {
+    mesh_rims_.clear();
+    for (WallMesh& mesh : meshes) {
+      find_free_edges(*this, lengths, mesh);
+      if (!mesh.free_edges.empty()) append(mesh_rims_, screens_beside(mesh, lengths));
+    }
+  }
+}
+
+template <int Dim>
+void Boundary<Dim>::hang_screens(double spacing, double reach) {
+  screen_spacing_ = spacing;
   screen_reach_ = reach;
+  const Lengths lengths{spacing, reach};
   screens.clear();
-  for (const WallPlate& plate : plates) {
-    const std::vector<Screen<Dim>> of_plate = screens_of(*this, plate, closed_gap, reach);
-    screens.insert(screens.end(), of_plate.begin(), of_plate.end());
+  for (const WallPlate& plate : plates) append(screens, screens_of(*this, plate, lengths));
+  if constexpr (Dim == 2) {
+    for (WallEnd& end : ends) {
+      const WallFace<2>& face = faces[end.face];
+      const Vec<2>& x = face.corners[end.corner];
+      const Vec<2> out = (x - face.corners[1 - end.corner]).normalized();
+      end.is_free = !is_closed_by_wall(*this, x, out, lengths.gap(), face.wall);
+      if (end.is_free) append(screens, screens_beside(*this, end, lengths));
+    }
+  } else {
+    for (const Screen<3>& drawn : mesh_rims_) {
+      const Vec<3> moved = displacement_of(*mesh_of(drawn.front));
+      screens.push_back(drawn);
+      screens.back().corner += moved;
+      for (RimPiece<3>& piece : screens.back().rim) piece = {piece[0] + moved, piece[1] + moved};
+    }
   }
   // What lies exactly behind the rim, as places of a lattice do, is hidden whatever the rounding.
   for (Screen<Dim>& screen : screens) {
     for (std::array<double, 2>& range : screen.range) {
-      range[0] -= corner_tolerance * closed_gap;
-      range[1] += corner_tolerance * closed_gap;
+      range[0] -= corner_tolerance * lengths.gap();
+      range[1] += corner_tolerance * lengths.gap();
     }
-    for (ScreenCut& cut : screen.cuts) cut.most += corner_tolerance * closed_gap;
+    for (ScreenCut& cut : screen.cuts) cut.most += corner_tolerance * lengths.gap();
   }
-  hung_ = FaceGrid<Dim>(reach);
+  hung_ = FaceGrid<Dim>(plate_reach * reach);
+  hung_box_.setEmpty();
   all_screens_.clear();
   for (int s = 0; s < static_cast<int>(screens.size()); ++s) {
     all_screens_.push_back(s);
     const Eigen::AlignedBox<double, Dim> box = screens[s].box();
+    hung_box_.extend(box);
     hung_.add(s, box.min(), box.max(), [&](const Vec<Dim>& x) { return screens[s].distance(x); });
   }
+  const Vec<Dim> around = Vec<Dim>::Constant(screened_reach * reach);
+  if (!screens.empty()) hung_box_ = {hung_box_.min() - around, hung_box_.max() + around};
+}
+
+template <int Dim>
+bool Boundary<Dim>::is_beside_free_end(int wall, const Vec<Dim>& x) const {
+  return std::ranges::any_of(screens_near(x, hung_.reach()), [&](int s) {
+    const Screen<Dim>& screen = screens[s];
+    return screen.wall == wall && screen.is_beyond && !screen.is_plate &&
+           distance_to_rim<Dim>(screen.rim, x) < hung_.reach();
+  });
 }
 
 template struct Screen<2>;
 template struct Screen<3>;
-template bool is_hidden(std::span<const Screen<2>>, std::span<const int>, const Vec<2>&, const Vec<2>&, int);
-template bool is_hidden(std::span<const Screen<3>>, std::span<const int>, const Vec<3>&, const Vec<3>&, int);
+template double distance_to_rim(std::span<const RimPiece<2>>, const Vec<2>&);
+template double distance_to_rim(std::span<const RimPiece<3>>, const Vec<3>&);
+template double visible_fraction(std::span<const Screen<2>>, std::span<const int>, const Vec<2>&, const Vec<2>&, int);
+template double visible_fraction(std::span<const Screen<3>>, std::span<const int>, const Vec<3>&, const Vec<3>&, int);
+template void Boundary<2>::find_free_ends(double, double);
+template void Boundary<3>::find_free_ends(double, double);
 template void Boundary<2>::hang_screens(double, double);
 template void Boundary<3>::hang_screens(double, double);
+template bool Boundary<2>::is_beside_free_end(int, const Vec<2>&) const;
+template bool Boundary<3>::is_beside_free_end(int, const Vec<3>&) const;
 
 }  // namespace tailwater

@@ -1,9 +1,11 @@
-// What a plate hides: water on one side of it does not feel the water on the other.
+// Walls that water feels from one side only: two places that have such a wall between them do not interact. These walls
+// are plates, and the parts of other walls beside their free ends.
 #pragma once
 
 #include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "base/vec.h"
 
@@ -15,8 +17,23 @@ struct ScreenCut {
   double most = std::numeric_limits<double>::infinity();  ///< m; how far the screen reaches in this direction
 };
 
-/// What a flat piece of a plate hides: water on one side of it does not feel the water on the other. It is a segment in
-/// 2D, in 3D a rectangle or, with two cuts, a triangle.
+/// A piece of the rim at which a wall ends in the water: a point in 2D, in 3D a segment.
+template <int Dim>
+using RimPiece = std::array<Vec<Dim>, Dim - 1>;
+
+/// m; infinite if there are no pieces.
+template <int Dim>
+double distance_to_rim(std::span<const RimPiece<Dim>> rim, const Vec<Dim>& x);
+
+/// A flat piece of a wall that hides the places on one side of it from those on the other: a segment in 2D, in 3D a
+/// rectangle or, with two cuts, a triangle.
+///
+/// Beside a rim the hidden fraction H fades. If the line between two places passes the wall at the distance s inside
+/// its rim (negative beyond the rim),
+///
+///   H = q^2 (3 - 2 q),   q = clamp((1 + s/fade)/2, 0, 1)
+///
+/// Screens beyond the rim continue the wall there, in its plane, as far as H is not 0.
 template <int Dim>
 struct Screen {
   Vec<Dim> corner;
@@ -27,21 +44,43 @@ struct Screen {
   int front = 0;  ///< indices into Boundary::faces, the front one on the side that the normal points to
   int back = 0;
   std::array<ScreenCut, Dim == 3 ? 2 : 0> cuts{};
+  bool is_plate = true;                 ///< else the part beside a free end of a wall with water on one side
+  bool is_beyond = false;               ///< beyond the rim, where there is no wall
+  double fade = 0.0;                    ///< m
+  std::vector<RimPiece<Dim>> rim = {};  ///< the pieces within `fade` of the screen
 
   double height(const Vec<Dim>& x) const { return normal.dot(x - corner); }
   /// Whether the straight line from one place to another passes it.
   bool is_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
+  /// Hidden fraction H of two places; 0 if the straight line between them does not pass the screen.
+  double hidden_fraction(const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The axis-parallel box around it.
   Eigen::AlignedBox<double, Dim> box() const;
   /// m; of `x` from the piece, or from the rectangle around it
   double distance(const Vec<Dim>& x) const;
+
+ private:
+  /// Whether the line between two places passes it, and where.
+  bool find_passage(const Vec<Dim>& from, const Vec<Dim>& to, Vec<Dim>& passage) const;
 };
 
-/// Whether what is at one place does not feel what is at the other, because one of the screens `near` them, given by
-/// index, is between them. If one of them is a wall particle of a plate, `plate` is its index into Boundary::walls,
-/// else -1; such a particle stands for what its own plate hides, and is felt only through it.
+/// How water feels a particle, if not through the screens of a wall, an index into Boundary::walls.
+inline constexpr int felt_past_screens = -1;  ///< water, and all else that every screen hides
+inline constexpr int felt_past_plates = -2;   ///< a wall particle: hidden by plates only
+inline constexpr int never_felt = -3;
+
+/// The fraction of the interaction of two places that the screens `near` them, given by index, leave. `felt` is of the
+/// one that is a wall particle, if there is one: the index of the wall through whose screens it is felt, as the wall
+/// particle replaces the water hidden by that wall, or one of the constants above.
+template <int Dim>
+double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
+                        const Vec<Dim>& to, int felt);
+
+/// Whether one of the screens `near` two places of water hides more than half of one from the other.
 template <int Dim>
 bool is_hidden(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
-               const Vec<Dim>& to, int plate);
+               const Vec<Dim>& to, int felt = felt_past_screens) {
+  return visible_fraction<Dim>(screens, near, from, to, felt) < 0.5;
+}
 
 }  // namespace tailwater

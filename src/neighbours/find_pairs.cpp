@@ -261,6 +261,7 @@ template <int Dim>
 void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Particles<Dim>& particles,
                 WallRows wall_rows, double least_distance, Pairs<Dim>& pairs) {
   pairs.position = particles.position;
+  pairs.weight.clear();
   pairs.id = particles.id;
   pairs.least_distance = least_distance;
   pairs.least_squared = static_cast<float>(least_distance * least_distance);

@@ -27,10 +27,10 @@ class Neighbourhood {
   /// are new. pairs() and their order may change at every call.
   bool update(Particles<Dim>& particles);
 
-  /// Keeps those pairs of the last update for which keep(i, k) is true: k of row i.
-  template <class Keep>
-  void keep_pairs(Keep&& keep) {
-    tailwater::keep_pairs(pairs_, keep);
+  /// Weighs the pairs of the last update (weigh_pairs in pairs.h).
+  template <class MayChange, class Weigh>
+  void weigh_pairs(MayChange&& may_change, Weigh&& weigh) {
+    tailwater::weigh_pairs(pairs_, may_change, weigh);
   }
 
   /// Moves particles that left a periodic domain in again at its other end. Call between steps only.

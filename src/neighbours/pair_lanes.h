@@ -57,12 +57,12 @@ struct PairBatch {
 
   /// m; between the particles, never 0.
   Lanes distance(const VecLanes<Dim>& d) const { return sqrt_of(max_of(d.dot(d), Lanes{} + pairs.least_squared)); }
-  /// 1/m^(Dim+2); F = -(dW/dr)/r at these differences, 0 in lanes left over.
+  /// 1/m^(Dim+2); F = -(dW/dr)/r at these differences times the weights of the pairs, 0 in lanes left over.
   Lanes F(const VecLanes<Dim>& d) const {  // NOLINT(readability-identifier-naming): as in formulas
-    return range.only(kernel_steepness(pairs.kernel_in_lanes, distance(d)));
+    return weighted(range.only(kernel_steepness(pairs.kernel_in_lanes, distance(d))));
   }
-  /// 1/m^Dim; W at these differences.
-  Lanes kernel_at(const VecLanes<Dim>& d) const { return kernel_value(pairs.kernel_in_lanes, distance(d)); }
+  /// 1/m^Dim; W at these differences times the weights of the pairs.
+  Lanes kernel_at(const VecLanes<Dim>& d) const { return weighted(kernel_value(pairs.kernel_in_lanes, distance(d))); }
   /// 1/m^Dim; W_ij, and 0 with walls and in lanes left over.
   Lanes kernel_of_fluid() const {
     const PlaceLanes<Dim> where = place();
@@ -72,6 +72,11 @@ struct PairBatch {
   /// Writes to the places of these pairs in `row`, which has all pairs of i. Returns what was written, with 0 in lanes
   /// left over.
   Lanes store(Lanes lanes, float* row) const { return range.store(lanes, row + (range.begin - pairs.begin(i))); }
+
+ private:
+  Lanes weighted(const Lanes& lanes) const {
+    return pairs.weight.empty() ? lanes : lanes * range.load(pairs.weight.data());
+  }
 };
 
 /// Pair k of particle i alone.

@@ -29,6 +29,7 @@ template <int Dim>
 struct Pairs {
   std::vector<std::size_t> row_begin;   ///< owned + 1 entries
   UnwrittenArray<std::int32_t> j;       ///< neighbour: in each row those below i, those above it, then ghosts
+  UnwrittenArray<float> weight;         ///< of each pair in kernel and gradient, from 0 to 1; empty: 1 for all pairs
   std::vector<std::uint8_t> sees_wall;  ///< of row i; 0: none of its neighbours is a wall particle
   std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found; no two neighbours have the same
   std::array<float, Dim> unit{};        ///< m; of places
@@ -48,7 +49,10 @@ struct Pairs {
   }
   double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }          ///< m; |r_ij|
   Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }  ///< unit vector along r_ij
-  double value(std::size_t i, std::size_t k) const { return kernel_value(kernel, r(i, k)); }  ///< 1/m^Dim
+  /// 1/m^Dim; W_ij times the weight of the pair. F, slope and gradient contain the weight too.
+  double value(std::size_t i, std::size_t k) const {
+    return (weight.empty() ? 1.0 : weight[k]) * kernel_value(kernel, r(i, k));
+  }
   /// 1/m^(Dim+2); F = -(dW/dr)/r as loops in lanes have it, never negative, so that grad_i W_ij = -F d. To call it,
   /// and what follows, include pair_lanes.h.
   float F(std::size_t i, std::size_t k) const;  // NOLINT(readability-identifier-naming): as in formulas
@@ -60,24 +64,33 @@ struct Pairs {
   std::size_t owned() const { return row_begin.empty() ? 0 : row_begin.size() - 1; }
 };
 
-/// Keeps the pairs k of row i for which keep(i, k) is true, in their order.
-template <int Dim, class Keep>
-void keep_pairs(Pairs<Dim>& pairs, Keep&& keep) {
-  std::size_t n = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: rows are put one behind the other
+/// Multiplies the pairs k of row i by weigh(i, k), from 0 to 1, and removes those of weight 0. The pairs of the rows
+/// for which may_change(i) is false keep weight 1. No weights are stored if may_change is false for all rows.
+template <int Dim, class MayChange, class Weigh>
+void weigh_pairs(Pairs<Dim>& pairs, MayChange&& may_change, Weigh&& weigh) {
+  std::size_t i = 0;
+  while (i < pairs.owned() && !may_change(i)) ++i;
+  if (i == pairs.owned()) return;
+  pairs.weight.assign(pairs.j.size(), 1.0F);
+  std::size_t n = pairs.begin(i);
+  std::size_t begin = n;
+  for (; i < pairs.owned(); ++i) {  // in order: the rows follow each other without gaps
     const std::size_t end = pairs.end(i);
-    pairs.sees_wall[i] = 0;
+    const bool changes = may_change(i);
+    if (changes) pairs.sees_wall[i] = 0;
     for (std::size_t k = begin; k < end; ++k) {
-      if (!keep(i, k)) continue;
+      const float weight = changes ? weigh(i, k) : 1.0F;
+      if (weight == 0.0F) continue;
       if (pairs.place[pairs.j[k]].signed_volume < 0.0F) pairs.sees_wall[i] = 1;
       pairs.j[n] = pairs.j[k];
+      pairs.weight[n] = weight;
       ++n;
     }
     begin = end;
     pairs.row_begin[i + 1] = n;
   }
   pairs.j.resize(n);
+  pairs.weight.resize(n);
 }
 
 }  // namespace tailwater

@@ -59,8 +59,8 @@ struct ProbeContext {
   double time;       ///< s
   FlowTotals totals;
   Communicator ranks = {};
-  /// Of each particle, the plate that it is of, as an index into Boundary::walls, or -1. Needed where there are plates.
-  std::span<const int> plate_of = {};
+  /// How water feels each particle, as in visible_fraction. Needed where walls have screens.
+  std::span<const int> felt_through = {};
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
@@ -85,25 +85,26 @@ struct ProbeContext {
   }
 };
 
-/// Whether a plate hides a particle from a place.
+/// The fraction of a particle that is felt at a place past the screens of walls.
 template <int Dim>
-bool is_hidden_from(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
-  if (context.boundary.screens.empty()) return false;
+double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
+  if (context.boundary.screens.empty()) return 1.0;
   const Vec<Dim>& there = context.particles.position[j];
-  return is_hidden<Dim>(context.boundary.screens, context.boundary.screens_near(x, (there - x).norm()), x, there,
-                        context.plate_of[j]);
+  return visible_fraction<Dim>(context.boundary.screens, context.boundary.screens_near(x, (there - x).norm()), x, there,
+                               context.felt_through[j]);
 }
 
-/// Calls body(j, w_j W(|x - x_j|)) for every particle j within the support around `x` that no plate hides from it.
+/// Calls body(j, v w_j W(|x - x_j|)) for every particle j within the support around `x` of which the visible fraction v
+/// is not 0.
 template <int Dim, class Body>
 void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&& body) {
   std::visit(
       [&](const auto& kernel) {
         context.grid.for_each_near(x, [&](std::int32_t j) {
           const double squared = (x - context.particles.position[j]).squaredNorm();
-          if (squared < kernel.radius() * kernel.radius() && !is_hidden_from(context, x, j)) {
-            body(j, context.particles.volume[j] * kernel.value(std::sqrt(squared)));
-          }
+          if (squared >= kernel.radius() * kernel.radius()) return;
+          const double visible = visible_fraction_of(context, x, j);
+          if (visible > 0.0) body(j, visible * context.particles.volume[j] * kernel.value(std::sqrt(squared)));
         });
       },
       context.kernel);

@@ -50,7 +50,7 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
   for (const std::size_t i : indices_where(particles.size(), is_near)) {
     near.push_back({particles.id[i], to_array<Dim>(particles.position[i]), to_array<Dim>(particles.velocity[i]),
                     particles.pressure[i], particles.volume[i], particles.kind[i],
-                    context.plate_of.empty() ? -1 : context.plate_of[i]});
+                    context.felt_through.empty() ? -1 : context.felt_through[i]});
   }
   near = context.ranks.gather(near);
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
@@ -58,7 +58,7 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
              near.end());
 
   GatheredParticles<Dim> result;
-  result.plate_of.resize(near.size());
+  result.felt_through.resize(near.size());
   Particles<Dim>& gathered = result.particles;
   gathered.resize(near.size());
   gathered.owned = near.size();
@@ -69,7 +69,7 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
     gathered.volume[i] = near[i].volume;
     gathered.kind[i] = near[i].kind;
     gathered.wall_row[i] = -1;
-    result.plate_of[i] = near[i].plate;
+    result.felt_through[i] = near[i].plate;
     gathered.id[i] = near[i].id;
   });
   return result;

@@ -10,7 +10,7 @@ namespace tailwater {
 template <int Dim>
 struct GatheredParticles {
   Particles<Dim> particles;
-  std::vector<int> plate_of;  ///< as in ProbeContext
+  std::vector<int> felt_through;  ///< as in ProbeContext
 };
 
 /// On the root: all particles, ghosts included, within the kernel's support of one of the regions, each once and in the

@@ -243,7 +243,7 @@ void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
   if (!ranks.is_alone() && !regions.empty()) gathered = gather_near(context, regions);
   const CellGrid<Dim> grid(gathered.particles.position, kernel_radius(context.kernel));
   ProbeContext<Dim> near = context.of(gathered.particles, grid);
-  near.plate_of = gathered.plate_of;
+  near.felt_through = gathered.felt_through;
 
   std::vector<std::vector<Row>> rows;
   for (const Instrument* instrument : read) {

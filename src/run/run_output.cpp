@@ -201,7 +201,7 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
 template <int Dim>
 void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt) {
   if (!probes_.is_due(flow.state.time)) return;
-  const std::vector<int> plate_of = plates_of_particles(flow.walls, flow.state.particles);
+  const std::vector<int> felt_through = find_felt_through(flow.walls, flow.state.particles);
   probes_.record({.particles = flow.state.particles,
                   .grid = flow.neighbourhood.grid(),
                   .kernel = flow.neighbourhood.kernel(),
@@ -219,7 +219,7 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .section_volumes = flow.template part<SectionCounters<Dim>>().volumes(),
                              .air = pocket_totals(air_of(flow))},
                   .ranks = ranks_,
-                  .plate_of = plate_of,
+                  .felt_through = felt_through,
                   .domain = flow.setup.domain,
                   .dt = dt,
                   .wall_forces = &flow.wall_forces,

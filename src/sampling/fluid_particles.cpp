@@ -182,9 +182,8 @@ class BlockWater {
         for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
           x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(first + n), axis);
         }
-        // Not to the other side of a plate.
-        if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x, -1))
-          x = centre;
+        // Not to the other side of a wall without thickness.
+        if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x)) x = centre;
         x = kept_off_walls(spec_, boundary_, block_, x);
         double volume = fitted_.share;
         for (int axis = 0; axis < Dim; ++axis) volume *= axes_[axis].width(static_cast<int>(cell[axis]));

@@ -231,4 +231,27 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
   return std::move(collector).particles();
 }
 
+std::vector<WallParticles<2>> sample_beyond_ends(const Boundary<2>& boundary, const WallLayers& layers) {
+  std::vector<WallParticles<2>> parts;
+  for (const WallEnd& end : boundary.ends) {
+    if (!end.is_free) continue;
+    const WallFace<2>& face = boundary.faces[end.face];
+    const Vec<2>& tip = face.corners[end.corner];
+    const Vec<2> out = (tip - face.corners[1 - end.corner]).normalized();
+    WallParticleCollector<2> collector(boundary, layers.of_wall(boundary.walls[face.wall].moves()));
+    for (int layer = 0; layer < layers.count; ++layer) {
+      for (int k = 0; k < layers.count; ++k) {
+        const Vec<2> foot = tip + (k + 0.5) * layers.spacing * out;
+        collector.add({.position = foot - (layers.first_depth() + layer * layers.spacing) * face.normal,
+                       .foot = foot,
+                       .normals = {face.normal},
+                       .wall = face.wall,
+                       .is_beyond_end = true});
+      }
+    }
+    parts.push_back(std::move(collector).particles());
+  }
+  return parts;
+}
+
 }  // namespace tailwater

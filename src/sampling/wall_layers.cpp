@@ -162,6 +162,7 @@ void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place, std::int64_t 
   particles_.beyond_edges.push_back(normals_beyond_edges(place, sum));
   particles_.share.push_back(place.share);
   particles_.wall.push_back(place.wall);
+  particles_.is_beyond_end.push_back(place.is_beyond_end ? 1 : 0);
   particles_.number.push_back(number);
 }
 

@@ -44,6 +44,7 @@ struct WallPlace {
   int wall = 0;                        ///< index into Boundary::walls
   Vec<Dim> offset = Vec<Dim>::Zero();  ///< m; from there to where the particle stands
   double share = 1.0;                  ///< its volume, over dx^Dim
+  bool is_beyond_end = false;          ///< of its wall, which ends in the water
 
   Vec<Dim> stands_at() const { return position + offset; }
 };
@@ -124,6 +125,10 @@ class WallParticleCollector {
 
 /// 2D: faces joined to chains (wall_chains.cpp).
 WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers);
+
+/// 2D: rows of dummies beyond the free ends of walls (wall_chains.cpp): the wall drawn on by the depth of the layers.
+/// Water feels them only through the wall (geometry/screen.h).
+std::vector<WallParticles<2>> sample_beyond_ends(const Boundary<2>& boundary, const WallLayers& layers);
 
 /// 3D: axis-parallel boxes (wall_boxes.cpp).
 void sample_boxes(const Boundary<3>& body, const WallLayers& layers, WallParticleCollector<3>& collector);

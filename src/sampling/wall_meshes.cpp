@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "geometry/mesh_surface.h"
+#include "geometry/plate_shape.h"
 #include "sampling/cut_cells.h"
 #include "sampling/nodes_near.h"
 #include "sampling/wall_layers.h"
@@ -45,6 +46,31 @@ Behind part_behind(const MeshSurface& surface, const Vec<3>& centre, const Vec<3
   if (behind.share > 0.0) behind.offset /= behind.share;
   behind.share /= parts_of_cell<3>;
   return behind;
+}
+
+/// Whole cells behind the surface drawn on beyond its free rim. Water feels them only through the mesh.
+void sample_beyond_rim(const WallMesh& mesh, const WallLayers& layers, const Lattice<3>& lattice,
+                       WallParticleCollector<3>& collector) {
+  if (mesh.free_edges.empty()) return;
+  const double depth = layers.count * layers.spacing;
+  WidenedSheet wide =
+      widened(*mesh.surface, depth, [&](int t, int e, const Vec<3>& /*out*/) { return mesh.has_free_edge(t, e); });
+  const MeshSurface surface(std::move(wide.mesh));
+  const int drawn = static_cast<int>(mesh.free_edges.size());
+  const auto propose = [&](const Vec<3>& x, const SurfacePlace& place) {
+    if (place.is_on_rim || place.triangle < drawn || place.signed_distance >= 0.0) return;
+    double share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      share *= share_of_step(lattice[axis].width(lattice[axis].cell_at(x[axis])), layers.spacing);
+    }
+    collector.add({.position = x,
+                   .foot = place.point,
+                   .normals = normals_at(surface.mesh(), place),
+                   .wall = mesh.wall,
+                   .share = share,
+                   .is_beyond_end = true});
+  };
+  NodesNear(surface, lattice, depth, propose).find();
 }
 
 }  // namespace
@@ -93,6 +119,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
     collector.add_unless_behind_another(
         proposal.place, proposal.number, [](int) { return false; }, proposal.mesh);
   }
+  for (const WallMesh& mesh : body.meshes) sample_beyond_rim(mesh, layers, lattice, collector);
 }
 
 }  // namespace tailwater

@@ -24,8 +24,9 @@ struct WallParticles {
   std::vector<Mat<Dim>> blocked;
   /// Columns: normals of the walls beyond convex edges in reach, the nearest first; 0 where there are none.
   std::vector<Mat<Dim>> beyond_edges;
-  std::vector<double> share;  ///< its volume, over dx^Dim
-  std::vector<int> wall;      ///< index into Boundary::walls
+  std::vector<double> share;                ///< its volume, over dx^Dim
+  std::vector<int> wall;                    ///< index into Boundary::walls
+  std::vector<std::uint8_t> is_beyond_end;  ///< 1: beyond a free end of its wall, felt through the wall's screens only
   /// Unique, whichever share of the walls was made: of its place among all that were looked at. Those of particles on
   /// the wall itself come first.
   std::vector<std::int64_t> number;
@@ -38,7 +39,7 @@ struct WallParticles {
   /// Calls body with references to the entries of the particles.
   template <class Body>
   void apply_to_fields(Body&& body) {
-    body(position, normal, blocked, beyond_edges, share, wall, number);
+    body(position, normal, blocked, beyond_edges, share, wall, is_beyond_end, number);
   }
 };
 

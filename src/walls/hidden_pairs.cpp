@@ -3,47 +3,60 @@
 #include "base/for_each.h"
 
 namespace tailwater {
+namespace {
+
+/// How water feels the wall particle of a row that stands at `x`.
+template <int Dim>
+int felt_through(const Walls<Dim>& walls, std::int32_t row, const Vec<Dim>& x) {
+  const int wall = walls.particles.wall[row];
+  if (walls.boundary.plate_of(wall) >= 0) return wall;
+  if (walls.boundary.is_beside_free_end(wall, x)) return wall;
+  return walls.particles.is_beyond_end[row] != 0 ? never_felt : felt_past_plates;
+}
+
+}  // namespace
 
 template <int Dim>
-std::vector<int> plates_of_particles(const Walls<Dim>& walls, const Particles<Dim>& particles) {
+std::vector<int> find_felt_through(const Walls<Dim>& walls, const Particles<Dim>& particles) {
   if (walls.boundary.screens.empty()) return {};
-  std::vector<int> plates(particles.size(), -1);
+  std::vector<int> felt(particles.size(), felt_past_screens);
   for_each(particles.size(), [&](std::size_t i) {
-    if (particles.is_fluid(i)) return;
-    plates[i] = walls.boundary.plate_of(walls.particles.wall[particles.wall_row[i]]);
+    if (!particles.is_fluid(i)) felt[i] = felt_through(walls, particles.wall_row[i], particles.position[i]);
   });
-  return plates;
+  return felt;
 }
 
 template <int Dim>
-void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& particles,
-                              Neighbourhood<Dim>& neighbourhood) {
+void hide_pairs_behind_screens(const Walls<Dim>& walls, const Particles<Dim>& particles,
+                               Neighbourhood<Dim>& neighbourhood) {
   const std::vector<Screen<Dim>>& screens = walls.boundary.screens;
   if (screens.empty()) return;
-  const std::vector<int> plates = plates_of_particles(walls, particles);
   const double radius = kernel_radius(neighbourhood.kernel());
   const Pairs<Dim>& pairs = neighbourhood.pairs();
+  std::vector<int> felt;  // found when the first pair near a screen is
   std::vector<int> near;
-  std::size_t row = pairs.owned();
-  neighbourhood.keep_pairs([&](std::size_t i, std::size_t k) {
-    if (i != row) {  // the first pair of this row
-      row = i;
-      near.clear();
-      for (const int s : walls.boundary.screens_near(particles.position[i], radius)) {
-        if (screens[s].distance(particles.position[i]) < radius) near.push_back(s);
-      }
+  const auto may_change = [&](std::size_t i) {
+    near.clear();
+    if (!walls.boundary.has_screens_near(particles.position[i])) return false;
+    for (const int s : walls.boundary.screens_near(particles.position[i], radius)) {
+      if (screens[s].distance(particles.position[i]) < radius) near.push_back(s);
     }
+    // Wall particles that are felt through a screen may be nearer than the screen.
+    return !near.empty() || pairs.sees_wall[i] != 0 || !particles.is_fluid(i);
+  };
+  neighbourhood.weigh_pairs(may_change, [&](std::size_t i, std::size_t k) {
+    if (felt.empty()) felt = find_felt_through(walls, particles);
     const auto j = static_cast<std::size_t>(pairs.j[k]);
-    const int plate = std::max(plates[i], plates[j]);
     // In an order that both rows of the pair agree about.
     const bool is_forward = particles.id[i] < particles.id[j];
     const Vec<Dim>& from = particles.position[is_forward ? i : j];
     const Vec<Dim>& to = particles.position[is_forward ? j : i];
-    return !is_hidden<Dim>(screens, near, from, to, plate);
+    const int wall = felt[i] == felt_past_screens ? felt[j] : felt[i];
+    return static_cast<float>(visible_fraction<Dim>(screens, near, from, to, wall));
   });
 }
 
-TAILWATER_IN_2D_AND_3D(plates_of_particles);
-TAILWATER_IN_2D_AND_3D(hide_pairs_behind_plates);
+TAILWATER_IN_2D_AND_3D(find_felt_through);
+TAILWATER_IN_2D_AND_3D(hide_pairs_behind_screens);
 
 }  // namespace tailwater

@@ -1,7 +1,7 @@
-// Plates are walls without thickness: water on one side does not feel the water on the other. Two particles make a pair
-// only if no plate is between them. The wall particles of a plate stand on both of its sides, and a particle of the
-// water feels exactly those that the plate hides from it: they take the place of the water behind the plate, so that
-// the support is filled once, also beside the end of a plate.
+// Walls without thickness: water on one side does not feel the water on the other. The wall particles of a plate stand
+// on both of its sides. A particle of the water feels exactly those that the plate hides from it: they replace the
+// water behind the plate, so that the support is filled once, also beside the end of a plate. The same holds for the
+// particles of other walls beside their free ends. Beside the rim of a wall the pairs fade (geometry/screen.h).
 #pragma once
 
 #include <vector>
@@ -12,13 +12,13 @@
 
 namespace tailwater {
 
-/// Of each particle, the plate that it is of, as an index into Boundary::walls, or -1; empty if there are no plates.
+/// How water feels each particle, as in visible_fraction; empty if there are no screens.
 template <int Dim>
-std::vector<int> plates_of_particles(const Walls<Dim>& walls, const Particles<Dim>& particles);
+std::vector<int> find_felt_through(const Walls<Dim>& walls, const Particles<Dim>& particles);
 
-/// Takes out the pairs that plates hide. Call after each Neighbourhood::update.
+/// Weights the pairs near screens by their visible fraction. Call after each Neighbourhood::update.
 template <int Dim>
-void hide_pairs_behind_plates(const Walls<Dim>& walls, const Particles<Dim>& particles,
-                              Neighbourhood<Dim>& neighbourhood);
+void hide_pairs_behind_screens(const Walls<Dim>& walls, const Particles<Dim>& particles,
+                               Neighbourhood<Dim>& neighbourhood);
 
 }  // namespace tailwater

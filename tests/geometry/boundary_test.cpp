@@ -182,9 +182,7 @@ template <int Dim>
 void expect_the_same_nearest(const CaseSpec& spec, const Vec<Dim>& low, const Vec<Dim>& high) {
   Boundary<Dim> filed = make_boundary<Dim>(spec);
   filed.file_faces(3.0 * spec.particles.spacing);
-  Boundary<Dim> plain;
-  plain.faces = filed.faces;
-  plain.walls = filed.walls;
+  const Boundary<Dim> plain = make_boundary<Dim>(spec);
   const double reach = filed.filed_reach();
   int found = 0;
   std::mt19937 random(1);
@@ -208,7 +206,8 @@ void expect_the_same_nearest(const CaseSpec& spec, const Vec<Dim>& low, const Ve
 template <int Dim>
 bool hides(const CaseSpec& spec, const Vec<Dim>& from, const Vec<Dim>& to) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
-  return std::ranges::any_of(boundary.screens, [&](const auto& screen) { return screen.is_between(from, to); });
+  return std::ranges::any_of(boundary.screens,
+                             [&](const auto& screen) { return screen.hidden_fraction(from, to) > 0.5; });
 }
 
 // A basin with a plate below the mouth of a channel, from whose bed the plate goes down to the bed of the basin.
@@ -231,6 +230,59 @@ TEST(Screens, GoOnBehindAWallAndNotInFrontOfItIn3D) {
   EXPECT_TRUE(hides<3>(spec, {-0.05, 0.5, -0.15}, {0.05, 0.5, -0.15}));
   EXPECT_TRUE(hides<3>(spec, {-0.05, -0.15, 0.2}, {0.05, -0.15, 0.2}));
   EXPECT_FALSE(hides<3>(spec, {-0.05, 0.5, 0.5}, {0.05, 0.5, 0.5}));
+}
+
+// What a plate hides fades over a spacing on either side of its edge, evenly about it, and not where it stands on a
+// wall. It depends on the distance from the edge alone, also where the last piece of the plate is shorter than a
+// spacing.
+TEST(Screens, FadeAtAnEdge) {
+  for (const bool has_short_piece : {false, true}) {
+    CaseSpec spec = empty_case(0.1);
+    WallTable plate = polyline({{0.0, 0.0}, {0.0, 0.4}});
+    if (has_short_piece) plate.points = {{0.0, 0.0}, {0.0, 0.37}, {0.0, 0.4}};
+    plate.shape = WallShape::plate;
+    spec.walls = {polyline({{-1.0, 0.0}, {1.0, 0.0}}), plate};
+    const Boundary<2> boundary = make_boundary<2>(spec);
+    const auto visible = [&](double z, int felt) {
+      const Vec<2> from(-0.05, z);
+      const Vec<2> to(0.1, z);
+      return visible_fraction<2>(boundary.screens, boundary.screens_near(to, 0.15), from, to, felt);
+    };
+    for (double s = 0.01; s < 0.1; s += 0.01) {
+      const double q = 0.5 * (1.0 + s / 0.1);
+      EXPECT_NEAR(visible(0.4 - s, felt_past_screens), 1.0 - q * q * (3.0 - 2.0 * q), 1e-12);
+      EXPECT_NEAR(visible(0.4 - s, felt_past_screens), 1.0 - visible(0.4 + s, felt_past_screens), 1e-12);
+      EXPECT_NEAR(visible(0.4 - s, 1), 1.0 - visible(0.4 - s, felt_past_screens), 1e-12);
+    }
+    for (const double z : {-0.15, 0.02, 0.29}) EXPECT_EQ(visible(z, felt_past_screens), 0.0);
+    for (const double z : {0.51, 0.6}) EXPECT_EQ(visible(z, felt_past_screens), 1.0);
+  }
+}
+
+TEST(FreeEnds, HaveNothingBehindThem) {
+  CaseSpec spec = empty_case(0.1);
+  const WallTable floor = polyline({{-1.0, 0.0}, {0.0, 0.0}});
+  spec.walls = {floor};
+  const Boundary<2> alone = make_boundary<2>(spec);
+  EXPECT_NEAR(alone.nearest({0.03, -0.04}, 1.0).signed_distance, 0.05, 1e-12);
+  EXPECT_NEAR(alone.nearest({-0.3, -0.04}, 1.0).signed_distance, -0.04, 1e-12);
+  // Water beside the end has come around it; farther away it must have passed the wall.
+  EXPECT_NEAR(alone.nearest_to_water({-0.3, -0.04}, 1.0).signed_distance, 0.04, 1e-12);
+  EXPECT_NEAR(alone.nearest_to_water({-0.5, -0.04}, 1.0).signed_distance, -0.04, 1e-12);
+  // A wall within half a spacing leaves no opening until it moves away.
+  spec.walls = {floor, polyline({{0.04, -1.0}, {0.04, 1.0}})};
+  spec.walls[1].displacement = {"t", 0.0};
+  Boundary<2> closed = make_boundary<2>(spec);
+  EXPECT_NEAR(closed.nearest({0.003, -0.004}, 1.0).signed_distance, -0.005, 1e-12);
+  EXPECT_TRUE(std::ranges::none_of(closed.ends,
+                                   [](const WallEnd& end) { return end.face == 0 && end.corner == 1 && end.is_free; }));
+  for (Vec<2>& corner : closed.faces[1].corners) corner[0] += 0.1;
+  closed.hang_screens();
+  EXPECT_NEAR(closed.nearest({0.003, -0.004}, 1.0).signed_distance, 0.005, 1e-12);
+  // Beyond an opening the floor continues.
+  spec.walls = {floor};
+  spec.outlets = {outlet({0.0, 0.0}, {0.0, 1.0})};
+  EXPECT_EQ(make_boundary<2>(spec).ends.size(), 1u);
 }
 
 TEST(FiledFaces, GiveTheNearestOfAll) {

@@ -120,6 +120,34 @@ TYPED_TEST(PairLanes, EveryEntryIsInOneLane) {
   for (std::size_t k = visits.size(); k < stored.size(); ++k) EXPECT_EQ(stored[k], -1.0F);
 }
 
+TYPED_TEST(PairLanes, WeightsMultiplyKernelAndGradientAndPairsOfWeightZeroAreRemoved) {
+  constexpr int Dim = TypeParam::value;
+  const Rows<Dim> rows;
+  const Pairs<Dim>& whole = rows.pairs;
+  Pairs<Dim> weighed = whole;
+  weighed.sees_wall.assign(count, 1);
+  const auto weight = [](std::size_t i, std::size_t j) { return static_cast<float>((i + j) % 4) / 4.0F; };
+  weigh_pairs(
+      weighed, [](std::size_t) { return false; }, [](std::size_t, std::size_t) { return 0.0F; });
+  EXPECT_TRUE(weighed.weight.empty());
+  weigh_pairs(
+      weighed, [](std::size_t i) { return i >= 8; },
+      [&](std::size_t i, std::size_t k) { return weight(i, whole.j[k]); });
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t left = weighed.begin(i);
+    for (std::size_t k = whole.begin(i); k < whole.end(i); ++k) {
+      const float of_pair = i >= 8 ? weight(i, whole.j[k]) : 1.0F;
+      if (of_pair == 0.0F) continue;
+      ASSERT_LT(left, weighed.end(i));
+      EXPECT_EQ(weighed.j[left], whole.j[k]);
+      EXPECT_EQ(weighed.value(i, left), of_pair * whole.value(i, k));
+      EXPECT_EQ(weighed.F(i, left), of_pair * whole.F(i, k));
+      ++left;
+    }
+    EXPECT_EQ(left, weighed.end(i));
+  }
+}
+
 TYPED_TEST(PairLanes, DifferencesAreAsExactFarFromTheOriginAndOppositeForBothEnds) {
   constexpr int Dim = TypeParam::value;
   const Rows<Dim> rows(1e4);  // five thousand supports away: places have gone round 2^32 a thousand times

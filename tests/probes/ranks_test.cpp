@@ -111,9 +111,9 @@ std::pair<Tank<Dim>, std::vector<int>> tank_with_plate() {
     tank.add(x, false, 100.0 * k);
   }
   tank.locate();
-  std::vector<int> plate_of(tank.particles.size(), -1);
-  std::fill(plate_of.begin() + static_cast<std::ptrdiff_t>(others), plate_of.end(), 1);
-  return {std::move(tank), std::move(plate_of)};
+  std::vector<int> felt_through(tank.particles.size(), -1);
+  std::fill(felt_through.begin() + static_cast<std::ptrdiff_t>(others), felt_through.end(), 1);
+  return {std::move(tank), std::move(felt_through)};
 }
 
 /// What rank `rank` has of the tank: its own particles and all others as ghosts, or these alone.
@@ -215,7 +215,7 @@ TYPED_TEST(ProbesOnRanks, BesideAPlate) {
   constexpr int Dim = TypeParam::value;
   auto made = tank_with_plate<Dim>();
   Tank<Dim>& tank = made.first;
-  std::vector<int>& plate_of = made.second;
+  std::vector<int>& felt_through = made.second;
   tank.spec.probes = {probe_at(ProbeType::depth, Tank<Dim>::at(0.40, 0.1)),
                       probe_at(ProbeType::depth, Tank<Dim>::at(0.44, 0.1))};
   tank.spec.probes[0].name = "left";
@@ -226,18 +226,18 @@ TYPED_TEST(ProbesOnRanks, BesideAPlate) {
   Particles<Dim> part = part_of<Dim>(
       tank.particles, [&](std::size_t i, const Vec<Dim>&) { return is_own(i) ? ranks.rank() : -1; }, ranks.rank(),
       false);
-  std::vector<int> plate_of_part;
-  for (std::size_t i = 0; i < plate_of.size(); ++i) {
-    if (is_own(i)) plate_of_part.push_back(plate_of[i]);
+  std::vector<int> felt_through_of_part;
+  for (std::size_t i = 0; i < felt_through.size(); ++i) {
+    if (is_own(i)) felt_through_of_part.push_back(felt_through[i]);
   }
   const CellGrid<Dim> grid(part.position, 3.0 * tank.dx);
   ProbeContext<Dim> whole = tank.context();
-  whole.plate_of = plate_of;
+  whole.felt_through = felt_through;
   std::vector<std::vector<double>> expected;
   for (const Probe<Dim>& probe : make_probes<Dim>(tank.spec, tank.boundary)) {
     expected.push_back(probe.reading.take(whole).at(0));
   }
-  for (int& plate : plate_of) plate = -1;
+  for (int& plate : felt_through) plate = -1;
   EXPECT_GT(std::abs(make_probes<Dim>(tank.spec, tank.boundary)[0].reading.take(whole).at(0).at(0) - expected[0][0]),
             1e-6)
       << "it matters who is of the plate";
@@ -246,7 +246,7 @@ TYPED_TEST(ProbesOnRanks, BesideAPlate) {
                        ranks);
   ProbeContext<Dim> own = whole.of(part, grid);
   own.ranks = ranks;
-  own.plate_of = plate_of_part;
+  own.felt_through = felt_through_of_part;
   probes.record(own);
   if (!ranks.is_root()) return;
   for (std::size_t k = 0; k < expected.size(); ++k) {

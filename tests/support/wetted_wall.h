@@ -27,6 +27,7 @@ struct WettedWall {
       walls.particles.normal.push_back(Vec<Dim>::UnitY());
       walls.particles.blocked.push_back(blocked);
       walls.particles.beyond_edges.push_back(Mat<Dim>::Zero());
+      walls.particles.is_beyond_end.push_back(0);
       walls.particles.wall.push_back(0);
       walls.particles.number.push_back(static_cast<std::int64_t>(walls.particles.number.size()));
       walls.friction.push_back(friction);

@@ -36,6 +36,7 @@ Walls<Dim> made_by(const Communicator& ranks) {
     walls.particles.beyond_edges.push_back(-x * Mat<Dim>::Identity());
     walls.particles.share.push_back(2.0 * x);
     walls.particles.wall.push_back(moves(number) ? 1 : 0);
+    walls.particles.is_beyond_end.push_back(0);
     walls.particles.number.push_back(number);
     walls.friction.push_back(3.0 * x);
     walls.roughness.push_back(4.0 * x);
