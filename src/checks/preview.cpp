@@ -217,10 +217,11 @@ void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View&
   }
 }
 
-/// Whether a wall particle is of a wall of the case: those of ducts come later.
+/// Whether a wall particle is of a wall as the case draws it: neither of a duct, which comes later, nor beyond a free
+/// end.
 template <int Dim>
 bool is_drawn(const Boundary<Dim>& boundary, const WallParticles<Dim>& walls, std::size_t i) {
-  return walls.wall[i] < static_cast<int>(boundary.walls.size());
+  return walls.wall[i] < static_cast<int>(boundary.walls.size()) && walls.is_beyond_end[i] == 0;
 }
 
 /// The extent of all that the picture must show.
@@ -347,8 +348,8 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   const int row_count = rows.empty() ? 0 : 1 + *std::max_element(rows.begin(), rows.end());
   view.top = title_height + row_count * line_height + 8.0;
 
-  const std::string summary =
-      fmt::format("spacing {:.6g} m, {} fluid and {} wall particles", dx, fluid.position.size(), walls.size());
+  const std::string summary = fmt::format("spacing {:.6g} m, {} fluid and {} wall particles", dx, fluid.position.size(),
+                                          std::ranges::count(walls.is_beyond_end, 0));
   double width =
       std::max({view.right(), view.left + text_width(summary), view.left + 1.4 * text_width(spec.general.title)});
   for (std::size_t i = 0; i < names.size(); ++i) width = std::max(width, label_x[i] + 6.0 + text_width(names[i]));

@@ -57,11 +57,11 @@ struct WallMesh {
   }
 };
 
-/// An end of a wall that is no plate, in 2D: no other face continues there.
+/// An end of a wall that is no plate, in 2D: no wall of the same body continues or closes it.
 struct WallEnd {
   int face = 0;          ///< index into Boundary::faces
   int corner = 0;        ///< of the face
-  bool is_free = false;  ///< whether it ends in the water: not on another wall, nor nearer to it than half a spacing
+  bool is_free = false;  ///< whether no other body closes it at present, so that it ends in the water
 };
 
 /// A wall without thickness. Every piece of it, a segment (2D) or a triangle (3D), has two faces back to back: first
@@ -113,13 +113,12 @@ struct Boundary {
 
   /// The screens, by index, that a displacement of this length (m) may pass which ends at `x`.
   std::span<const int> screens_near(const Vec<Dim>& x, double length) const {
-    if (screens.empty()) return {};
     if (length > hung_.reach()) return all_screens_;
     return has_screens_near(x) ? hung_.near(x) : std::span<const int>();
   }
 
   /// False only where nothing is felt through screens or hidden by them.
-  bool has_screens_near(const Vec<Dim>& x) const { return !screens.empty() && hung_box_.contains(x); }
+  bool has_screens_near(const Vec<Dim>& x) const { return hung_box_.contains(x); }
 
   /// Whether `x` is so near to a free end of a wall that is no plate that the wall counts as a plate there: it has two
   /// sides, no place is behind it, and its particles are felt through its screens.

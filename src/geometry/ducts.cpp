@@ -169,6 +169,7 @@ void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary) {
     boundary.walls.push_back({.name = mouth.name, .kind = mouth.label().table, .is_duct = true});
     append_walls(Rim<Dim>(spec, boundary, mouth), wall, spec.particles.spacing, boundary);
     boundary.ducts.push_back({mouth, duct_length(spec)});
+    for (const WallFace<Dim>& face : mouth.moved_out(duct_length(spec)).as_faces()) boundary.continued.push_back(face);
   }
 }
 

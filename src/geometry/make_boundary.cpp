@@ -230,11 +230,13 @@ std::vector<std::shared_ptr<const MeshSurface>> water_meshes(const CaseSpec& spe
   return water;
 }
 
-/// The openings, and the planes between which the case repeats itself, as far as the walls reach.
+/// The openings beyond which walls go on, and the planes between which the case repeats itself, as far as the walls
+/// reach.
 template <int Dim>
 std::vector<WallFace<Dim>> places_where_walls_continue(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   std::vector<WallFace<Dim>> faces;
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+    if (end.meets_air) continue;
     for (const WallFace<Dim>& face : end.as_faces()) faces.push_back(face);
   }
   const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);

@@ -19,6 +19,9 @@ constexpr double fade_width = 1.0;
 /// dx; an end that is as near to another wall leaves no opening.
 constexpr double closed_gap = 0.5;
 
+/// Cosine of the angle between the normal of a wall and the direction in which an edge points at the wall.
+constexpr double faces_edge = -0.5;
+
 /// In supports of the kernel: how far from a free end a wall counts as a plate, and how far its screens reach, past
 /// which water feels the wall particles that stand as near to the end.
 constexpr double plate_reach = 1.5;
@@ -49,13 +52,20 @@ Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int p
           plate.first_face + plate.pieces + piece};
 }
 
-/// Whether a wall that ends at `x` and points `out` there ends on another wall that is no plate, nearer to it than
-/// `gap`, or behind it. A wall that it points away from, as that of a pipe which opens beside a plate, does not close
-/// it.
+/// The wall, no plate, on which wall `own` ends that points `out` at `x`: nearer to it than `gap`, or in front of it.
+/// One that it points away from, as that of a pipe which opens beside a plate, does not close it. Without a face if
+/// there is none.
+template <int Dim>
+WallBesidePlate closing_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap,
+                             int own) {
+  const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
+  const bool closes = beside.distance <= gap && boundary.faces[beside.face].normal.dot(out) <= corner_tolerance;
+  return closes ? beside : WallBesidePlate{};
+}
+
 template <int Dim>
 bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap, int own) {
-  const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
-  return beside.distance <= gap && boundary.faces[beside.face].normal.dot(out) <= corner_tolerance;
+  return closing_wall(boundary, x, out, gap, own).face >= 0;
 }
 
 /// Whether another plate, an opening or a periodic plane is at an end of wall `own`. Another piece of the wall itself
@@ -83,15 +93,19 @@ RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& 
   const auto is_closed = [&](double share) {
     return is_closed_by_wall(boundary, Vec<3>(from + share * (to - from)), out, lengths.gap(), own);
   };
+  // Beside a wall that it does not point at, as at the side wall of a flume, an edge goes on to be free.
+  const auto is_ended = [&](const Vec<3>& x) {
+    const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
+    return (beside.distance <= lengths.gap() && boundary.faces[beside.face].normal.dot(out) < faces_edge) ||
+           is_continued(boundary, x, own, -1, lengths);
+  };
   const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / lengths.spacing)));
   int on_wall = 0;
   for (int k = 0; k <= steps; ++k) on_wall += is_closed(static_cast<double>(k) / steps) ? 1 : 0;
   if (on_wall == steps + 1) return RimEnd::on_wall;
   int ended = 0;
   for (int k = 0; k < steps; ++k) {
-    const double share = (k + 0.5) / steps;
-    const Vec<3> x = from + share * (to - from);
-    ended += is_closed(share) || is_continued(boundary, x, own, -1, lengths) ? 1 : 0;
+    ended += is_ended(Vec<3>(from + (k + 0.5) / steps * (to - from))) ? 1 : 0;
   }
   return 2 * ended >= steps ? RimEnd::continued : RimEnd::free;
 }
@@ -282,7 +296,7 @@ std::vector<Screen<2>> screens_beside(const Boundary<2>& boundary, const WallEnd
   return screens;
 }
 
-/// The ends of walls that are no plates, at which no other face begins.
+/// The ends of walls that are no plates, unless a wall of the same body closes or continues them.
 std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengths) {
   std::vector<WallEnd> ends;
   for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
@@ -290,9 +304,15 @@ std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengt
     if (boundary.walls[face.wall].is_plate) continue;
     for (const int corner : {0, 1}) {
       const Vec<2>& x = face.corners[corner];
-      bool is_end = !is_continued(boundary, x, face.wall, -1, lengths);
+      const Vec<2> out = (x - face.corners[1 - corner]).normalized();
+      const auto is_alike = [&](int g) {
+        return boundary.walls[boundary.faces[g].wall].body == boundary.walls[face.wall].body;
+      };
+      const WallBesidePlate beside = closing_wall(boundary, x, out, lengths.gap(), face.wall);
+      bool is_end = !is_continued(boundary, x, face.wall, -1, lengths) && (beside.face < 0 || !is_alike(beside.face));
       for (int g = 0; g < static_cast<int>(boundary.faces.size()) && is_end; ++g) {
-        is_end = g == f || (closest_point(boundary.faces[g], x) - x).norm() > lengths.tolerance();
+        const bool touches = (closest_point(boundary.faces[g], x) - x).norm() <= lengths.tolerance();
+        is_end = g == f || !touches || !is_alike(g);
       }
       if (is_end) ends.push_back({f, corner, false});
     }
@@ -457,12 +477,14 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
   screen_reach_ = reach;
   const Lengths lengths{spacing, reach};
   screens.clear();
+  hung_box_.setEmpty();
   for (const WallPlate& plate : plates) append(screens, screens_of(*this, plate, lengths));
   if constexpr (Dim == 2) {
     for (WallEnd& end : ends) {
       const WallFace<2>& face = faces[end.face];
       const Vec<2>& x = face.corners[end.corner];
       const Vec<2> out = (x - face.corners[1 - end.corner]).normalized();
+      hung_box_.extend(x);
       end.is_free = !is_closed_by_wall(*this, x, out, lengths.gap(), face.wall);
       if (end.is_free) append(screens, screens_beside(*this, end, lengths));
     }
@@ -483,7 +505,6 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
     for (ScreenCut& cut : screen.cuts) cut.most += corner_tolerance * lengths.gap();
   }
   hung_ = FaceGrid<Dim>(plate_reach * reach);
-  hung_box_.setEmpty();
   all_screens_.clear();
   for (int s = 0; s < static_cast<int>(screens.size()); ++s) {
     all_screens_.push_back(s);
@@ -492,7 +513,7 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
     hung_.add(s, box.min(), box.max(), [&](const Vec<Dim>& x) { return screens[s].distance(x); });
   }
   const Vec<Dim> around = Vec<Dim>::Constant(screened_reach * reach);
-  if (!screens.empty()) hung_box_ = {hung_box_.min() - around, hung_box_.max() + around};
+  if (!hung_box_.isEmpty()) hung_box_ = {hung_box_.min() - around, hung_box_.max() + around};
 }
 
 template <int Dim>

@@ -59,7 +59,7 @@ struct ProbeContext {
   double time;       ///< s
   FlowTotals totals;
   Communicator ranks = {};
-  /// How water feels each particle, as in visible_fraction. Needed where walls have screens.
+  /// How water feels each particle, as in visible_fraction. Needed where there are plates.
   std::span<const int> felt_through = {};
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
@@ -90,8 +90,9 @@ template <int Dim>
 double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
   if (context.boundary.screens.empty()) return 1.0;
   const Vec<Dim>& there = context.particles.position[j];
+  const int felt = context.felt_through.empty() ? felt_past_screens : context.felt_through[j];
   return visible_fraction<Dim>(context.boundary.screens, context.boundary.screens_near(x, (there - x).norm()), x, there,
-                               context.felt_through[j]);
+                               felt);
 }
 
 /// Calls body(j, v w_j W(|x - x_j|)) for every particle j within the support around `x` of which the visible fraction v

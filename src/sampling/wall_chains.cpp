@@ -234,7 +234,6 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
 std::vector<WallParticles<2>> sample_beyond_ends(const Boundary<2>& boundary, const WallLayers& layers) {
   std::vector<WallParticles<2>> parts;
   for (const WallEnd& end : boundary.ends) {
-    if (!end.is_free) continue;
     const WallFace<2>& face = boundary.faces[end.face];
     const Vec<2>& tip = face.corners[end.corner];
     const Vec<2> out = (tip - face.corners[1 - end.corner]).normalized();

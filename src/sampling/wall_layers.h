@@ -126,8 +126,8 @@ class WallParticleCollector {
 /// 2D: faces joined to chains (wall_chains.cpp).
 WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers);
 
-/// 2D: rows of dummies beyond the free ends of walls (wall_chains.cpp): the wall drawn on by the depth of the layers.
-/// Water feels them only through the wall (geometry/screen.h).
+/// 2D: rows of dummies beyond the ends of walls (wall_chains.cpp): the wall drawn on by the depth of the layers. Water
+/// feels them only through the wall while its end is free (geometry/screen.h).
 std::vector<WallParticles<2>> sample_beyond_ends(const Boundary<2>& boundary, const WallLayers& layers);
 
 /// 3D: axis-parallel boxes (wall_boxes.cpp).

@@ -70,7 +70,10 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
     parts.push_back(sample(body_alone(boundary, body), layers.of_wall(body != resting_body), lattice));
   for (WallParticles<Dim>& side : sample_plates<Dim>(boundary, layers, lattice)) parts.push_back(std::move(side));
   if constexpr (Dim == 2) {
-    for (WallParticles<2>& beyond : sample_beyond_ends(boundary, layers)) parts.push_back(std::move(beyond));
+    // Plates and free ends have no particles on the wall itself.
+    if (!layers.starts_on_wall) {
+      for (WallParticles<2>& beyond : sample_beyond_ends(boundary, layers)) parts.push_back(std::move(beyond));
+    }
   }
   WallParticles<Dim> all;
   for (const WallParticles<Dim>& part : parts) {

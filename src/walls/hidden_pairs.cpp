@@ -18,7 +18,7 @@ int felt_through(const Walls<Dim>& walls, std::int32_t row, const Vec<Dim>& x) {
 
 template <int Dim>
 std::vector<int> find_felt_through(const Walls<Dim>& walls, const Particles<Dim>& particles) {
-  if (walls.boundary.screens.empty()) return {};
+  if (walls.boundary.screens.empty() && walls.boundary.ends.empty()) return {};
   std::vector<int> felt(particles.size(), felt_past_screens);
   for_each(particles.size(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) felt[i] = felt_through(walls, particles.wall_row[i], particles.position[i]);
@@ -30,7 +30,6 @@ template <int Dim>
 void hide_pairs_behind_screens(const Walls<Dim>& walls, const Particles<Dim>& particles,
                                Neighbourhood<Dim>& neighbourhood) {
   const std::vector<Screen<Dim>>& screens = walls.boundary.screens;
-  if (screens.empty()) return;
   const double radius = kernel_radius(neighbourhood.kernel());
   const Pairs<Dim>& pairs = neighbourhood.pairs();
   std::vector<int> felt;  // found when the first pair near a screen is

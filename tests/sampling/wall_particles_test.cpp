@@ -19,6 +19,12 @@ using namespace testing_cases;
 
 constexpr double round_off = 1e-12;
 
+/// Without those beyond the free ends of walls.
+WallParticles<2> dummies_behind(Boundary<2> boundary, double spacing) {
+  boundary.ends.clear();
+  return make_dummy_particles<2>(boundary, spacing, 3);
+}
+
 template <int Dim>
 int find_at(const WallParticles<Dim>& particles, const Vec<Dim>& x) {
   int found = -1;
@@ -49,18 +55,37 @@ int count_on_wall(const WallParticles<Dim>& particles) {
 }
 
 template <int Dim>
-void expect_behind_walls(const WallParticles<Dim>& particles, const Boundary<Dim>& boundary, double spacing) {
+void expect_behind_walls(const WallParticles<Dim>& particles, Boundary<Dim> boundary, double spacing) {
+  boundary.ends.clear();  // beyond a free end nothing is behind
   for (const Vec<Dim>& x : particles.position) {
     EXPECT_LE(boundary.nearest(x, 1e9).signed_distance, -(0.5 - 1e-6) * spacing) << x.transpose();
   }
   EXPECT_GE(least_distance(particles), (0.5 - 1e-6) * spacing);
 }
 
+// The wall is drawn on by the depth of its layers beyond each end at which no wall of the same body stands.
+TEST(Dummies, ContinueAWallBeyondItsFreeEnds) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.0, 0.0}, {1.0, 1.0}})};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const WallParticles<2> all = make_dummy_particles<2>(boundary, 0.1, 3);
+  const WallParticles<2> behind = dummies_behind(boundary, 0.1);
+  EXPECT_EQ(std::ranges::count(all.is_beyond_end, 1), 2 * 9);
+  EXPECT_EQ(all.size(), behind.size() + 2 * 9);
+  for (const double x : {-0.25, -0.15, -0.05, 1.05, 1.15, 1.25}) {
+    for (const double z : {1.05, 1.15, 1.25}) {
+      const int found = find_at<2>(all, {x, z});
+      ASSERT_GE(found, 0) << x << " " << z;
+      EXPECT_EQ(all.is_beyond_end[found], 1);
+    }
+  }
+}
+
 // All lattice points outside the fluid's quarter-plane corners, within three layers, and no others.
 TEST(Dummies, ContinueTheLatticeAroundATank) {
   const CaseSpec spec = tank();
   const Boundary<2> boundary = make_boundary<2>(spec);
-  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, 0.1, 3);
+  const WallParticles<2> dummies = dummies_behind(boundary, 0.1);
   ASSERT_EQ(dummies.size(), 2u * 3 * 6 + 3 * 10 + 2 * 9) << "sides, bed, two corner patches of 3 x 3";
   for (int i = -3; i < 13; ++i) {
     for (int j = -3; j < 6; ++j) {
@@ -81,7 +106,7 @@ TEST(Dummies, ContinueTheLatticeAroundATank) {
 
 TEST(Dummies, DoNotDependOnHowTheWallIsWritten) {
   CaseSpec spec = tank();
-  const WallParticles<2> expected = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  const WallParticles<2> expected = dummies_behind(make_boundary<2>(spec), 0.1);
   const std::vector<std::vector<WallTable>> ways = {
       {polyline({{1.0, 0.6}, {1.0, 0.0}, {0.0, 0.0}, {0.0, 0.6}}, FluidSide::right)},
       {box_wall({0, 0}, {1.0, 0.6}, {"+y"})},
@@ -90,7 +115,7 @@ TEST(Dummies, DoNotDependOnHowTheWallIsWritten) {
   };
   for (const std::vector<WallTable>& walls : ways) {
     spec.walls = walls;
-    const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+    const WallParticles<2> dummies = dummies_behind(make_boundary<2>(spec), 0.1);
     ASSERT_EQ(dummies.size(), expected.size());
     for (const Vec<2>& x : expected.position) {
       EXPECT_GE(find_at<2>(dummies, x), 0) << x.transpose();
@@ -103,7 +128,7 @@ TEST(Dummies, ShrinkAtConvexCorners) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {box_wall({0, 0}, {1.0, 0.8}, {}, FluidSide::outside)};
   const Boundary<2> boundary = make_boundary<2>(spec);
-  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, 0.1, 3);
+  const WallParticles<2> dummies = dummies_behind(boundary, 0.1);
   EXPECT_EQ(dummies.size(), 10u * 8 - 4 * 2);
   for (int i = 0; i < 10; ++i) {
     for (int j = 0; j < 8; ++j) {
@@ -117,7 +142,7 @@ TEST(Dummies, ShrinkAtConvexCorners) {
 TEST(Dummies, SkipRowsThatHaveFlipped) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {box_wall({0, 0}, {0.3, 2.0}, {}, FluidSide::outside)};
-  const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  const WallParticles<2> dummies = dummies_behind(make_boundary<2>(spec), 0.1);
   EXPECT_EQ(dummies.size(), 3u * 20u) << "three cells wide: two rings, the inner one a single column";
   EXPECT_NEAR(least_distance(dummies), 0.1, round_off);
 }
@@ -129,7 +154,7 @@ TEST(Dummies, MeetOnTheBisectorOfA45DegreeCorner) {
     CaseSpec spec = empty_case(dx);
     spec.walls = {polyline({{-1, 0}, {0, 0}, {1, turn}})};
     const Boundary<2> boundary = make_boundary<2>(spec);
-    const WallParticles<2> dummies = make_dummy_particles<2>(boundary, dx, 3);
+    const WallParticles<2> dummies = dummies_behind(boundary, dx);
     expect_behind_walls(dummies, boundary, dx);
     const double half = turn * std::numbers::pi / 8;
     for (int layer = 0; layer < 3; ++layer) {
@@ -151,7 +176,7 @@ TEST(Dummies, StayNearASharpCorner) {
   CaseSpec spec = empty_case(dx);
   spec.walls = {polyline({{2.0, 0.8}, {0, 0}, {2.0, -0.8}})};  // fluid within 2 x 21.8 degrees
   const Boundary<2> boundary = make_boundary<2>(spec);
-  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, dx, 3);
+  const WallParticles<2> dummies = dummies_behind(boundary, dx);
   expect_behind_walls(dummies, boundary, dx);
   for (const Vec<2>& x : dummies.position) {
     EXPECT_GE(boundary.nearest(x, 10.0).signed_distance, -1.5 * 3 * dx * (1 + 1e-9));
@@ -162,7 +187,7 @@ TEST(Dummies, FollowASmoothCurveEvenly) {
   const double dx = 0.1;
   CaseSpec spec = empty_case(dx);
   spec.walls = {polygon(circle(200), FluidSide::outside)};
-  const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), dx, 3);
+  const WallParticles<2> dummies = dummies_behind(make_boundary<2>(spec), dx);
   // Rows of radius 0.95, 0.85, 0.75 with N = round(2 pi r/dx).
   EXPECT_EQ(dummies.size(), 60u + 53u + 47u);
 }
@@ -172,7 +197,7 @@ TEST(Dummies, StopAtAnotherWall) {
   CaseSpec spec = empty_case(dx);
   spec.walls = {polyline({{0, 0}, {1, 0}}), polyline({{0, -0.2}, {1, -0.2}}, FluidSide::right)};
   const Boundary<2> boundary = make_boundary<2>(spec);
-  const WallParticles<2> dummies = make_dummy_particles<2>(boundary, dx, 3);
+  const WallParticles<2> dummies = dummies_behind(boundary, dx);
   EXPECT_EQ(dummies.size(), 20u) << "a plate two spacings thick holds two rows";
   for (const Vec<2>& x : dummies.position) {
     EXPECT_LT(std::abs(x[1] + 0.1), 0.1);
@@ -225,8 +250,8 @@ TEST(Dummies, HaveTheVolumeBehindATankOfAnySizeIn2D) {
   const double dx = 0.1;
   CaseSpec spec = empty_case(dx);
   spec.walls = {polyline({{0, 0.57}, {0, 0}, {0.75, 0}, {0.75, 0.57}})};
-  EXPECT_NEAR(volume_of(make_dummy_particles<2>(make_boundary<2>(spec), dx, 3), dx),
-              (0.75 + 0.6) * (0.57 + 0.3) - 0.75 * 0.57, round_off);
+  EXPECT_NEAR(volume_of(dummies_behind(make_boundary<2>(spec), dx), dx), (0.75 + 0.6) * (0.57 + 0.3) - 0.75 * 0.57,
+              round_off);
 }
 
 TEST(Dummies, HaveTheVolumeOfTheirRowsBehindAPlateIn3D) {
@@ -314,7 +339,7 @@ TEST(Dummies, KnowTheWallsBeyondConvexEdges) {
   CaseSpec spec = tank();
   const double top = 0.5;
   spec.walls.push_back(box_wall({0.4, 0.0}, {0.7, top}, {}, FluidSide::outside));
-  const WallParticles<2> dummies = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  const WallParticles<2> dummies = dummies_behind(make_boundary<2>(spec), 0.1);
   const auto at = [&](double x, double z) { return dummies.beyond_edges[find_at<2>(dummies, {x, z})]; };
   for (std::size_t i = 0; i < dummies.size(); ++i) {
     const bool is_of_tank = dummies.wall[i] == 0;
@@ -325,7 +350,7 @@ TEST(Dummies, KnowTheWallsBeyondConvexEdges) {
   EXPECT_EQ(row, Vec<2>(1.0, 0.0)) << "top: a side";
 
   spec.walls = {polygon(circle(24, 0.3), FluidSide::right)};
-  const WallParticles<2> round = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  const WallParticles<2> round = dummies_behind(make_boundary<2>(spec), 0.1);
   ASSERT_GT(round.size(), 0u);
   for (const Mat<2>& beyond : round.beyond_edges) EXPECT_TRUE(beyond.isZero(0.0));
 }
@@ -337,14 +362,14 @@ TEST(Dummies, FillTheTipOfASharpCrest) {
   const double half = 0.6 / std::numbers::sqrt3;
   spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0 + half, 0.6}, {1.0 + 2.0 * half, 0.0}, {3.0, 0.0}})};
   const Boundary<2> sharp = make_boundary<2>(spec);
-  const WallParticles<2> dummies = make_dummy_particles<2>(sharp, 0.1, 3);
+  const WallParticles<2> dummies = dummies_behind(sharp, 0.1);
   EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.55}), 0);
   EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.50}), 0);
   EXPECT_GE(least_distance(dummies), (0.5 - 1e-6) * 0.1);
   for (const Vec<2>& x : dummies.position) EXPECT_LT(sharp.nearest(x, 1e9).signed_distance, 0.0) << x.transpose();
 
   spec.walls = {box_wall({0.0, 0.0}, {1.0, 1.0}, {}, FluidSide::outside)};
-  EXPECT_EQ(make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3).size(), 100u - 16u);
+  EXPECT_EQ(dummies_behind(make_boundary<2>(spec), 0.1).size(), 100u - 16u);
 }
 
 /// Shares of space, in cubes of 8 dx, together have the particles of all space, each once and as it is there; but those

@@ -28,8 +28,8 @@ TEST(StillWaterBesideAPlate, ComesToRest) {
   constexpr double dx = 0.02;
   CaseSpec spec = empty_case(dx);
   spec.particles.jitter = 0.2;
-  spec.walls = {polyline({{0.0, 0.4}, {0.0, 0.0}, {0.5, 0.0}, {0.5, 0.4}}), plate({{0.25, 0.0}, {0.25, 0.12}})};
-  spec.fluid = {box_fluid({0.0, 0.0}, {0.5, 0.24})};
+  spec.walls = {polyline({{0.0, 0.4}, {0.0, 0.0}, {0.48, 0.0}, {0.48, 0.4}}), plate({{0.24, 0.0}, {0.24, 0.12}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.48, 0.24})};
   Flow<2> flow = make_flow<2>(spec);
   const double start = measure(flow).energy();
   double max_energy = start;
