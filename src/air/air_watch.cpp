@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "geometry/from_spec.h"
+#include "motion/channel_end.h"
 #include "walls/wall_contact.h"
 
 namespace tailwater {
@@ -19,6 +20,9 @@ constexpr double cover = 1.1;
 /// [dx]; how far water beside pockets may go between two looks: a cell. Any other counts by a quarter
 /// (count_displacement_for_air), so it may go by the size of the least pocket.
 constexpr double distance_between_looks = 0.5;
+
+/// Half the edge of a cell, less rounding: a cell that a wall bounds is behind it.
+constexpr double half_cell = 0.5 - 1e-6;
 
 /// [dx]; edge of the pieces of walls that move: what they see of a pocket falls from 1 to 0 in two.
 constexpr double longest_piece = 0.75;
@@ -53,6 +57,10 @@ template <int Dim>
 AirWatch<Dim>::AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>& box,
                         const PeriodicDomain<Dim>& domain)
     : law_(spec.air), spacing_(spec.particles.spacing), starts_(spec.pockets), vents_(spec.vents) {
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+    const Vec<Dim> middle = end.low + 0.5 * (end.height * end.rise + end.width * end.aside);
+    ends_.push_back({end.opening, middle - spacing_ * end.opening.normal, end.flow.feeds()});
+  }
   const bool repeats = std::ranges::all_of(domain, [](const auto& range) { return range.has_value(); });
   if (spec.air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
   if (!(cells_over<Dim>(box, spacing_, domain) <= most_cells_of_map)) {
@@ -104,11 +112,30 @@ void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMark
         continue;
       }
       tested.mark(r, place, place + 1);
-      const double half = 0.5 * grid_->edge().maxCoeff();
+      const double half = half_cell * grid_->edge().maxCoeff();
       const bool is_behind = nearest.signed_distance <= -half;
       if (is_behind || (moves && nearest.signed_distance < half && is_in_gap(boundary, nearest.face, centre))) {
         solid.mark(r, place, place + 1);
       }
+    }
+  });
+}
+
+/// Marks the cells in the cube of a row that stands in front of another wall, as of a lid between side walls that go
+/// on: for them the other wall is nearer, and they are behind this one as far as the row itself is.
+template <int Dim>
+void AirWatch<Dim>::mark_across(const Walls<Dim>& walls, std::size_t row, CellMarks& solid) const {
+  const Boundary<Dim>& boundary = walls.boundary;
+  const Vec<Dim>& x = walls.particles.position[row];
+  grid_->visit_ball(x, std::sqrt(0.25 * Dim) * spacing_, [&](int r, int begin, int end) {
+    for (int place = solid.next_unmarked(r, begin, end); place < end; place = solid.next_unmarked(r, place + 1, end)) {
+      const Vec<Dim> centre = grid_->centre(grid_->cell(r, place));
+      if ((centre - x).cwiseAbs().maxCoeff() > 0.5 * spacing_) continue;
+      const NearestWall<Dim> nearest = boundary.nearest(centre, search_distance * spacing_);
+      if (nearest.face < 0) continue;
+      const WallFace<Dim>& face = boundary.faces[nearest.face];
+      const bool is_other = face.wall != walls.particles.wall[row] && !boundary.walls[face.wall].is_plate;
+      if (is_other && face.height(x) > 0.0) solid.mark(r, place, place + 1);
     }
   });
 }
@@ -142,6 +169,9 @@ void AirWatch<Dim>::mark_rows(const Walls<Dim>& walls, std::size_t from, std::si
       mark_wall(walls, row, tested, solid);
     }
   }
+  for (std::size_t row = from; row < to; ++row) {
+    if (!walls.boundary.walls[walls.particles.wall[row]].is_plate) mark_across(walls, row, solid);
+  }
 }
 
 template <int Dim>
@@ -151,11 +181,77 @@ void AirWatch<Dim>::mark_resting(const Walls<Dim>& walls, const Communicator& ra
   mark_rows(walls, walls.moving, walls.kept, resting_, resting_plates_);
   ranks.unite(resting_.words());
   ranks.unite(resting_plates_.words());
+  closed_ends_ = CellMarks(grid_->rows(), grid_->length());
+  for (const AirEnd<Dim>& end : ends_) mark_end(end, closed_ends_);
+  find_spaces(resting_, resting_plates_);
   if (walls.moving > 0) moving_ = make_wall_patches(walls.boundary, longest_piece * spacing_);
   std::erase_if(moving_, [&](const WallPatch<Dim>& patch) {
     return !walls.boundary.walls[walls.boundary.faces[patch.face].wall].moves();
   });
   knows_walls_ = true;
+}
+
+/// Marks the cells that are so near to an end that no step through the sides of cells passes it.
+template <int Dim>
+void AirWatch<Dim>::mark_end(const AirEnd<Dim>& end, CellMarks& closed) const {
+  const double reach = 0.51 * std::sqrt(static_cast<double>(Dim)) * grid_->edge().maxCoeff();
+  for (const WallFace<Dim>& face : end.opening.as_faces()) {
+    const Eigen::AlignedBox<double, Dim> box = face.box();
+    grid_->visit_ball(box.center(), 0.5 * box.diagonal().norm() + reach, [&](int row, int begin, int end_of_run) {
+      for (int place = begin; place < end_of_run; ++place) {
+        const Vec<Dim> centre = grid_->centre(grid_->cell(row, place));
+        if ((centre - closest_point(face, centre)).norm() <= reach) closed.mark(row, place, place + 1);
+      }
+    });
+  }
+}
+
+/// Finds what walls and ends close.
+template <int Dim>
+void AirWatch<Dim>::find_spaces(const CellMarks& solid, const CellMarks& plates) {
+  CellMarks closed = solid;
+  closed |= plates;
+  closed |= closed_ends_;
+  spaces_ = SealedSpaces<Dim>(*grid_, closed);
+}
+
+template <int Dim>
+void AirWatch<Dim>::find_references(std::span<const FoundPocket> found) {
+  reference_of_pocket_ = largest_of_space(found);
+  reference_of_space_.clear();
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const int space = found[k].space;
+    if (space < 0 || !spaces_.is_rigid(space)) {
+      reference_of_pocket_[k] = -1;
+    } else {
+      reference_of_space_[space] = reference_of_pocket_[k];
+    }
+  }
+}
+
+template <int Dim>
+int AirWatch<Dim>::reference_at(const Vec<Dim>& x) const {
+  if (reference_of_space_.empty()) return -1;
+  const auto reference = reference_of_space_.find(spaces_.near(*grid_, x, spacing_));
+  return reference == reference_of_space_.end() ? -1 : reference->second;
+}
+
+template <int Dim>
+std::vector<PocketShare> AirWatch<Dim>::fractions_at(const Vec<Dim>& x) const {
+  std::vector<PocketShare> shares = space_.shares_at(x);
+  const int reference = reference_at(x);
+  if (reference < 0) return shares;
+  double rest = 1.0;
+  for (const PocketShare& share : shares) {
+    if (reference_of_pocket_[share.pocket] == reference) rest -= share.share;
+  }
+  const auto own = std::ranges::find(shares, reference, &PocketShare::pocket);
+  if (own == shares.end()) {
+    shares.push_back({reference, rest});
+  } else {
+    own->share += rest;
+  }
+  return shares;
 }
 
 template <int Dim>
@@ -173,7 +269,7 @@ std::vector<PocketWall<Dim>> AirWatch<Dim>::walls_beside(const Boundary<Dim>& bo
   for (const WallPatch<Dim>& patch : moving_) {
     const WallFace<Dim>& face = boundary.faces[patch.face];
     const Vec<Dim> x = patch.centre(boundary);
-    std::vector<PocketShare> shares = space_.shares_at(x + sight_of_walls * spacing_ * face.normal);
+    std::vector<PocketShare> shares = fractions_at(x + sight_of_walls * spacing_ * face.normal);
     if (!shares.empty()) walls.push_back({face.wall, x, -patch.measure * face.normal, std::move(shares)});
   }
   return walls;
@@ -206,8 +302,9 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vent
   const bool is_first = state.begun == 0;
   if (!knows_walls_) mark_resting(walls, ranks);
   CellMarks solid = resting_;
-  CellMarks water = resting_plates_;
-  if (walls.moving > 0) mark_rows(walls, 0, walls.moving, solid, water);
+  CellMarks plates = resting_plates_;
+  if (walls.moving > 0) mark_rows(walls, 0, walls.moving, solid, plates);
+  CellMarks water = plates;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: marks cells that others mark too
     if (!particles.is_fluid(i)) continue;
     grid_->visit_ball(particles.position[i], cover * spacing_,
@@ -215,11 +312,21 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vent
   }
   ranks.unite(water.words());
   const Voids<Dim> voids(*grid_, water, solid);
-  std::vector<FoundPocket> found = follow_pockets<Dim>(*grid_, spacing_, voids, law_, state);
+  if (walls.moving > 0) find_spaces(solid, plates);
+  spaces_.find_ways_out(voids);
+  for (const AirEnd<Dim>& end : ends_) {  // one that the case does not drive lets any volume pass
+    const int space = end.feeds ? -1 : spaces_.near(*grid_, end.inside, spacing_);
+    if (space >= 0) spaces_.set_yielding(space);
+  }
+  const std::int64_t begun_before = state.begun;
+  const double pace = correction_of_volume(state.displacement, spacing_);
+  std::vector<FoundPocket> found = follow_pockets<Dim>(*grid_, spacing_, voids, spaces_, law_, state);
   space_ = PocketSpace<Dim>(grid_, spacing_, voids, solid, found);
   const std::vector<double> volumes = space_.volumes(walls.boundary, particles, ranks);
   const std::vector<std::int64_t> before = numbers_of(state.pockets);
-  take_over(std::move(found), volumes, spacing_, law_, state);
+  exchange_gas<Dim>(*grid_, spaces_, volumes, begun_before, pace, law_, found, state);
+  find_references(found);
+  take_over(std::move(found), volumes, pace, law_, state);
   if (numbers_of(state.pockets) != before) forget_responses();  // what begins or ends changes what is beside others
   find_openings(vents, state.pockets.size());
   if (is_first) set_start_pressures(state);

@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "air/pocket_exchange.h"
 #include "air/pocket_space.h"
 #include "case/spec.h"
+#include "geometry/opening.h"
 #include "geometry/wall_patches.h"
 #include "motion/affine_map.h"
 #include "motion/floating_body.h"
@@ -20,7 +22,8 @@ template <int Dim>
 struct PocketSide {
   std::size_t particle;
   std::vector<PocketShare> shares;
-  double weight = 0.0;               ///< that closes its row of the pressure equation, in the row's unit
+  bool is_beside = true;  ///< whether a pocket is near; else all that it has is the pressure of its sealed space
+  double weight = 0.0;    ///< that closes its row of the pressure equation, in the row's unit
   Vec<Dim> push = Vec<Dim>::Zero();  ///< 1/m; what air at 1 Pa all around pushes it with, per volume
 };
 
@@ -68,6 +71,8 @@ struct PocketStep {
   std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
   std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
   std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
+  std::vector<double> inflow;       ///< m^Dim/s; by which the water of open ends makes each grow
+  std::vector<double> inflow_of_pairs;  ///< m^Dim/s; the same by the pairs of that water and other water alone
   /// Pa; of owned particles: by how much the pressure that the air alone makes there is off that of the air beside
   /// them, either way, at the start of the step.
   std::vector<double> response_deficit;
@@ -80,6 +85,14 @@ struct PocketStep {
     for (const PocketShare& share : side.shares) sum += share.share * pressure[share.pocket];
     return sum;
   }
+};
+
+/// An end of the case through which water passes.
+template <int Dim>
+struct AirEnd {
+  Opening<Dim> opening;
+  Vec<Dim> inside;     ///< m; a place just inside
+  bool feeds = false;  ///< whether the case says how much water passes
 };
 
 template <int Dim>
@@ -105,6 +118,15 @@ class AirWatch {
   void forget();
 
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const { return space_.shares_at(x); }
+  /// The same with all that is left of 1 for the reference pocket of the space at x, if it has one: the pressure of
+  /// that pocket is added to all of the space, and only what other pockets have more or less acts on its water.
+  std::vector<PocketShare> fractions_at(const Vec<Dim>& x) const;
+  /// The reference pocket of the space at x, as an index; -1: it has none, since it is open, or an end has a level.
+  int reference_at(const Vec<Dim>& x) const;
+  /// That of the space of a pocket.
+  int reference_of(int pocket) const { return reference_of_pocket_[pocket]; }
+  /// That of the space which an end is at, by index of inlets, then outlets.
+  int reference_of_end(std::size_t end) const { return reference_at(ends_[end].inside); }
   /// What moving walls see of the pockets.
   std::vector<PocketWall<Dim>> walls_beside(const Boundary<Dim>& boundary) const;
   /// m^(Dim-1); of each pocket the vents that its air is at (vent.h).
@@ -127,9 +149,13 @@ class AirWatch {
  private:
   bool is_in_gap(const Boundary<Dim>& boundary, int face, const Vec<Dim>& x) const;
   void mark_wall(const Walls<Dim>& walls, std::size_t row, CellMarks& tested, CellMarks& solid) const;
+  void mark_across(const Walls<Dim>& walls, std::size_t row, CellMarks& solid) const;
   void mark_plate(const Walls<Dim>& walls, std::size_t row, CellMarks& plates) const;
   void mark_rows(const Walls<Dim>& walls, std::size_t from, std::size_t to, CellMarks& solid, CellMarks& plates) const;
   void mark_resting(const Walls<Dim>& walls, const Communicator& ranks);
+  void mark_end(const AirEnd<Dim>& end, CellMarks& closed) const;
+  void find_spaces(const CellMarks& solid, const CellMarks& plates);
+  void find_references(std::span<const FoundPocket> found);
   void find_openings(std::span<const Vec<Dim>> vents, std::size_t pockets);
   void set_start_pressures(AirState& state) const;
 
@@ -140,10 +166,15 @@ class AirWatch {
   std::vector<WallPatch<Dim>> moving_;  ///< of walls that move
   CellMarks resting_;                   ///< behind walls that rest
   CellMarks resting_plates_;            ///< beside plates that rest
+  CellMarks closed_ends_;               ///< on inlets and outlets
   bool has_looked_ = false;
   PocketSpace<Dim> space_;
   std::vector<PocketTable> starts_;
   std::vector<VentTable> vents_;
+  std::vector<AirEnd<Dim>> ends_;
+  SealedSpaces<Dim> spaces_;
+  std::vector<int> reference_of_pocket_;
+  std::map<int, int> reference_of_space_;
   std::vector<double> openings_;
   std::map<std::int64_t, AirResponse<Dim>> responses_;  ///< by the number of the pocket
   std::vector<double> air_pressure_;

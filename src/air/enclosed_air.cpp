@@ -16,8 +16,8 @@ namespace tailwater {
 inline void to_json(Json& json, const CellRun& run) { json = {run.row, run.begin, run.end}; }
 inline void from_json(const Json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
 TAILWATER_SAVED(inline, AirPocket, number, gas, volume, torn, cells)
-TAILWATER_SAVED(inline, AirState, pockets, begun, ended, displacement, gas_found, gas_lost, gas_vented, energy_lost,
-                energy_vented, energy_set)
+TAILWATER_SAVED(inline, AirState, pockets, hidden, brought, begun, ended, displacement, gas_found, gas_lost,
+                gas_handed_on, gas_vented, energy_lost, energy_vented, energy_set)
 
 namespace {
 
@@ -104,7 +104,8 @@ Json EnclosedAir<Dim>::save() const {
 template <int Dim>
 bool EnclosedAir<Dim>::restore(const Json& saved) {
   saved.get_to(state);
-  return std::ranges::all_of(state.pockets, [](const AirPocket& p) { return p.gas >= 0.0 && p.volume > 0.0; });
+  const auto is_sound = [](const AirPocket& p) { return p.gas >= 0.0 && p.volume > 0.0; };
+  return std::ranges::all_of(state.pockets, is_sound) && std::ranges::all_of(state.hidden, is_sound);
 }
 
 template <int Dim>
@@ -139,6 +140,7 @@ void EnclosedAir<Dim>::begin_step(Flow<Dim>& flow, double /*dt*/) {
 template <int Dim>
 int EnclosedAir<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt) {
   step = pose_pockets(flow, *this, predicted, dt);
+  if (!state.pockets.empty()) find_inflow(flow, *this, dt);
   return step.iterations;
 }
 
@@ -176,6 +178,7 @@ void EnclosedAir<Dim>::subtract_pressure(std::span<double> pressure) const {
 template <int Dim>
 void EnclosedAir<Dim>::correct(Flow<Dim>& flow, double dt) {
   push_by_pockets(flow, *this, dt);
+  state.brought = brought_by_ends(flow);
   count_displacement(flow, dt);
 }
 
@@ -189,8 +192,9 @@ void EnclosedAir<Dim>::count_displacement(const Flow<Dim>& flow, double dt) {
   double beside = 0.0;
   if (!state.pockets.empty()) {
     const std::vector<Vec<Dim>>& velocity = flow.state.particles.velocity;
-    const double speed =
-        largest_over(step.water.size(), 0.0, [&](std::size_t n) { return velocity[step.water[n].particle].norm(); });
+    const double speed = largest_over(step.water.size(), 0.0, [&](std::size_t n) {
+      return step.water[n].is_beside ? velocity[step.water[n].particle].norm() : 0.0;
+    });
     beside = std::max(dt * flow.setup.ranks.largest(speed), walls);
   }
   state.displacement += std::max(beside, 0.25 * anywhere);
@@ -207,7 +211,10 @@ void EnclosedAir<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>
   if (!flow.setup.ranks.is_root() || step.pressure.empty()) return;
   works.air += step.work;
   const std::vector<double> growth = growth_at_walls(flow, *this, dt);
-  for (std::size_t k = 0; k < step.pressure.size(); ++k) works.walls -= dt * step.pressure[k] * growth[k];
+  for (std::size_t k = 0; k < step.pressure.size(); ++k) {
+    works.walls -= dt * step.pressure[k] * growth[k];
+    works.ends -= dt * step.pressure[k] * (step.inflow[k] - step.inflow_of_pairs[k]);  // it has that of the pairs
+  }
 }
 
 template <int Dim>
@@ -229,10 +236,14 @@ void EnclosedAir<Dim>::add_to_summary(const Flow<Dim>& /*flow*/, Json& summary) 
                    {"gas_m3", pocket.gas},
                    {"pressure_Pa", pressure_of(pocket)}});
   }
+  double hidden = 0.0;
+  for (const AirPocket& pocket : state.hidden) hidden += pocket.gas;
   summary["pockets"] = {{"begun", state.begun},
                         {"ended", state.ended},
                         {"gas_found_m3", state.gas_found},
                         {"gas_lost_m3", state.gas_lost},
+                        {"gas_handed_on_m3", state.gas_handed_on},
+                        {"gas_hidden_m3", hidden},
                         {"gas_vented_m3", state.gas_vented},
                         {"energy_J", measures().energy},
                         {"energy_lost_J", state.energy_lost},

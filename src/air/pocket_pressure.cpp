@@ -34,8 +34,10 @@ std::vector<PocketSide<Dim>> find_sides(const Flow<Dim>& flow, const EnclosedAir
   std::vector<PocketSide<Dim>> sides;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
     if (flow.role[i] != Role::water) continue;
-    std::vector<PocketShare> shares = air.watch.shares_at(particles.position[i]);
-    if (!shares.empty()) sides.push_back({.particle = i, .shares = std::move(shares)});
+    std::vector<PocketShare> shares = air.watch.fractions_at(particles.position[i]);
+    if (shares.empty()) continue;
+    const bool is_beside = !air.watch.shares_at(particles.position[i]).empty();
+    sides.push_back({.particle = i, .shares = std::move(shares), .is_beside = is_beside});
   }
   std::vector<std::size_t> beside;
   for (const PocketSide<Dim>& side : sides) beside.push_back(side.particle);
@@ -137,7 +139,12 @@ PocketStep<Dim> pose_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<c
     step.air_fractions = find_air_fractions<Dim>(flow, step.water, pockets);
   }
   const std::vector<double> sources(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
-  for (int k = 0; k < static_cast<int>(pockets); ++k) step.iterations += find_response<Dim>(flow, air, step.water, k);
+  for (int k = 0; k < static_cast<int>(pockets); ++k) {
+    if (air.watch.reference_of(k) != k) step.iterations += find_response<Dim>(flow, air, step.water, k);
+  }
+  for (int k = 0; k < static_cast<int>(pockets); ++k) {
+    if (air.watch.reference_of(k) == k) set_reference_response<Dim>(flow, air, k);
+  }
   std::ranges::copy(sources, flow.pressure_rows.rhs().begin());
   if (walls_move) step.wall_pair_forces = find_wall_pair_forces<Dim>(flow, air, step.air_fractions);
   step.response_deficit = find_response_deficit<Dim>(flow, air, step.water);

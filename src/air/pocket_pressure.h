@@ -57,7 +57,18 @@ std::vector<PocketPairs<Dim>> find_wall_pair_forces(const Flow<Dim>& flow, const
 template <int Dim>
 std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt);
 
-/// The same with the growth through the water.
+/// m^Dim; that each inlet and outlet has brought since the start, up to the end of the step: 0 where the case does not
+/// say how much water passes.
+template <int Dim>
+std::vector<double> brought_by_ends(const Flow<Dim>& flow);
+
+/// Finds by how much the water of open ends that the case drives makes each pocket grow: what the pairs of it and other
+/// water work, as those of walls. The reference pocket of a sealed space has what comes into the space instead, less
+/// that of the other pockets. Collective.
+template <int Dim>
+void find_inflow(const Flow<Dim>& flow, EnclosedAir<Dim>& air, double dt);
+
+/// That at walls with the growth through the water, by walls and open ends.
 template <int Dim>
 std::vector<double> growth_by_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt);
 

@@ -136,8 +136,31 @@ int find_response(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<const Pocket
   return iterations;
 }
 
+template <int Dim>
+void set_reference_response(const Flow<Dim>& flow, EnclosedAir<Dim>& air, int pocket) {
+  const Particles<Dim>& particles = flow.state.particles;
+  AirResponse<Dim> response{std::vector(particles.size(), 0.0),
+                            std::vector<Vec<Dim>>(particles.size(), Vec<Dim>::Zero())};
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i) && air.watch.reference_at(particles.position[i]) == pocket) response.pressure[i] = 1.0;
+  });
+  extend_to_walls(flow, response.pressure);
+  flow.halo().exchange(response.pressure);
+  for (std::size_t k = 0; k < air.state.pockets.size(); ++k) {
+    const int other = static_cast<int>(k);
+    if (other == pocket || air.watch.reference_of(other) != pocket) continue;
+    const AirResponse<Dim>& of_other = air.watch.response(air.state.pockets[k].number);
+    for_each(particles.size(), [&](std::size_t i) {
+      response.pressure[i] -= of_other.pressure[i];
+      response.force[i] -= of_other.force[i];
+    });
+  }
+  air.watch.response(air.state.pockets[pocket].number) = std::move(response);
+}
+
 TAILWATER_IN_2D_AND_3D(extend_to_walls);
 TAILWATER_IN_2D_AND_3D(shares_of);
 TAILWATER_IN_2D_AND_3D(find_response);
+TAILWATER_IN_2D_AND_3D(set_reference_response);
 
 }  // namespace tailwater

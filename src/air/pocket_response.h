@@ -28,4 +28,9 @@ std::vector<double> shares_of(const Flow<Dim>& flow, std::span<const PocketSide<
 template <int Dim>
 int find_response(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<const PocketSide<Dim>> sides, int pocket);
 
+/// The response to the reference pocket of a sealed space: 1 in all of the space, less the responses to its other
+/// pockets, which are up to date. The pressure of all air of the space together has no force. Collective.
+template <int Dim>
+void set_reference_response(const Flow<Dim>& flow, EnclosedAir<Dim>& air, int pocket);
+
 }  // namespace tailwater

@@ -3,10 +3,14 @@
 // and wall, in which the pressure counts from that of the air.
 #include "air/pocket_pressure.h"
 #include "base/for_each.h"
+#include "open_ends/open_ends.h"
 #include "pressure/operators.h"
 
 namespace tailwater {
 namespace {
+
+/// Columns of particles that may wait at an opening, or have come early.
+constexpr double columns_that_wait = 2.0;
 
 template <int Dim>
 void subtract_fractions(const Flow<Dim>& flow, std::span<const std::pair<std::size_t, PocketShare>> fractions,
@@ -77,7 +81,8 @@ std::vector<PocketPairs<Dim>> find_wall_pair_forces(
   return all;
 }
 
-/// Calls visit(wall, velocity) for each wall that moves, with its velocity [m/s] as a function of the present place.
+/// Calls visit(wall, velocity) for each wall that moves, with its velocity [m/s] as a function of the place, halfway
+/// through the step. A wall that turns has a velocity without divergence then, so a closed surface leaves no volume.
 template <int Dim, class Visit>
 void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
   if (dt == 0.0) return;
@@ -87,8 +92,10 @@ void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
   for (const auto& moving : flow.setup.wall_motion.moving()) {
     const AffineMap<Dim> now = moving.at(time, state);
     const AffineMap<Dim> drawn = moving.mean_velocity(time, time + dt, state);
-    const Mat<Dim> linear = drawn.linear * now.linear.transpose();
-    visit(moving.wall, AffineMap<Dim>{linear, drawn.constant - linear * now.constant});
+    const Mat<Dim> forward = drawn.linear * now.linear.transpose();  // by the present place
+    const Vec<Dim> constant = drawn.constant - forward * now.constant;
+    const Mat<Dim> linear = forward * (Mat<Dim>::Identity() + 0.5 * dt * forward).inverse();
+    visit(moving.wall, AffineMap<Dim>{linear, constant - 0.5 * dt * linear * constant});
   }
 }
 
@@ -105,9 +112,76 @@ std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim
   return growth;
 }
 
+namespace {
+
+/// m^Dim; that an end has brought up to the end of the step: what the case says, within the columns of particles that
+/// have come and wait at the opening.
+template <int Dim>
+double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state, double spacing) {
+  const double passed = state.arrived.volume - state.departed.volume;
+  const double waiting = columns_that_wait * spacing * state.depth * end.width;
+  return std::clamp(state.asked, passed - waiting, passed + waiting);
+}
+
+/// Gives the reference pockets of sealed spaces what they must lose so that pockets lose what comes in.
+template <int Dim>
+void settle_references(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt, std::vector<double>& growth) {
+  const std::vector<double> brought = brought_by_ends(flow);
+  for (int k = 0; k < static_cast<int>(growth.size()); ++k) {
+    if (air.watch.reference_of(k) != k) continue;
+    growth[k] = 0.0;
+    for (int other = 0; other < static_cast<int>(growth.size()); ++other) {
+      if (other != k && air.watch.reference_of(other) == k) growth[k] -= growth[other];
+    }
+    for (std::size_t e = 0; e < brought.size(); ++e) {
+      if (air.watch.reference_of_end(e) == k) growth[k] -= (brought[e] - air.state.brought_before(e)) / dt;
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> brought_by_ends(const Flow<Dim>& flow) {
+  const auto& ends = flow.template part<OpenEnds<Dim>>();
+  std::vector<double> brought;
+  for (std::size_t e = 0; e < ends.ends().size(); ++e) {
+    const bool feeds = ends.ends()[e].flow.feeds();
+    brought.push_back(feeds ? brought_by(ends.ends()[e], ends.states()[e], flow.setup.scale.spacing) : 0.0);
+  }
+  return brought;
+}
+
+template <int Dim>
+void find_inflow(const Flow<Dim>& flow, EnclosedAir<Dim>& air, double dt) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> growth(air.state.pockets.size(), 0.0);
+  air.step.inflow = growth;
+  air.step.inflow_of_pairs = growth;
+  if (flow.template part<OpenEnds<Dim>>().ends().empty()) return;
+  const std::vector<std::size_t> driven =
+      indices_where(particles.owned, [&](std::size_t i) { return flow.role[i] == Role::following; });
+  std::vector<double> is_water(particles.size(), 0.0);
+  for_each(particles.owned, [&](std::size_t i) { is_water[i] = flow.role[i] == Role::water ? 1.0 : 0.0; });
+  flow.halo().exchange(is_water);
+  std::vector<Vec<Dim>> pushes(driven.size());
+  for (std::size_t k = 0; k < growth.size(); ++k) {
+    const std::vector<double>& response = air.watch.response(air.state.pockets[k].number).pressure;
+    flow.discretisation().reactions_seen_by_water(flow, driven, is_water, response, pushes);
+    growth[k] = -sum_over(driven.size(), 0.0, [&](std::size_t n) {
+      return particles.volume[driven[n]] * pushes[n].dot(particles.velocity[driven[n]]);
+    });
+  }
+  flow.setup.ranks.sum_of_each(growth);
+  air.step.inflow_of_pairs = growth;
+  settle_references(flow, air, dt, growth);
+  air.step.inflow = std::move(growth);
+}
+
 template <int Dim>
 std::vector<double> growth_by_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
   std::vector<double> growth = growth_at_walls(flow, air, dt);
+  for (std::size_t k = 0; k < growth.size(); ++k) growth[k] += air.step.inflow[k];
   visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
     for (const PocketPairs<Dim>& pairs : air.step.wall_pair_forces) {
       if (pairs.wall == wall) growth[pairs.pocket] += pairs.growth(velocity);
@@ -125,6 +199,8 @@ void subtract_seen_air(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, std::
 TAILWATER_IN_2D_AND_3D(pressure_at);
 TAILWATER_IN_2D_AND_3D(find_wall_pair_forces);
 TAILWATER_IN_2D_AND_3D(growth_at_walls);
+TAILWATER_IN_2D_AND_3D(brought_by_ends);
+TAILWATER_IN_2D_AND_3D(find_inflow);
 TAILWATER_IN_2D_AND_3D(growth_by_walls);
 TAILWATER_IN_2D_AND_3D(subtract_seen_air);
 

@@ -3,7 +3,7 @@
 //
 //   claim   closed parts of the void take the cells that lie in them;
 //   tear    cells in the open remain a pocket for a while, because a film of water may close again;
-//   end     the rest of the gas is lost;
+//   end     the rest of the gas goes to other pockets of a sealed space (pocket_exchange.h), or is lost;
 //   begin   closed parts become pockets: those that claimed cells, and those that are large enough to be new.
 #include "air/pockets.h"
 
@@ -138,12 +138,19 @@ void tear_off(OldPocket& old, double torn_distance, double spacing, const MinCel
   torn.push_back({std::move(pocket), 0.0});
 }
 
-/// Counts the rest of an old pocket as lost.
-void end_pocket(const OldPocket& old, const GasLaw& law, AirState& state) {
+/// Hides the rest of an old pocket in its sealed space, or counts it as lost.
+void end_pocket(const OldPocket& old, bool is_sealed, const GasLaw& law, AirState& state) {
   if (old.rest <= fraction_rounding) return;
+  if (old.rest > 1.0 - fraction_rounding) ++state.ended;
+  if (is_sealed) {
+    AirPocket rest = old.pocket;
+    rest.gas *= old.rest;
+    rest.volume *= old.rest;
+    state.hidden.push_back(std::move(rest));
+    return;
+  }
   state.gas_lost += old.rest * old.pocket.gas;
   state.energy_lost += old.rest * law.energy(old.pocket.gas, old.pocket.volume);
-  if (old.rest > 1.0 - fraction_rounding) ++state.ended;
 }
 
 /// The closed pockets: parts of the void that have claimed cells or are large enough to be new.
@@ -176,7 +183,7 @@ void number_pockets(std::vector<FoundPocket>& found, AirState& state) {
 
 template <int Dim>
 std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacing, const Voids<Dim>& voids,
-                                        const GasLaw& law, AirState& state) {
+                                        const SealedSpaces<Dim>& spaces, const GasLaw& law, AirState& state) {
   const MinCells min_cells(grid, spacing);
   std::vector<Claimant> claimants = make_claimants(voids, min_cells);
   std::vector<FoundPocket> torn;
@@ -184,17 +191,21 @@ std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacin
     OldPocket old = find_cells(pocket, grid, voids);
     claim_cells(old, claimants);
     tear_off(old, pocket.torn + state.displacement, spacing, min_cells, torn);
-    end_pocket(old, law, state);
+    end_pocket(old, spaces.of(pocket.cells) >= 0, law, state);
   }
   std::vector<FoundPocket> found = begin_pockets(voids, min_cells, std::move(claimants));
   std::ranges::move(torn, std::back_inserter(found));
   number_pockets(found, state);
+  for (FoundPocket& each : found) each.space = spaces.of(each.pocket.cells);
   return found;
 }
 
-void take_over(std::vector<FoundPocket> found, std::span<const double> volumes, double spacing, const GasLaw& law,
+double correction_of_volume(double displacement, double spacing) {
+  return 1.0 - std::exp(-displacement / (relaxation_distance * spacing));
+}
+
+void take_over(std::vector<FoundPocket> found, std::span<const double> volumes, double pace, const GasLaw& law,
                AirState& state) {
-  const double pace = 1.0 - std::exp(-state.displacement / (relaxation_distance * spacing));
   state.pockets.clear();
   for (std::size_t k = 0; k < found.size(); ++k) {
     AirPocket& pocket = found[k].pocket;
@@ -203,7 +214,7 @@ void take_over(std::vector<FoundPocket> found, std::span<const double> volumes, 
     pocket.volume += shut_in;
     state.gas_found += shut_in;
     TAILWATER_ASSERT(pocket.volume > 0.0, "a pocket has a volume");
-    if (pocket.torn == 0.0) {
+    if (pocket.torn == 0.0 && !found[k].keeps_volume) {
       const double before = law.energy(pocket.gas, pocket.volume);
       pocket.volume += pace * (volumes[k] - pocket.volume);
       state.energy_set += law.energy(pocket.gas, pocket.volume) - before;

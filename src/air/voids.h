@@ -23,6 +23,7 @@ struct CellRun {
 template <int Dim>
 class Voids {
  public:
+  Voids() = default;
   /// Of a grid of which `water` and `walls` fill cells.
   Voids(const VoidGrid<Dim>& grid, const CellMarks& water, const CellMarks& walls);
 
@@ -33,6 +34,7 @@ class Voids {
   };
   const std::vector<Part>& parts() const { return parts_; }
 
+  int rows() const { return static_cast<int>(row_begin_.size()) - 1; }
   std::span<const CellRun> runs() const { return runs_; }
   int part_of(std::size_t run) const { return part_of_[run]; }
 

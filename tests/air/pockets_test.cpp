@@ -20,7 +20,20 @@ struct Slot {
 
 class Basin {
  public:
-  Basin() : grid_({Vec<2>::Zero(), Vec<2>(3.0, 1.0)}, dx, {}) {}
+  Basin() : grid_({Vec<2>::Zero(), Vec<2>(3.0, 1.0)}, dx, {}), walls_(grid_.rows(), grid_.length()) {}
+
+  /// Closes the basin all around, 0.05 from its border.
+  void seal() {
+    for (int row = 0; row < grid_.rows(); ++row) {
+      for (int place = 0; place < grid_.length(); ++place) {
+        const Vec<2> x = grid_.centre(grid_.cell(row, place));
+        const bool is_inside = x[0] > 0.05 && x[0] < 2.95 && x[1] > 0.05 && x[1] < 0.95;
+        if (!is_inside) walls_.mark(row, place, place + 1);
+      }
+    }
+  }
+
+  void open() { walls_.clear(); }
 
   /// Looks at these slots, of which `open` ones reach the open air, after water has gone `displacement` dx.
   void look(const std::vector<Slot>& closed, const std::vector<Slot>& open = {}, double displacement = 0.5) {
@@ -32,19 +45,24 @@ class Basin {
       for (int place = 0; place < grid_.length(); ++place) {
         const Vec<2> x = grid_.centre(grid_.cell(row, place));
         const bool is_void = (x[1] > 0.1 && x[1] < 0.9 && is_in(closed, x)) || (x[1] > 0.1 && is_in(open, x));
-        if (!is_void) water.mark(row, place, place + 1);
+        if (!is_void && !walls_(row, place)) water.mark(row, place, place + 1);
       }
     }
     state.displacement = displacement * dx;
-    const Voids<2> voids(grid_, water, CellMarks(grid_.rows(), grid_.length()));
-    const std::vector<FoundPocket> found = follow_pockets<2>(grid_, dx, voids, law, state);
+    const Voids<2> voids(grid_, water, walls_);
+    SealedSpaces<2> spaces(grid_, walls_);
+    spaces.find_ways_out(voids);
+    const std::int64_t begun_before = state.begun;
+    const double pace = correction_of_volume(state.displacement, dx);
+    std::vector<FoundPocket> found = follow_pockets<2>(grid_, dx, voids, spaces, law, state);
     std::vector<double> volumes;
     for (const FoundPocket& pocket : found) {
       double cells = 0.0;
       for (const CellRun& run : pocket.pocket.cells) cells += run.cells();
       volumes.push_back(cells * grid_.cell_volume());
     }
-    take_over(found, volumes, dx, law, state);
+    exchange_gas<2>(grid_, spaces, volumes, begun_before, pace, law, found, state);
+    take_over(found, volumes, pace, law, state);
   }
 
   double gas() const {
@@ -58,6 +76,7 @@ class Basin {
 
  private:
   VoidGrid<2> grid_;
+  CellMarks walls_;
 };
 
 /// Of a slot of that width.
@@ -177,6 +196,102 @@ TEST(Pockets, ComeBackToTheVolumeOfTheirCells) {
   basin.state.pockets[0].volume *= 1.1;
   for (int n = 0; n < 100; ++n) basin.look({{0.5, 1.0}});
   EXPECT_NEAR(basin.state.pockets[0].volume, volume_of(0.5) * (1.0 + 0.1 * std::exp(-1.0)), 1e-9);
+}
+
+/// Of all pockets, and of gas without one.
+double volume_in(const AirState& state) {
+  double sum = 0.0;
+  for (const AirPocket& pocket : state.pockets) sum += pocket.volume;
+  for (const AirPocket& pocket : state.hidden) sum += pocket.volume;
+  return sum;
+}
+
+TEST(SealedBasin, GivesTheGasOfAPocketThatEndsToTheNearestOne) {
+  Basin basin;
+  basin.seal();
+  basin.look({{0.2, 1.2}, {1.5, 1.6}, {1.8, 2.2}});
+  ASSERT_EQ(basin.state.pockets.size(), 3U);
+  const double gas = basin.gas();
+  const double middle = basin.state.pockets[1].gas;
+  const double right = basin.state.pockets[2].gas;
+  basin.look({{0.2, 1.2}, {1.8, 2.2}});
+  ASSERT_EQ(basin.state.pockets.size(), 2U);
+  EXPECT_NEAR(basin.gas(), gas, 1e-12);
+  EXPECT_NEAR(basin.state.pockets[1].gas, right + middle, 0.1 * middle);  // 0.2 away, not 0.3
+  EXPECT_EQ(basin.state.gas_lost, 0.0);
+  EXPECT_NEAR(basin.state.gas_handed_on, middle, 1e-12);
+  EXPECT_EQ(basin.state.ended, 1);
+}
+
+TEST(SealedBasin, KeepsGasThatHasNoPocketUntilThereIsOneAgain) {
+  Basin basin;
+  basin.seal();
+  basin.look({{0.5, 1.0}});
+  const double gas = basin.gas();
+  basin.look({});
+  EXPECT_TRUE(basin.state.pockets.empty());
+  ASSERT_EQ(basin.state.hidden.size(), 1U);
+  basin.look({});
+  basin.look({{2.0, 2.2}});
+  ASSERT_EQ(basin.state.pockets.size(), 1U);
+  EXPECT_TRUE(basin.state.hidden.empty());
+  EXPECT_NEAR(basin.gas(), gas, 1e-12);
+  EXPECT_NEAR(basin.state.gas_found, gas, 1e-12);
+}
+
+TEST(SealedBasin, FillsAPocketThatBeginsFromItsNeighbour) {
+  Basin basin;
+  basin.seal();
+  basin.look({{0.2, 1.2}});
+  basin.state.pockets[0].gas *= 1.5;
+  const double gas = basin.gas();
+  const double volume = volume_in(basin.state);
+  const double pressure = basin.law.pressure(basin.state.pockets[0].gas, basin.state.pockets[0].volume);
+  basin.look({{0.2, 1.2}, {1.4, 1.6}});
+  ASSERT_EQ(basin.state.pockets.size(), 2U);
+  EXPECT_NEAR(basin.gas(), gas, 1e-12);
+  EXPECT_NEAR(volume_in(basin.state), volume, 1e-12);
+  EXPECT_NEAR(basin.state.pockets[1].volume, volume_of(0.2), 1e-12);
+  for (const AirPocket& pocket : basin.state.pockets) {
+    EXPECT_NEAR(basin.law.pressure(pocket.gas, pocket.volume), pressure, 1e-6);
+  }
+}
+
+TEST(SealedBasin, NeverGainsEnergyByExchange) {
+  Basin basin;
+  basin.seal();
+  basin.look({{0.2, 1.2}, {1.6, 2.6}});
+  basin.state.pockets[0].gas *= 1.3;
+  basin.state.pockets[1].gas *= 0.8;
+  const double gas = basin.gas();
+  const double volume = volume_in(basin.state);
+  const auto energy = [&] {
+    double sum = 0.0;
+    for (const AirPocket& pocket : basin.state.pockets) sum += basin.law.energy(pocket.gas, pocket.volume);
+    return sum;
+  };
+  const double first = energy();
+  for (int n = 0; n < 30; ++n) {
+    const double before = energy();
+    const double shift = 0.05 * (n % 7);
+    basin.look({{0.2, 1.2 - shift}, {1.3, 1.5}, {1.6 + shift, 2.6}});
+    EXPECT_LE(energy(), before * (1.0 + 1e-12)) << n;
+  }
+  EXPECT_NEAR(energy() + basin.state.energy_lost, first, 1e-9 * first);
+  EXPECT_NEAR(basin.gas(), gas, 1e-12);
+  EXPECT_NEAR(volume_in(basin.state), volume, 1e-12);
+}
+
+TEST(SealedBasin, ThatIsOpenedLosesItsGasAsAnyOther) {
+  Basin basin;
+  basin.seal();
+  basin.look({{0.5, 1.0}});
+  const double gas = basin.gas();
+  basin.open();
+  for (int n = 0; n < 6; ++n) basin.look({}, {{0.5, 1.0}});
+  EXPECT_TRUE(basin.state.pockets.empty());
+  EXPECT_TRUE(basin.state.hidden.empty());
+  EXPECT_NEAR(basin.state.gas_lost, gas, 1e-12);
 }
 
 }  // namespace pockets_test

@@ -395,6 +395,23 @@ TYPED_TEST(RanksTest, APocketOfAirAcrossTheCuts) {
   expect_same<Dim>(spec, 0.8, as_it_is);
 }
 
+/// Water is thrown about in a closed tank, whose air has one reference pocket on all ranks.
+TYPED_TEST(RanksTest, ASealedTankAcrossTheCuts) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 1.0 : 0.4, 0.4);
+  spec.walls[0].open.clear();
+  spec.fluid[0].max[0] *= 0.5;
+  spec.fluid[0].velocity = VectorField(Dim, 0.0);
+  spec.fluid[0].velocity[0] = 3.0;
+  spec.air.pockets = AirPockets::adiabatic;
+  spec.particles.jitter = 0.1;
+  spec.pockets.resize(1);
+  spec.pockets[0].at = Coordinates(Dim, 0.3);
+  spec.pockets[0].at[Dim - 1] = 0.7;
+  spec.pockets[0].overpressure = -2000.0;
+  expect_same<Dim>(spec, 0.5, as_it_is);
+}
+
 /// All ranks know what waits in the sump, though each has let only its own particles go.
 TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
   CaseSpec spec = jittered_tank<2>();

@@ -1,0 +1,239 @@
+// Spaces that walls seal keep their gas, and its pressure follows their volume at once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "air/enclosed_air.h"
+#include "flow/measure.h"
+#include "flow/stages.h"
+#include "schemes/cases.h"
+#include "schemes/open_ends.h"
+#include "support/dimensions.h"
+
+namespace tailwater {
+namespace sealed_air_test {
+namespace {
+
+constexpr double atmosphere = 101325.0;
+
+template <class D>
+class SealedAir : public testing::Test {};
+TYPED_TEST_SUITE(SealedAir, Dimensions);
+
+template <int Dim>
+double gas_of(const Flow<Dim>& flow) {
+  double gas = 0.0;
+  for (const AirPocket& pocket : air_of(flow).state.pockets) gas += pocket.gas;
+  for (const AirPocket& pocket : air_of(flow).state.hidden) gas += pocket.gas;
+  return gas;
+}
+
+/// A closed tank, 0.5 m wide and high, with water 0.1 m deep.
+template <int Dim>
+CaseSpec closed_tank(double dx, AirPockets gas) {
+  CaseSpec spec = tank_case<Dim>(dx, 0.5, 0.1);
+  spec.walls[0].max[Dim - 1] = 0.5;
+  spec.walls[0].open.clear();
+  spec.air.pockets = gas;
+  return spec;
+}
+
+// Water comes in through a side wall, below the surface: Boyle.
+TYPED_TEST(SealedAir, HasTheVolumeThatInflowLeaves) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double discharge = 0.02;  // m^2/s
+  constexpr double width = Dim == 2 ? 1.0 : 0.5;
+  CaseSpec spec = closed_tank<Dim>(Dim == 2 ? 0.025 : 0.05, AirPockets::isothermal);
+  spec.fluid[0].max[Dim - 1] = 0.2;
+  spec.walls[0].open = {"-x"};
+  WallTable above;  // of the inlet
+  above.shape = WallShape::box;
+  above.fluid_side = FluidSide::outside;
+  above.min = Coordinates(Dim, -0.3);
+  above.max = Coordinates(Dim, 0.8);
+  above.max[0] = 0.0;
+  above.min[Dim - 1] = 0.1;
+  spec.walls.push_back(above);
+  InletTable inlet;
+  inlet.from = Coordinates(Dim, 0.0);
+  inlet.to = Coordinates(Dim, 0.5);
+  inlet.to[0] = 0.0;
+  inlet.to[Dim - 1] = 0.1;
+  inlet.direction = Coordinates(Dim, 0.0);
+  inlet.direction[0] = 1.0;
+  inlet.discharge = discharge * width;
+  spec.inlets = {inlet};
+  Flow<Dim> flow = make_flow<Dim>(spec);
+  start(flow);
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 1U);
+  const double gas = gas_of(flow);
+  while (flow.state.time < 1.0) {
+    pass_and_step(flow);
+    const double left = gas - discharge * width * flow.state.time;
+    EXPECT_NEAR(air_of(flow).measures().pressure, atmosphere * (gas / left - 1.0), 0.003 * atmosphere);
+  }
+  EXPECT_NEAR(gas_of(flow), gas, 1e-12 * gas);
+}
+
+/// A lid between side walls that go on above it.
+template <int Dim>
+CaseSpec tank_below_lid(bool is_box) {
+  CaseSpec spec = closed_tank<Dim>(0.05, AirPockets::isothermal);
+  spec.walls[0].max[Dim - 1] = 0.8;
+  spec.walls[0].open = {Dim == 2 ? "+y" : "+z"};
+  WallTable lid;
+  if (is_box) {
+    lid.shape = WallShape::box;
+    lid.fluid_side = FluidSide::outside;
+    lid.min = Coordinates(Dim, 0.0);
+    lid.min[Dim - 1] = 0.5;
+    lid.max = Coordinates(Dim, 0.5);
+    lid.max[Dim - 1] = 0.6;
+  } else {
+    lid.points = {{0.5, 0.5}, {0.0, 0.5}};
+    lid.fluid_side = FluidSide::left;
+  }
+  spec.walls.push_back(lid);
+  return spec;
+}
+
+TYPED_TEST(SealedAir, IsClosedByALidBetweenWallsThatGoOn) {
+  constexpr int Dim = TypeParam::value;
+  for (const bool is_box : {true, false}) {
+    if (Dim == 3 && !is_box) continue;
+    Flow<Dim> flow = make_flow<Dim>(tank_below_lid<Dim>(is_box));
+    start(flow);
+    ASSERT_EQ(air_of(flow).state.pockets.size(), 1U) << is_box;
+    EXPECT_NEAR(air_of(flow).measures().volume, 0.4 * std::pow(0.5, Dim - 1), 1e-6) << is_box;
+  }
+}
+
+// The lid sinks by a tenth of the air's height.
+TYPED_TEST(SealedAir, IsPressedTogetherByALidThatSinks) {
+  constexpr int Dim = TypeParam::value;
+  for (const bool is_box : {true, false}) {
+    if (Dim == 3 && !is_box) continue;
+    CaseSpec spec = tank_below_lid<Dim>(is_box);
+    spec.walls[1].displacement = VectorField(Dim, 0.0);
+    spec.walls[1].displacement[Dim - 1] = "-0.1*t";
+    Flow<Dim> flow = make_flow<Dim>(spec);
+    start(flow);
+    while (flow.state.time < 0.4) step(flow);
+    const double expected = atmosphere * (0.4 / (0.4 - 0.1 * flow.state.time) - 1.0);
+    EXPECT_NEAR(air_of(flow).measures().pressure, expected, 0.01 * expected) << is_box;
+  }
+}
+
+// Pressure that all of the air has in common has no force.
+TYPED_TEST(SealedAir, OfLowPressureLeavesWaterAtRest) {
+  constexpr int Dim = TypeParam::value;
+  double speed[2] = {};
+  for (const double pressure : {0.0, -50000.0}) {
+    CaseSpec spec = closed_tank<Dim>(0.05, AirPockets::adiabatic);
+    spec.fluid[0].max[Dim - 1] = 0.3;
+    spec.pockets.resize(1);
+    spec.pockets[0].at = Coordinates(Dim, 0.4);
+    spec.pockets[0].overpressure = pressure;
+    Flow<Dim> flow = make_flow<Dim>(spec);
+    start(flow);
+    while (flow.state.time < 0.3) {
+      step(flow);
+      speed[pressure < 0.0] = std::max(speed[pressure < 0.0], largest_speed(flow));
+    }
+    EXPECT_NEAR(air_of(flow).measures().pressure, pressure, 1.0);
+  }
+  EXPECT_NEAR(speed[1], speed[0], 1e-3);
+}
+
+/// A tank that rolls until its air is parted many times.
+CaseSpec rolling_tank() {
+  CaseSpec spec = tank_case<2>(0.02, 0.8, 0.1);
+  spec.walls[0].max[1] = 0.4;
+  spec.walls[0].open.clear();
+  spec.walls[0].rotation = "0.09*sin(3.6*t)*min(1, t)";
+  spec.walls[0].pivot = {0.4, 0.0};
+  return spec;
+}
+
+/// J; the largest rise of the energy of water and gas that walls have not brought, until t = 6 s. Visits each step.
+template <class Visit>
+double largest_rise(Flow<2>& flow, Visit&& visit) {
+  double least = measure(flow).energy();
+  double rise = 0.0;
+  double brought = 0.0;
+  while (flow.state.time < 6.0) {
+    if (flow.state.step % 10 == 0) sort_particles(flow);
+    const StepReport report = advance(flow, next_time_step(flow));
+    brought += report.work.walls + report.work.air;
+    const double energy = measure(flow).energy() - brought;
+    rise = std::max(rise, energy - least);
+    least = std::min(least, energy);
+    visit();
+  }
+  return rise;
+}
+
+// Gas and volume are conserved to rounding. The work of walls is known to some (dx/depth)^2, so the energy rises
+// without air too; with it, it rises by no more.
+TEST(SealedTank, KeepsItsGasWhileItRolls) {
+  Flow<2> without = make_flow<2>(rolling_tank());
+  start(without);
+  const double scale = measure(without).energy();
+  const double rise_without = largest_rise(without, [] {});
+  CaseSpec spec = rolling_tank();
+  spec.air.pockets = AirPockets::adiabatic;
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const double gas = gas_of(flow);
+  const double volume = air_of(flow).measures().volume;
+  const AirState& air = air_of(flow).state;
+  const double rise = largest_rise(flow, [&] {
+    double sum = air_of(flow).measures().volume;
+    for (const AirPocket& pocket : air.hidden) sum += pocket.volume;
+    EXPECT_NEAR(sum, volume, 1e-9 * volume);
+    EXPECT_NEAR(gas_of(flow), gas, 1e-12 * gas);
+  });
+  EXPECT_GE(air.begun, 4) << "else nothing was parted";
+  EXPECT_EQ(air.gas_lost, 0.0);
+  EXPECT_NEAR(air.gas_found, gas, 1e-12 * gas);
+  EXPECT_LT(rise, rise_without + 1e-3 * scale);
+}
+
+// Air in both legs of a tube, of 0.4 and 0.5 m: two gas springs and the weight move 1.2 m of water to and fro.
+TEST(ClosedTube, SwingsBetweenItsPocketsOfAir) {
+  CaseSpec spec;
+  spec.particles.spacing = 0.025;
+  WallTable tube;
+  tube.points = {{0.0, 1.0}, {0.0, 0.0}, {0.6, 0.0}, {0.6, 1.0}, {0.4, 1.0},
+                 {0.4, 0.2}, {0.2, 0.2}, {0.2, 1.0}, {0.0, 1.0}};
+  tube.fluid_side = FluidSide::left;
+  spec.walls = {tube};
+  const auto block = [](Coordinates min, Coordinates max) {
+    FluidTable water;
+    water.min = std::move(min);
+    water.max = std::move(max);
+    return water;
+  };
+  spec.fluid = {block({0.0, 0.0}, {0.2, 0.6}), block({0.2, 0.0}, {0.4, 0.2}), block({0.4, 0.0}, {0.6, 0.5})};
+  spec.air.pockets = AirPockets::isothermal;
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 2U);
+  const double gas = gas_of(flow);
+  double mean = 0.0;
+  int steps = 0;
+  while (flow.state.time < 1.0) {
+    step(flow);
+    const std::vector<AirPocket>& pockets = air_of(flow).state.pockets;
+    ASSERT_EQ(pockets.size(), 2U);
+    mean += air_of(flow).pressure_of(pockets[1]) - air_of(flow).pressure_of(pockets[0]);
+    ++steps;
+  }
+  EXPECT_NEAR(gas_of(flow), gas, 1e-12 * gas);
+  // At rest the pressures differ by the weight of 0.1 m of water, less what gives way.
+  EXPECT_NEAR(std::abs(mean / steps), 1000.0 * g * 0.1, 0.1 * 1000.0 * g * 0.1);
+}
+
+}  // namespace
+}  // namespace sealed_air_test
+}  // namespace tailwater
