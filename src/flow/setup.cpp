@@ -91,6 +91,18 @@ Vec<Dim> across(const PeriodicDomain<Dim>& domain, Vec<Dim> v) {
   return v;
 }
 
+/// Whether water fills a domain that is periodic in every direction, by the number of its particles. Water beside walls
+/// there is full if it has no neighbours missing, as in any closed space (pressure/full_water.h).
+template <int Dim>
+bool fills_domain(const PeriodicDomain<Dim>& domain, const FluidParticles<Dim>& fluid, double spacing) {
+  double cells = 1.0;
+  for (const auto& range : domain) {
+    if (!range) return false;
+    cells *= std::round((range->second - range->first) / spacing);
+  }
+  return static_cast<double>(fluid.all) >= cells;
+}
+
 /// Height of the fluid along gravity [m]; its largest extent where there is no gravity. Collective.
 template <int Dim>
 double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, double spacing) {
@@ -136,7 +148,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       length(formulation.length > 0.0 ? formulation.length : largest_depth(spec, drawing.fluid)),
       domain(periodic_domain<Dim>(spec.domain)),
       gravity_across(across<Dim>(domain, gravity)),
-      is_closed(std::all_of(domain.begin(), domain.end(), [](const auto& range) { return range.has_value(); })),
+      is_closed(fills_domain<Dim>(domain, drawing.fluid, spec.particles.spacing)),
       wall_motion(std::move(drawing.wall_motion)),
       friction_law{.viscosity = spec.physics.viscosity,
                    .spacing = scale.spacing,

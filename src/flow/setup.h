@@ -50,7 +50,7 @@ struct Setup {
   double length;  ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   PeriodicDomain<Dim> domain;
   Vec<Dim> gravity_across;  ///< m/s^2; across the periodic directions: along them water falls without end
-  bool is_closed;           ///< periodic in every direction: no surface anywhere, pressure known up to a constant
+  bool is_closed;           ///< water fills a domain periodic in every direction: no surface, pressure up to a constant
   WallMotion<Dim> wall_motion;
   FrictionLaw friction_law;
   TimeStepRule time_step_rule;

@@ -124,6 +124,48 @@ TEST(TimeStep, LeavesParticlesThatMeetApart) {
   EXPECT_DOUBLE_EQ(step_with({1.0, 0.0}, {0.9, 0.0}), spec.scheme.courant * dx);
 }
 
+/// A column that is endless along gravity, and a drop, in a domain that repeats itself in every direction.
+template <int Dim>
+CaseSpec falling_water(double dx, double height) {
+  CaseSpec spec = free_case(dx);
+  spec.general.dimension = Dim;
+  spec.physics.gravity = Coordinates(Dim, 0.0);
+  spec.physics.gravity[Dim - 1] = -g;
+  spec.domain.periodic_x = spec.domain.periodic_y = {0.0, 1.0};
+  if (Dim == 3) spec.domain.periodic_z = {0.0, 1.0};
+  FluidTable water;
+  water.min = Coordinates(Dim, 0.0);
+  water.max = Coordinates(Dim, 0.5);
+  water.max[Dim - 1] = height;
+  spec.fluid = {water};
+  return spec;
+}
+
+/// Water beside nothing but air has no pressure, so all of it falls with g, to the solver's tolerance.
+template <int Dim>
+void expect_free_fall(const CaseSpec& spec) {
+  Flow<Dim> flow = make_flow<Dim>(spec);
+  while (flow.state.time < 0.4) step(flow);
+  Vec<Dim> fallen = Vec<Dim>::Zero();
+  fallen[Dim - 1] = -g * flow.state.time;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    ASSERT_LT((flow.state.particles.velocity[i] - fallen).norm(), PressureSolverTable{}.tolerance * fallen.norm());
+  }
+}
+
+TEST(FreeFall, OfWaterThatDoesNotFillADomainPeriodicInEveryDirection) {
+  expect_free_fall<2>(falling_water<2>(0.05, 1.0));
+  expect_free_fall<2>(falling_water<2>(0.05, 0.5));
+  expect_free_fall<3>(falling_water<3>(0.1, 1.0));
+  expect_free_fall<3>(falling_water<3>(0.1, 0.5));
+}
+
+TEST(FreeFall, OfWaterThatFillsADomainPeriodicInEveryDirection) {
+  CaseSpec spec = periodic_square(0.05);
+  spec.physics.gravity = {0.0, -g};
+  expect_free_fall<2>(spec);
+}
+
 INSTANTIATE_TEST_SUITE_P(Integrators, StretchingDrop,
                          testing::Values(Integrator::explicit_projection, Integrator::implicit_projection),
                          [](const auto& test) { return std::string(name_of(test.param)); });
