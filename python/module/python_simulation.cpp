@@ -36,6 +36,22 @@ Placement<Dim> placement_of(const std::vector<double>& given, const std::string&
   return placement;
 }
 
+/// Throws InputError, on all ranks, if a script has given a force that is not finite. Collective.
+template <int Dim>
+void require_finite_loads(Flow<Dim>& flow) {
+  const ScriptLoads<Dim>& loads = script_loads(flow);
+  const auto is_finite = [](const auto& load) { return load.allFinite(); };
+  const Communicator& ranks = flow.setup.ranks;
+  const char* what = nullptr;
+  if (ranks.any(!std::ranges::all_of(loads.acceleration, is_finite))) what = "body_force";
+  if (ranks.any(!std::ranges::all_of(loads.on_bodies, is_finite))) what = "force or moment on a body";
+  if (what == nullptr) return;
+  throw InputError(
+      "the script has given at t = {:.6g} s a {} that is not finite; remedy: look for a division by 0 or the root of a "
+      "negative number in the script",
+      flow.state.time, what);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -76,6 +92,7 @@ PythonSimulation<Dim>::PythonSimulation(CaseSpec spec, std::optional<RunOptions>
 template <int Dim>
 void PythonSimulation<Dim>::start() {
   lend().settle();
+  require_finite_loads(simulation().flow());
   const pybind11::gil_scoped_release others_go_on;
   simulation().start();
   script_loads(simulation().flow()).clear();
@@ -112,6 +129,7 @@ bool PythonSimulation<Dim>::prepare() {
 template <int Dim>
 void PythonSimulation<Dim>::step() {
   lend().settle();
+  require_finite_loads(simulation().flow());
   const pybind11::gil_scoped_release others_go_on;
   report_ = simulation().step();
 }
@@ -147,6 +165,10 @@ void PythonSimulation<Dim>::push(std::size_t b, const Twist<Dim>& push) {
 
 template <int Dim>
 void PythonSimulation<Dim>::set_discharge(const std::string& inlet, double discharge) {
+  if (!std::isfinite(discharge)) {
+    throw InputError("inlet '{}': the script gives a discharge that is not finite; remedy: give a number in m^3/s",
+                     inlet);
+  }
   simulation().flow().template part<OpenEnds<Dim>>().set_discharge(inlet, state().time, discharge);
   tell_of_script();
 }

@@ -13,8 +13,11 @@ import numpy as np
 
 from .command_line import Parser, exit_code_of, number
 from .errors import DataError
+from .input_file import LARGEST_TABLE, read_bytes
 from .whole_file import write_whole
 
+NAMES = {"x": ("x", "easting", "east", "e", "rechtswert"), "y": ("y", "northing", "north", "n", "hochwert"),
+         "z": ("z", "elevation", "height", "level", "h")}
 LARGEST = 5_000_000  # triangles; a mesh for a case of the same size has some thousands
 
 
@@ -81,21 +84,54 @@ def read_raster(path):
     return from_grid(np.sort(x), np.sort(y), z[np.argsort(y)][:, np.argsort(x)])
 
 
+def fields_of(line):
+    """The fields of a line, by commas or semicolons, or else by blanks."""
+    text = line.partition("#")[0]
+    for separator in (";", ","):
+        if separator in text:
+            return [word.strip().strip('"') for word in text.split(separator)]
+    return text.split()
+
+
+def is_number(word):
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def columns_named(words):
+    """The places of the columns x, y and z in a line of names, as "Name", "X [m]", "Y", "elevation"; None if it is none."""
+    names = [word.lower().partition("[")[0].partition("(")[0].strip().removesuffix("_m") for word in words]
+    found = [next((k for k, name in enumerate(names) if name in NAMES[axis]), None) for axis in "xyz"]
+    return None if None in found else found
+
+
 def numbers_of(path):
-    """The points of a text file: three numbers a line, by blanks, commas or semicolons; # begins a comment."""
-    points = []
-    for line_number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), 1):
+    """The points of a text file: three numbers a line, by blanks, commas or semicolons; # begins a comment. If the line
+    above them names columns x, y and z, those are taken, as of a survey that has a name or a number for each point."""
+    points, chosen = [], None
+    text = read_bytes(path, LARGEST_TABLE).decode("utf-8", errors="replace")
+    for line_number, line in enumerate(text.splitlines(), 1):
         words = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
         if not words:
             continue
+        if not points and (columns := columns_named(fields_of(line))):
+            chosen = columns
+            continue
+        if chosen and len(fields := fields_of(line)) > max(chosen):
+            words = [fields[column] for column in chosen]
         try:
             point = [float(word) for word in words]
         except ValueError:
-            if not points:
-                continue  # names of the columns
-            raise DataError(f"{path}:{line_number}: not numbers: {line[:60]}") from None
+            if not points and not any(is_number(word) for word in words):
+                continue  # a title
+            raise DataError(f"{path}:{line_number}: not numbers: {line[:60]}; of more columns than x, y and z the first line "
+                            "names those three") from None
         if len(point) != 3:
-            raise DataError(f"{path}:{line_number}: has {len(point)} numbers; a point is x, y and z in m")
+            raise DataError(f"{path}:{line_number}: has {len(point)} numbers; a point is x, y and z in m; of more columns "
+                            "the first line names those three")
         if not np.isfinite(point).all():
             raise DataError(f"{path}:{line_number}: is no point: {line[:60]}; leave out where the survey has no height")
         points.append(point)
@@ -174,7 +210,7 @@ def report(options, terrain, origin, low, high):
 
 
 def write_bed(options):
-    """Throws DataError, OSError."""
+    """Throws DataError, IoError."""
     if options.to.suffix.lower() != ".stl":
         raise DataError(f"--to {options.to}: is written as STL; name a file that ends in .stl")
     if options.step is not None and options.step <= 0:

@@ -1,5 +1,6 @@
 """Cases: a case file as a dict that knows its keys."""
 
+import filecmp
 import html
 import json
 import os
@@ -11,11 +12,15 @@ from functools import lru_cache
 from pathlib import Path
 
 from . import case_text
-from .errors import Error, InputError, IoError
+from .errors import DataError, Error, InputError, IoError
+from .input_file import read_bytes
 from .program import call
 from .run import Run, warn_of
+from .whole_file import write_whole, write_whole_text
 
 __all__ = ["Case", "Check"]
+
+LARGEST = 32 << 18  # bytes; of an effective case, as the program has it
 
 
 @lru_cache(maxsize=None)
@@ -24,6 +29,13 @@ def known_tables() -> dict:
     tables = json.loads(call("run", "--help-case=json"))["tables"]
     return {table["name"]: (table["has_free_keys"], {key["name"]: key.get("default") for key in table["keys"]})
             for table in tables}
+
+
+def folder_name(out):
+    """The name of a folder that a caller has given. Throws InputError for what is none."""
+    if isinstance(out, (str, os.PathLike)) and os.fspath(out):
+        return out
+    raise InputError(f"out = {out!r}: give the name of a folder, as in case.run(\"my_run\")")
 
 
 class TemporaryFolder:
@@ -95,11 +107,13 @@ class Case:
         self._edits = []  # what the text of the case is told: (key, value), or (key, None) of a table that is deleted
         self._folder = None  # of a template; kept as long as a case refers to it
         try:
-            self._text = self.file.read_text(encoding="utf-8")
+            text = read_bytes(self.file, LARGEST)
+        except DataError as error:
+            raise IoError(str(error)) from error
+        try:
+            self._text = text.decode("utf-8")
             self._data = tomllib.loads(self._text)
-        except OSError as error:
-            raise IoError(f"{file}: cannot be read ({error.strerror})") from error
-        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        except (RecursionError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             raise InputError(f"{file}: {error}") from error
 
     @classmethod
@@ -203,16 +217,16 @@ class Case:
         read = [] if file.parent.resolve() == self.file.parent.resolve() else self._files_read()
         for source in read:
             target = file.parent / source.relative_to(self.file.parent)
-            if target.exists() and target.read_bytes() != source.read_bytes():
+            if target.is_file() and not filecmp.cmp(target, source, shallow=False):
                 raise InputError(f"{target} exists and is another file than the case reads; remedy: another folder")
-        try:
-            file.write_text(text, encoding="utf-8")
-            for source in read:
-                target = file.parent / source.relative_to(self.file.parent)
+        write_whole_text(file, text)
+        for source in read:
+            target = file.parent / source.relative_to(self.file.parent)
+            try:
                 target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy(source, target)
-        except OSError as error:
-            raise IoError(f"{error.filename}: cannot be written ({error.strerror})") from error
+            except OSError as error:
+                raise IoError(f"{error.filename}: cannot be made ({error.strerror})") from error
+            write_whole(target, lambda part, source=source: shutil.copy(source, part))
         return Case(file)
 
     def _files_read(self):
@@ -241,7 +255,7 @@ class Case:
         """Runs the case in the folder `out`, which is made; `force` replaces an earlier run. Ctrl-C ends the run in
         order. Throws InputError and IoError before anything is written, SolverError if a step fails; what the run warns
         of becomes a RunWarning."""
-        words = ["run", *self.words(), "--out", out, "-n", ranks, *(["--force"] if force else []),
+        words = ["run", *self.words(), "--out", folder_name(out), "-n", ranks, *(["--force"] if force else []),
                  *([] if progress else ["--quiet"])]
         call(*words, progress=progress)
         run = Run(out)

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from .errors import DataError
+from .errors import DataError, IoError
 
 __all__ = ["Parser", "complain", "exit_code_of", "number"]
 
@@ -44,6 +44,6 @@ def exit_code_of(work: Callable[[], object]) -> int:
         work()
     except DataError as error:
         return complain(error, 2)
-    except OSError as error:
+    except (IoError, OSError) as error:
         return complain(error, 4)
     return 0

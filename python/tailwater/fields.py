@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import DataError
+from .input_file import read_bytes, require_input_file
 from .vtp import read_points
 
 __all__ = ["Frame", "list_frames", "nearest_frames", "read_frame", "read_polydata", "to_frame"]
@@ -35,10 +36,8 @@ def list_frames(run_folder, name: str = "fields") -> list:
     """[(time in s, path)] of fields/NAME.pvd, in its order. Throws DataError."""
     series = Path(run_folder) / "fields" / f"{name}.pvd"
     try:
-        entries = ElementTree.parse(series).getroot().iter("DataSet")
+        entries = ElementTree.fromstring(read_bytes(series)).iter("DataSet")
         return [(float(entry.get("timestep")), series.parent / entry.get("file")) for entry in entries]
-    except OSError as error:
-        raise DataError(f"{series}: cannot be read ({error.strerror})") from error
     except (ElementTree.ParseError, TypeError, ValueError) as error:
         raise DataError(f"{series}: is not a ParaView series ({error})") from error
 
@@ -48,7 +47,8 @@ def read_polydata(path):
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader  # slow to import
 
     reader = vtkXMLPolyDataReader()
-    if not Path(path).is_file() or not reader.CanReadFile(str(path)):
+    require_input_file(path)
+    if not reader.CanReadFile(str(path)):
         raise DataError(f"{path}: is not a VTK polydata file")
     reader.SetFileName(str(path))
     reader.Update()

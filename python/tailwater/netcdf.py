@@ -74,7 +74,7 @@ class Writer:
 
 def write_stations(writer, run, names):
     """Their names, kinds and places. Returns the names of the variables."""
-    probes = {probe["name"]: probe for probe in run.case["probe"]}
+    probes = {probe["name"]: probe for probe in run.case.get("probe", [])}
     writer.file.createDimension("station", len(names))
     writer.texts("station_name", names, cf_role="timeseries_id", long_name="name of the probe")
     writer.texts("station_type", [probes[name]["type"] for name in names], long_name="what the probe measures")
@@ -117,7 +117,7 @@ def source_of(run) -> str:
 
 def write_netcdf(run, path, start):
     """`start` is a datetime, or a text of one (ISO 8601, without a zone): when the run's time is 0. Throws DataError,
-    ValueError if `start` is no time, OSError."""
+    ValueError if `start` is no time, IoError."""
     from scipy.io import netcdf_file  # slow to import
 
     if isinstance(start, str):
@@ -129,7 +129,7 @@ def write_netcdf(run, path, start):
     def write(part):
         with netcdf_file(part, "w", version=2) as file:
             now = datetime.datetime.now(datetime.timezone.utc)
-            describe(file, Conventions="CF-1.8", featureType="timeSeries", title=run.case["case"]["title"],
+            describe(file, Conventions="CF-1.8", featureType="timeSeries", title=run.title,
                      source=source_of(run),
                      history=f"{now:%Y-%m-%dT%H:%M:%SZ} tailwater export of {run.path}")
             write_series(file, run, series, start)

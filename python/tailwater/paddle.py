@@ -16,8 +16,9 @@ import numpy as np
 
 from .command_line import Parser, exit_code_of, number
 from .errors import DataError
+from .input_file import LARGEST_TABLE, read_text
 from .waves import wave_numbers
-from .whole_file import write_whole
+from .whole_file import write_whole_text
 
 UNITS = {"t": {"s": 1, "ms": 1e-3, "min": 60}, "f": {"Hz": 1, "1/s": 1},
          "eta": {"m": 1, "cm": 1e-2, "mm": 1e-3},
@@ -27,14 +28,14 @@ LINES_PER_PERIOD = 20  # of the shortest wave made: the spline between them is t
 GRAVITY = 9.81  # m/s^2
 LARGEST_LOSS = 0.5  # share of the energy that may lie outside of the band
 BREAKING = 0.78  # height over depth
+DEEP = 300.0  # k h, from which on the water has no end for a plate, and beyond which sinh overflows
+MOST_SAMPLES = 1 << 24  # of a record with even steps, or of a motion
+LARGEST = 1e9  # of numbers in a file, in SI units
 
 
 def read_columns(path):
     """{name: values in SI} of a CSV file with a line of names and units, as in "t [s], eta [mm]". Throws DataError."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise DataError(f"{path}: cannot be read: {error}") from None
+    text = read_text(path, LARGEST_TABLE)
     lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.partition("#")[0].strip()]
     if not lines:
         raise DataError(f"{path}: is empty")
@@ -53,8 +54,10 @@ def read_columns(path):
             row = [float(word) for word in line.partition("#")[0].split(",")]
         except ValueError:
             raise DataError(f"{path}:{n}: not numbers: {line[:60]}") from None
-        if len(row) != len(scales) or not np.isfinite(row).all():
+        if len(row) != len(scales):
             raise DataError(f"{path}:{n}: has {len(row)} numbers under {len(scales)} names")
+        if not (np.abs(row) <= LARGEST).all():
+            raise DataError(f"{path}:{n}: has a number that is not finite, or beyond {LARGEST:g}: {line[:60]}")
         rows.append(row)
     columns = dict(zip(scales, np.array(rows).reshape(-1, len(scales)).T * np.array(list(scales.values()))[:, None]))
     first = next((name for name in ("t", "f") if name in columns), None)
@@ -69,7 +72,7 @@ def wave_over_stroke(k, depth, is_flap):
     """The amplitude of the wave over that of the plate at the still water's level, far from it.
 
     R.G. Dean, R.A. Dalrymple (1991) *Water wave mechanics for engineers and scientists*, ch. 6."""
-    y = k * depth
+    y = np.minimum(k * depth, DEEP)
     s = np.sinh(y) + (1 - np.cosh(y)) / y if is_flap else np.sinh(y)
     return 4 * np.sinh(y) * s / (np.sinh(2 * y) + 2 * y)
 
@@ -92,7 +95,11 @@ class Waves:
 
     @property
     def peak(self):
-        weight = np.abs(self.amplitude) ** 8
+        """Hz. Throws DataError where there are no waves."""
+        largest = np.abs(self.amplitude).max(initial=0.0)
+        if not largest > 0:
+            raise DataError("the file has no waves: its values are all the same")
+        weight = (np.abs(self.amplitude) / largest) ** 8
         return float((self.frequency * weight).sum() / weight.sum())
 
     @property
@@ -101,10 +108,18 @@ class Waves:
         return float(4 * np.sqrt((np.abs(self.amplitude) ** 2).sum() / 2))
 
 
+def require_few(samples, what):
+    """Throws DataError before there is memory for more samples than anything needs."""
+    if not samples <= MOST_SAMPLES:
+        raise DataError(f"{what} would have {samples:.3g} samples, and at most {MOST_SAMPLES} are possible; remedy: a shorter "
+                        "time, or a coarser step or band")
+
+
 def even_series(columns):
     """A record with even steps, its mean taken out."""
     time, elevation = columns["t"], columns["eta"]
     step = np.diff(time).min()
+    require_few((time[-1] - time[0]) / step, "the record, with even steps as its shortest,")
     even = np.arange(time[0], time[-1] + step / 2, step)
     return even, np.interp(even, time, elevation - elevation.mean())
 
@@ -112,6 +127,7 @@ def even_series(columns):
 def recorded(time, elevation, lead):
     """The surface over time, after `lead` (s) of still water."""
     step = time[1] - time[0]
+    require_few(lead / step, "the still water before the record")
     still = np.zeros(round(lead / step))
     surface = np.concatenate([still, elevation, still])
     amplitude = 2 * np.fft.rfft(surface)[1:] / surface.size
@@ -120,6 +136,7 @@ def recorded(time, elevation, lead):
 
 def chosen(frequency, density, duration, seed):
     """Waves of a spectrum (m^2/Hz) with phases by chance, which repeat after `duration` (s)."""
+    require_few(frequency[-1] * duration, "the spectrum over this duration")
     even = np.arange(1, int(frequency[-1] * duration) + 1) / duration
     energy = np.maximum(np.interp(even, frequency, density, left=0, right=0), 0)
     phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, even.size)
@@ -130,6 +147,7 @@ def motion(waves, depth, distance, is_flap):
     """Times (s) and strokes (m) of a plate that makes the waves at a distance (m) in front of it.
 
     A stroke X sin wt makes c X cos(wt - kx)."""
+    require_few(waves.duration * LINES_PER_PERIOD * waves.frequency[-1], "the motion")
     k = wave_numbers(waves.frequency, depth, GRAVITY)
     stroke = waves.amplitude * np.exp(1j * k * distance) / (1j * wave_over_stroke(k, depth, is_flap))
     time = np.arange(0, waves.duration, 1 / (LINES_PER_PERIOD * waves.frequency[-1]))
@@ -170,7 +188,7 @@ def write_motion(path, time, stroke, depth, is_flap):
     """The water lies on the side of larger x: a flap that leans towards it turns clockwise."""
     values, heading = (-np.arctan(stroke / depth), "t [s], angle [rad]") if is_flap else (stroke, "t [s], x [m]")
     text = "".join(f"{t:.5f}, {value:.7f}\n" for t, value in zip(time, values))
-    write_whole(path, lambda part: part.write_text(f"{heading}\n{text}", encoding="utf-8"))
+    write_whole_text(path, f"{heading}\n{text}")
 
 
 def options_of(arguments):
@@ -186,6 +204,8 @@ def options_of(arguments):
     parser.add_argument("--duration", type=number, metavar="S", help="duration of waves from a spectrum, s")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="seed of the random phases (1)")
     options = parser.parse_args(arguments)
+    if options.seed < 0:
+        parser.error(f"--seed {options.seed}: a seed is 0 or more")
     for name in ("depth", "duration"):
         if getattr(options, name) is not None and getattr(options, name) <= 0:
             parser.error(f"--{name} {getattr(options, name):g}: must be above 0")
@@ -197,7 +217,7 @@ def options_of(arguments):
 
 
 def make_motion(options):
-    """Writes the file and tells what is in it. Throws DataError, OSError."""
+    """Writes the file and tells what is in it. Throws DataError, IoError."""
     waves, lead = waves_of(read_columns(options.file), options)
     time, stroke = motion(waves, options.depth, options.distance, options.flap)
     write_motion(options.to, time, stroke, options.depth, options.flap)

@@ -9,7 +9,7 @@ import numpy as np
 
 from .errors import DataError
 from .fields import list_frames, read_frame
-from .whole_file import write_whole
+from .whole_file import write_whole_text
 
 __all__ = ["write_paraview"]
 
@@ -75,7 +75,7 @@ def highest_pressure(frames) -> float:
 
 
 def write_paraview(run, path):
-    """Throws DataError where there are no fields; OSError."""
+    """Throws DataError where there are no fields; IoError."""
     frames = list_frames(run.path)
     if not frames:
         raise DataError(f"{run.path}: the run wrote no field files")
@@ -85,7 +85,7 @@ def write_paraview(run, path):
         walls = WALLS.format(opacity=1.0 if is_flat else 0.2)
     elif is_flat:
         walls = WALL_LINES.format(lines=run.walls)
-    title = " ".join(run.case["case"]["title"].split())  # of one line, also where the text has several
+    title = " ".join(run.title.split())  # of one line, also where the text has several
     text = STATE.format(title=title, name=path.name, folder=str((run.path / "fields").resolve()), radius=run.spacing / 2,
                         highest=highest_pressure(frames), walls=walls, camera=FLAT if is_flat else SOLID)
-    write_whole(path, lambda part: part.write_text(text, encoding="utf-8"))
+    write_whole_text(path, text)

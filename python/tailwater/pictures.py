@@ -61,7 +61,7 @@ def draw_3d(run, frames, chosen, folder, look_from):
 
 
 def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM):
-    """Leaves the files; returns the folder of the pictures. Throws DataError; OSError; ImportError where a run in 3D finds no
+    """Leaves the files; returns the folder of the pictures. Throws DataError; IoError; ImportError where a run in 3D finds no
     VTK."""
     frames = list_frames(run.path)
     if not frames:

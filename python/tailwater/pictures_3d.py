@@ -9,7 +9,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from . import plots, scene
 from .fields import list_frames, read_frame, read_polydata
 from .surface import water_surface
-from .whole_file import write_whole
+from .whole_file import write_whole, write_whole_text
 
 
 def write_polydata(path, data):
@@ -21,7 +21,7 @@ def write_polydata(path, data):
     def write(part):
         writer.SetFileName(str(part))
         if not writer.Write():
-            raise OSError(f"{path}: cannot be written")
+            raise OSError("VTK cannot write it")
 
     write_whole(path, write)
 
@@ -37,7 +37,7 @@ def write_surfaces(run, frames):
         entries.append(f'    <DataSet timestep="{time!r}" file="{path.name}"/>\n')
     text = ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0">\n  <Collection>\n' + "".join(entries)
             + "  </Collection>\n</VTKFile>\n")
-    write_whole(folder / "surface.pvd", lambda part: part.write_text(text, encoding="utf-8"))
+    write_whole_text(folder / "surface.pvd", text)
 
 
 def walls_at(run, time):

@@ -114,7 +114,7 @@ def plain(text):
 
 def save(figure, axes, run, time, mappable, path):
     """A picture of the water at a time (s), with its title and, if colours tell the speed, their scale."""
-    axes.set_title(f"{plain(run.case['case']['title'])}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
+    axes.set_title(f"{plain(run.title)}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
     if mappable is not None:
         bar = figure.colorbar(mappable, ax=axes, fraction=0.025, pad=0.01, extend="max")
         bar.set_label("speed (m/s)")

@@ -13,6 +13,7 @@ from . import case_text, tables
 from .curves import Curve, read_curve
 from .errors import DataError, RunWarning
 from .fields import Frame, list_frames, nearest_frames
+from .input_file import read_text
 from .netcdf import EPOCH, write_netcdf
 from .paraview import write_paraview
 from .program import call
@@ -57,24 +58,24 @@ class Run:
         self.path = Path(path)
         effective = self.path / "case.effective.toml"
         try:
-            self.case = tomllib.loads(effective.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise DataError(f"{self.path}: is not the folder of a run, {effective.name} cannot be read "
-                            f"({error.strerror})") from error
+            self.case = tomllib.loads(read_text(effective))
         except tomllib.TOMLDecodeError as error:
             raise DataError(f"{effective}: {error}") from error
+        except DataError as error:
+            raise DataError(f"{self.path}: is not the folder of a run: {error}") from error
+        require_tables(effective, self.case)
 
     @property
     def summary(self) -> dict:
         """summary.json of a run that has ended; empty when it goes on or was killed."""
         path = self.path / "summary.json"
         try:
-            summary = json.loads(path.read_text(encoding="utf-8"))
+            if not path.exists():
+                return {}
+            summary = json.loads(read_text(path))
             return {} if summary.get("status") == "running" else summary
-        except FileNotFoundError:
-            return {}
-        except (OSError, ValueError) as error:
-            raise DataError(f"{path}: {error}") from error
+        except (AttributeError, RecursionError, ValueError) as error:
+            raise DataError(f"{path}: is not the summary of a run ({error})") from error
 
     @property
     def status(self) -> str:
@@ -166,15 +167,28 @@ class Run:
         """A Python state for ParaView that shows the run, its water coloured by pressure. Throws DataError."""
         write_paraview(self, Path(path))
 
+    def _value(self, table: str, key: str, kind):
+        """Of the effective case. Throws DataError where that has none of this kind."""
+        found = self.case.get(table)
+        value = found.get(key) if isinstance(found, dict) else None
+        if not isinstance(value, kind):
+            raise DataError(f"{self.path / 'case.effective.toml'}: {table}.{key} is missing or damaged; remedy: repeat the run")
+        return value
+
+    @property
+    def title(self) -> str:
+        """case.title"""
+        return self._value("case", "title", str)
+
     @property
     def spacing(self) -> float:
         """m"""
-        return self.case["particles"]["spacing"]
+        return self._value("particles", "spacing", (int, float))
 
     @property
     def dimension(self) -> int:
         """2 or 3"""
-        return self.case["case"]["dimension"]
+        return self._value("case", "dimension", int)
 
     @property
     def integrator(self) -> str:
@@ -191,12 +205,12 @@ class Run:
     @property
     def density(self) -> float:
         """kg/m^3"""
-        return self.case["physics"]["density"]
+        return self._value("physics", "density", (int, float))
 
     @property
     def gravity(self) -> float:
         """Magnitude, m/s^2."""
-        return sum(component**2 for component in self.case["physics"]["gravity"]) ** 0.5
+        return sum(component**2 for component in self._value("physics", "gravity", list)) ** 0.5
 
     @property
     def parameters(self) -> dict:
@@ -220,7 +234,15 @@ class Run:
     def __repr__(self):
         summary = self.summary
         reached = f", t = {summary['time_s']['reached']:.4g} s" if summary else ""
-        return f"Run({str(self.path)!r}: {self.case['case']['title']}, {summary.get('status', 'not ended')}{reached})"
+        return f"Run({str(self.path)!r}: {self.title}, {summary.get('status', 'not ended')}{reached})"
+
+
+def require_tables(path: Path, case: dict):
+    """Throws DataError where tables of an effective case have not what every run writes there."""
+    for table, names in {"probe": ("name", "type"), "wall": ("shape",)}.items():
+        tables = case.get(table, [])
+        if not isinstance(tables, list) or not all(name in one for one in tables for name in names):
+            raise DataError(f"{path}: a [[{table}]] is damaged; remedy: repeat the run")
 
 
 def warn_of(run: Run):

@@ -7,7 +7,7 @@ import matplotlib
 
 from . import plots, scene
 from .command_line import Parser
-from .errors import DataError
+from .errors import DataError, IoError
 from .fields import read_polydata, to_frame
 from .pictures_3d import bounds_of, show_image
 from .surface import water_surface
@@ -38,7 +38,7 @@ def main(arguments):
             figure, _ = show_image(image, plots.plain(options.title))
             write_whole(options.image, lambda part: figure.savefig(part, dpi=plots.DPI, format="png",
                                                                    metadata={"Software": "tailwater preview"}))
-    except (DataError, OSError) as error:
+    except (DataError, IoError, OSError) as error:
         print(error, file=sys.stderr)
         return 4
     return 0

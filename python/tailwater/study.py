@@ -4,6 +4,7 @@ A study runs a case at several spacings, one of them also from other starts and 
 for each result of each probe its value with an interval (`uncertainty`, docs/theory/uncertainty.md)."""
 
 import csv
+import io
 import json
 import math
 import os
@@ -12,9 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from . import uncertainty
-from .errors import DataError, InputError
+from .errors import DataError, InputError, IoError
+from .input_file import read_text
 from .run import Run
 from .sweep import sweep
+from .whole_file import write_whole_text
 
 __all__ = ["Study", "study"]
 
@@ -87,10 +90,10 @@ class Study:
         """The study in a folder, from its runs. Throws DataError if it is none."""
         path = Path(folder) / "study.json"
         try:
-            told = json.loads(path.read_text(encoding="utf-8"))
+            told = json.loads(read_text(path))
             runs, starts = ([Run(path.parent / name) for name in told[which]] for which in ("runs", "starts"))
             step = told["step"] and Run(path.parent / told["step"])
-        except (OSError, ValueError, KeyError) as error:
+        except (DataError, KeyError, RecursionError, TypeError, ValueError) as error:
             raise DataError(f"{path}: is not the table of a study ({error})") from error
         return cls(runs, starts, step, quantities)
 
@@ -147,10 +150,11 @@ class Study:
     def write(self, folder):
         """study.csv, study.json and study.txt, in which runs are named from the folder on; `tailwater view` shows them."""
         folder = Path(folder)
-        with (folder / "study.csv").open("w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(COLUMNS)
-            table.writerows([cell(row[name]) for name in COLUMNS] for row in self.rows)
+        lines = io.StringIO()
+        table = csv.writer(lines, lineterminator="\n")
+        table.writerow(COLUMNS)
+        table.writerows([cell(row[name]) for name in COLUMNS] for row in self.rows)
+        write_whole_text(folder / "study.csv", lines.getvalue())
         rows = [{name: None if isinstance(value, float) and math.isnan(value) else value for name, value in row.items()}
                 for row in self.rows]
         def place(run):
@@ -159,8 +163,8 @@ class Study:
         told = {"spacings_m": self.spacings, "runs": [place(run) for run in self.runs],
                 "starts": [place(run) for run in self.starts], "step": place(self.step) if self.step else None,
                 "results": rows}
-        (folder / "study.json").write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
-        (folder / "study.txt").write_text(self.text(), encoding="utf-8")
+        write_whole_text(folder / "study.json", json.dumps(told, indent=2) + "\n")
+        write_whole_text(folder / "study.txt", self.text())
 
     def __repr__(self):
         return self.text()
@@ -242,6 +246,15 @@ def done(members, what):
     return members.runs
 
 
+def require_folder_for_study(out: Path):
+    """Throws InputError for a folder that holds something else than a study, IoError for what is no folder."""
+    if out.exists() and not out.is_dir():
+        raise IoError(f"{out}: is no folder; remedy: choose another name")
+    for file, what in (("case.effective.toml", "a run"), ("sweep.csv", "a sweep")):
+        if (out / file).exists():
+            raise InputError(f"{out} holds the results of {what}; remedy: choose a folder of its own for the study")
+
+
 def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, step: bool = True, jobs: int = 1,
           ranks: int = 1, progress: bool = False, quantities=quantities_of) -> Study:
     """Runs a case at several spacings and says how well its numbers are known. `out` is the folder, by default
@@ -254,6 +267,7 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
     `quantities(run)` are numbers of your own, as {(name, quantity): (value, unit)}, in place of what probes have found.
     Throws InputError before anything is run; DataError if a run fails."""
     out = Path(out or f"{case.file.stem}_study")
+    require_folder_for_study(out)
     runner = {"jobs": jobs, "ranks": ranks, "progress": progress}
     if budget is not None and not (isinstance(budget, (int, float)) and budget > 0):
         raise InputError(f"budget = {budget!r}: give seconds of computing time, as a number")

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import DataError
+from .input_file import LARGEST_TABLE, read_text
 
 __all__ = ["frame", "read_table", "unit_of", "without_unit"]
 
@@ -34,10 +35,7 @@ def read_table(path) -> dict:
     """Columns of a CSV with one line of names, by name, as arrays of doubles. Lines that start with `#` are provenance
     and are skipped. Throws DataError, which names file and line."""
     path = Path(path)
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except OSError as error:
-        raise DataError(f"{path}: cannot be read ({error.strerror})") from error
+    lines = read_text(path, LARGEST_TABLE).splitlines()
     numbered = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
     if len(numbered) < 2:
         raise DataError(f"{path}: has no lines of numbers")

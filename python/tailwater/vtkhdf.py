@@ -82,7 +82,7 @@ def write_steps(file, frames):
 
 
 def write_vtkhdf(run, path):
-    """Throws DataError where there are no fields, or no h5py; OSError."""
+    """Throws DataError where there are no fields, or no h5py; IoError."""
     try:
         import h5py
     except ImportError as error:

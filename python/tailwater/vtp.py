@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import DataError
+from .input_file import require_input_file
 
 __all__ = ["read_points"]
 
@@ -55,6 +56,7 @@ class File:
 def read_points(path) -> tuple:
     """Positions (n, 3) in m, and the fields by name, each (n) or (n, 3). Throws DataError."""
     path = Path(path)
+    require_input_file(path)
     try:
         with path.open("rb") as file:
             opened = File(file)
@@ -68,6 +70,7 @@ def read_points(path) -> tuple:
                       for name, values in fields.items()}
     except OSError as error:
         raise DataError(f"{path}: cannot be read ({error.strerror})") from error
-    except (AttributeError, EOFError, ElementTree.ParseError, KeyError, TypeError, ValueError, zlib.error) as error:
+    except (AttributeError, EOFError, ElementTree.ParseError, KeyError, MemoryError, OverflowError, TypeError, ValueError,
+            zlib.error) as error:
         raise DataError(f"{path}: is not a whole VTK polydata file ({error})") from error
     return position, fields

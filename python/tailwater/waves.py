@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .command_line import Parser, complain, number
+from .command_line import Parser, exit_code_of, number
 from .errors import DataError
 from .run import Run
-from .whole_file import write_whole
+from .whole_file import write_whole_text
 
 # Frequencies between these multiples of the peak's count as waves in a separation of waves and reflected waves.
 BAND = (0.5, 1.8)
@@ -224,15 +224,24 @@ def report(numbers):
     return "\n".join(lines)
 
 
-def write_text(path, text):
-    write_whole(path, lambda part: part.write_text(text, encoding="utf-8"))
-
-
 def write_spectra(path, spectra):
     names = list(spectra)
     lines = [",".join(names)]
     lines += [",".join(f"{value:.9g}" for value in row) for row in zip(*spectra.values())]
-    write_text(path, "\n".join(lines) + "\n")
+    write_whole_text(path, "\n".join(lines) + "\n")
+
+
+def print_waves(options):
+    """Prints and writes the numbers. Throws DataError, IoError."""
+    run, spectra = Run(options.run), None
+    if options.solitary:
+        numbers = solitary(run, options.gauges)
+    else:
+        numbers, spectra = analyse(run, options.gauges, options.start, options.end, options.depth)
+    print(solitary_report(numbers) if options.solitary else report(numbers))
+    write_whole_text(options.run / "waves.json", json.dumps(numbers, indent=2) + "\n")
+    if spectra:
+        write_spectra(options.run / "waves_spectrum.csv", spectra)
 
 
 def main(arguments):
@@ -246,22 +255,7 @@ def main(arguments):
     options = parser.parse_args(arguments)
     if options.depth is not None and options.depth <= 0:
         parser.error(f"--depth {options.depth:g}: a depth is above 0 m")
-    try:
-        run, spectra = Run(options.run), None
-        if options.solitary:
-            numbers = solitary(run, options.gauges)
-        else:
-            numbers, spectra = analyse(run, options.gauges, options.start, options.end, options.depth)
-    except DataError as error:
-        return complain(error, 2)
-    print(solitary_report(numbers) if options.solitary else report(numbers))
-    try:
-        write_text(options.run / "waves.json", json.dumps(numbers, indent=2) + "\n")
-        if spectra:
-            write_spectra(options.run / "waves_spectrum.csv", spectra)
-    except OSError as error:
-        return complain(error, 4)
-    return 0
+    return exit_code_of(lambda: print_waves(options))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,55 @@
-"""Files that are written beside their place and then put there."""
+"""The one guard of files that are written: each is written beside its place and then put there."""
 
 import os
+import stat
+from pathlib import Path
+
+from .errors import IoError
+
+__all__ = ["write_whole", "write_whole_text"]
+
+
+def obstacle_at(path: Path) -> str:
+    """What has the place of a file and is not replaced, as "a link"; "" if there is no such thing. As the program has it
+    (src/io/write_file.h)."""
+    try:
+        found = os.lstat(path)
+    except OSError:
+        return ""  # what cannot be looked at cannot be opened either
+    if stat.S_ISLNK(found.st_mode):
+        return "a link"
+    if stat.S_ISDIR(found.st_mode):
+        return "a folder"
+    if not stat.S_ISREG(found.st_mode):
+        return "a device or a pipe"
+    return "" if found.st_uid == os.geteuid() else "another user's file"
+
+
+def require_replaceable(path: Path):
+    """Throws IoError for a link, a folder, a device, a pipe or another user's file."""
+    if what := obstacle_at(path):
+        raise IoError(f"cannot write '{path}': {what} is in its place, and is neither followed nor replaced; remedy: remove "
+                      "it, or choose another name")
 
 
 def write_whole(path, write):
-    """A killed program leaves no half file, and nothing is written through a link."""
+    """`write(part)` writes the file under another name. A killed program leaves no half file. Throws IoError for what is
+    not replaced, and where the file cannot be written."""
+    path = Path(path)
     part = path.with_name(path.name + ".part")
-    part.unlink(missing_ok=True)
-    write(part)
-    os.replace(part, path)
+    for each in (path, part):
+        require_replaceable(each)
+    try:
+        part.unlink(missing_ok=True)
+        try:
+            write(part)
+            os.replace(part, path)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as error:
+        raise IoError(f"cannot write '{path}': {error.strerror or error}") from error
+
+
+def write_whole_text(path, text: str):
+    """The same for a text."""
+    write_whole(path, lambda part: part.write_text(text, encoding="utf-8"))

@@ -110,6 +110,17 @@ class Bed(unittest.TestCase):
             raster.write(z, 1)
         self.assertIn("is in degrees", self.make(path, expect=2))
 
+    def test_a_survey_with_a_name_and_a_number_for_each_point(self):
+        points = [(X0 + i, Y0 + j, height(X0 + i, Y0 + j)) for j in range(3) for i in range(3)]
+        path = self.folder / "survey.csv"
+        path.write_text("No, Point name, Northing [m], Easting [m], Elevation [m]\n" + "".join(
+            f"{k}, P {k}, {y}, {x}, {z}\n" for k, (x, y, z) in enumerate(points)), encoding="utf-8")
+        self.make(path)
+        self.assertEqual(len(facets(self.stl)), 8)
+        self.is_the_plane(facets(self.stl), (X0, Y0, 0))
+        path.write_text("".join(f"P{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(points)), encoding="utf-8")
+        self.assertIn("of more columns than x, y and z the first line names", self.make(path, expect=2))
+
     def test_what_is_wrong_is_told(self):
         for text, part in (("1 2 3\n4 5\n", "wrong.xyz:2: has 2 numbers"), ("1 2 3\n4 5 x\n", "wrong.xyz:2: not numbers"),
                            ("1 2 3\n4 5 nan\n", "wrong.xyz:2: is no point: 4 5 nan; leave out"),

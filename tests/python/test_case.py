@@ -173,6 +173,31 @@ class Checks(PackageTest):
     def test_explain_is_sentences(self):
         self.assertIn("50 particles", tw.Case(self.write("dam.toml", DAM)).explain())
 
+    def test_a_link_is_not_written_through_and_a_device_is_not_read(self):
+        with open("victim", "w", encoding="utf-8") as file:
+            file.write("precious")
+        os.symlink("victim", "link.toml")
+        case = tw.Case(self.write("case.toml", DAM))
+        with self.assertRaisesRegex(tw.IoError, "link.toml': a link is in its place"):
+            case.save("link.toml")
+        with open("victim", encoding="utf-8") as file:
+            self.assertEqual(file.read(), "precious")
+        os.mkfifo("pipe")
+        for name in ("pipe", "/dev/zero", "."):
+            with self.assertRaisesRegex(tw.IoError, "a device or a pipe|is a folder"):
+                tw.Case(name)
+        with open("large.toml", "wb") as file:
+            file.truncate(1 << 40)
+        with self.assertRaisesRegex(tw.IoError, "such a file has at most"):
+            tw.Case("large.toml")
+
+    def test_a_run_needs_the_name_of_a_folder(self):
+        case = tw.Case(self.write("case.toml", DAM))
+        for out in (None, 3, ""):
+            with self.assertRaisesRegex(tw.InputError, "give the name of a folder"):
+                case.run(out)
+        self.assertFalse(os.path.exists("None"))
+
     def test_file_that_is_not_there(self):
         with self.assertRaisesRegex(tw.IoError, "none.toml"):
             tw.Case("none.toml")

@@ -2,6 +2,8 @@
 
 import contextlib
 import io
+import os
+import stat
 import sys
 import types
 import unittest
@@ -157,6 +159,39 @@ class Export(PackageTest):
                                        (("out", "--netcdf", "no/gauges.nc"), 4, "no/gauges.nc")):
             ended = self.command(*arguments)
             self.assertEqual((ended[0], words in ended[1]), (code, True), ended)
+
+    def test_nothing_that_is_not_a_file_of_ones_own_is_replaced(self):
+        run = self.dam()
+        os.mkfifo("pipe")
+        Path("folder").mkdir()
+        Path("victim").write_text("precious", encoding="utf-8")
+        os.symlink("victim", "link")
+        ways = {"--netcdf": run.to_netcdf, "--paraview": run.to_paraview, "--vtkhdf": run.to_vtkhdf}
+        for option, write in ways.items():
+            for name, what in (("pipe", "a device or a pipe"), ("link", "a link"), ("folder", "a folder")):
+                with self.subTest(option=option, name=name):
+                    code, told = self.command("out", option, name)
+                    self.assertEqual(code, 4)
+                    self.assertIn(f"'{name}': {what} is in its place", told)
+                    with self.assertRaisesRegex(tw.IoError, what):
+                        write(name)
+        self.assertEqual(Path("victim").read_text(encoding="utf-8"), "precious")
+        self.assertTrue(stat.S_ISFIFO(os.lstat("pipe").st_mode))
+        self.assertEqual([path.name for path in Path().glob("*.part")], [])
+
+    def test_a_damaged_run_is_told(self):
+        self.dam()
+        effective = Path("out/case.effective.toml")
+        whole = effective.read_text(encoding="utf-8")
+        for damaged in ("", "probe = 3\n", whole.replace("[particles]", "[particules]"), whole.replace("title = ", "titel = ")):
+            effective.write_text(damaged, encoding="utf-8")
+            with self.subTest(damaged[:40]):
+                self.assertEqual(self.command("out", "--paraview", "state.py")[0], 2)
+        effective.write_bytes(b"\xff\xfe")
+        self.assertIn("is not a text in UTF-8", self.command("out", "--netcdf", "gauges.nc")[1])
+        effective.unlink()
+        os.mkfifo(effective)
+        self.assertIn("a device or a pipe", self.command("out", "--netcdf", "gauges.nc")[1])
 
     def test_what_is_not_there_is_told(self):
         run = tw.Case(self.write("dry.toml", DAM[:DAM.index("[[probe]]")])).run("out")

@@ -102,6 +102,14 @@ class Paddle(unittest.TestCase):
         self.make(spectrum, "--duration", 100)
         self.assertEqual(self.to.read_bytes(), first)
 
+    def test_sizes_are_refused_before_there_is_memory_for_them(self):
+        for text, words in (("t [s], eta [mm]\n0, 0\n1e-9, 1\n1e9, 2\n", ()),
+                            ("f [Hz], S [m^2/Hz]\n1, 1e-5\n2, 1e-5\n1e9, 0\n", ("--duration", 60)),
+                            ("t [s], eta [mm]\n0, 0\n0.1, 1\n0.2, 0\n", ("--distance", 1e300))):
+            self.assertIn("samples", self.make(text, *words, expect=2))
+        self.assertIn("values are all the same", self.make("t [s], eta [mm]\n0, 1\n1, 1\n2, 1\n", expect=2))
+        self.assertIn("beyond 1e+09", self.make("t [s], eta [mm]\n0, 1\n1, 1e300\n2, 1\n", expect=2))
+
     def test_what_is_wrong_is_told(self):
         good = self.record((0.6, 0.02))
         for text, options, words in ((good.replace("eta [mm]", "eta [inch]"), (), "eta [inch]"),

@@ -120,6 +120,12 @@ class Errors(PackageTest):
             self.case.simulation("out")
         self.assertFalse(Path("out").exists())
 
+    def test_forces_of_a_script_that_are_not_finite_are_named(self):
+        with self.assertRaisesRegex(tw.InputError, "the script has given .* a body_force that is not finite"):
+            with self.case.simulation() as simulation:
+                for step in simulation:
+                    step.body_force = np.nan
+
     def test_failed_solve_ends_the_simulation(self):
         self.case["pressure_solver.max_iterations"] = 1
         with self.assertRaisesRegex(tw.SolverError, "max_iterations"):

@@ -67,6 +67,13 @@ class Studies(PackageTest):
             with self.assertRaisesRegex(tw.InputError, "seconds"):
                 tw.study(self.case, budget=budget)
 
+    def test_the_folder_of_a_run_is_none_for_a_study(self):
+        self.case.run("run")
+        before = sorted(Path("run").rglob("*"))
+        with self.assertRaisesRegex(tw.InputError, "holds the results of a run; remedy"):
+            tw.study(self.case, out="run", spacings=[0.1, 0.125, 0.16])
+        self.assertEqual(sorted(Path("run").rglob("*")), before)
+
     def test_two_spacings_are_no_study(self):
         for spacings in ([0.1, 0.2, 0.1], [0.1, 0.2, -0.1]):
             with self.assertRaisesRegex(tw.InputError, "three or more"):

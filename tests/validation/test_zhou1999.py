@@ -191,7 +191,7 @@ class Command(RunTest):
         with tempfile.TemporaryDirectory() as folder:
             code, out, err = self.run_command("zhou1999", folder)
             self.assertEqual((code, out), (4, ""))
-            self.assertIn("case.effective.toml cannot be read", err)
+            self.assertIn("case.effective.toml: cannot be read", err)
             self.assertEqual(list(Path(folder).iterdir()), [])
 
 

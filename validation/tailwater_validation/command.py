@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from tailwater.command_line import Parser, complain
-from tailwater.errors import DataError
+from tailwater.errors import DataError, IoError
 
 from .checks import runs_of
 from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepted
@@ -91,6 +91,8 @@ def execute(options, choose_groups, score):
         return complain(f"every run was refused, {runs[0].name} with: {ends[0]['message'].removeprefix('error: ')}", 2)
     try:
         print(score(groups, program, options))
+    except IoError as error:
+        return complain(error, 4)
     except OSError as error:
         return complain(f"{error.filename}: {error.strerror}", 4)
     return 0

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tailwater.command_line import complain
-from tailwater.errors import DataError
+from tailwater.errors import DataError, IoError
 
 from . import command, speed_profile, speed_report, speed_rooms
 from .metric import Metric
@@ -255,6 +255,8 @@ def main(arguments=None):
         speed_report.write(result, options.out)
     except DataError as error:
         return complain(error, 2)
+    except IoError as error:
+        return complain(error, 4)
     except OSError as error:
         return complain(f"{error.filename}: {error.strerror}", 4)
     except KeyboardInterrupt:

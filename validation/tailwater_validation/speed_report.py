@@ -1,9 +1,11 @@
 """What the speed bench found, as speed.json, speed.csv and speed.md, and beside what it found before."""
 
 import csv
+import io
 import json
 
 from tailwater.errors import DataError
+from tailwater.whole_file import write_whole_text
 
 from .metric import Metric, bar
 from .text_table import markdown_table, text_table
@@ -38,13 +40,14 @@ def markdown(result):
 
 
 def write(result, folder):
-    """Throws OSError."""
-    (folder / "speed.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    (folder / "speed.md").write_text(markdown(result), encoding="utf-8")
-    with (folder / "speed.csv").open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, ("commit", *record(Metric("", "", "", ""))))
-        writer.writeheader()
-        writer.writerows({"commit": result["commit"], **number} for number in result["numbers"])
+    """Throws IoError."""
+    write_whole_text(folder / "speed.json", json.dumps(result, indent=1) + "\n")
+    write_whole_text(folder / "speed.md", markdown(result))
+    lines = io.StringIO()
+    writer = csv.DictWriter(lines, ("commit", *record(Metric("", "", "", ""))), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({"commit": result["commit"], **number} for number in result["numbers"])
+    write_whole_text(folder / "speed.csv", lines.getvalue())
 
 
 def read(path):

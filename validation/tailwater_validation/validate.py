@@ -17,7 +17,7 @@ import subprocess
 import sys
 
 from tailwater.errors import DataError
-from tailwater.whole_file import write_whole
+from tailwater.whole_file import write_whole_text
 
 from . import command, panels
 from .metric import RESULTS, bar, shown
@@ -160,7 +160,7 @@ def score(chosen, program, options):
     result, out = collect(chosen, program, options), options.out
     for name, content, indent in (("validation", result, 1), ("report", report(result, chosen, out), None)):
         text = json.dumps(content, indent=indent) + "\n"
-        write_whole(out / f"{name}.json", lambda part, text=text: part.write_text(text, encoding="utf-8"))
+        write_whole_text(out / f"{name}.json", text)
     return (f"{overview(result)}\n\nscores: {out / 'validation.json'}\nreport: {export(program, out)}; "
             f"with its runs: tailwater view {out}")
 
