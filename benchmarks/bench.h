@@ -1,4 +1,4 @@
-// What all benchmarks of the rooms share: the flow on which they work, and how they are timed.
+// The flow on which all benchmarks of modules run, and their timing.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -104,7 +104,7 @@ void add_pressure(Stage<Dim>& stage);
 template <int Dim>
 void add_steps(Stage<Dim>& stage);
 
-/// What memory and one core can deliver, after McCalpin's STREAM: no flow is needed.
+/// Measures memory and one core, after McCalpin's STREAM; no flow is needed.
 void add_machine();
 
 }  // namespace tailwater

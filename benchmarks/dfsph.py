@@ -1,7 +1,7 @@
 """A dam break by SPlisHSPlasH's DFSPH, for beside.py: writes the scene, runs SPHSimulator, reads its frames.
 
 Particles are as far apart as Tailwater's and begin at the same places. Walls, viscosity, tolerances and steps are those
-of SPlisHSPlasH's own scenes of a dam break. The price is that of a run without output, less that of its start. Another
+of SPlisHSPlasH's own scenes of a dam break. The cost is that of a run without output, less that of its start. Another
 run, with steps of the mean length of those, writes each step, from which the pressure is read.
 """
 import json
@@ -18,7 +18,7 @@ DENSITY = 1000.0
 EACH_STEP = 1e6  # frames per second, more than there are steps
 MAP_CELL = 4.0  # dx; of the maps of walls
 READ_REACH = 3.0  # dx; of the kernel that reads the pressure, as Tailwater's probes do
-# Of the solves for the density and for the divergence; over the density, times the step to a power.
+# Pressures of the solves for the density and for the divergence; over the density, times the step to a power.
 PRESSURES = {"p_/_rho^2": 2, "p_v_/_rho^2": 1}
 CORNERS = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
 TRIANGLES = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
@@ -31,7 +31,7 @@ def in_3d(begin, end, dx):
 
 
 def body(name, begin, end, dx, is_tank, folder):
-    """Writes the box, and tells the scene about it."""
+    """Writes the box, and adds it to the scene."""
     begin, end = in_3d(begin, end, dx)
     vertices = [[(begin, end)[upper][axis] for axis, upper in enumerate(corner)] for corner in CORNERS]
     lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in vertices]
@@ -50,7 +50,7 @@ def write_scene(case, end, folder, step):
     dimension, dx = len(case.tank), case.dx
     gravity = [0.0, 0.0, 0.0]
     gravity[dimension - 1] = -9.81
-    # Of a block's cells the first and the last stay empty.
+    # The first and the last cell of a block stay empty.
     first, last = in_3d([lower - dx / 2 for lower in case.water[0]], [upper + dx / 2 for upper in case.water[1]], dx)
     scene = {
         "Configuration": {
@@ -72,7 +72,7 @@ def write_scene(case, end, folder, step):
 
 
 def run_scene(program, case, end, folder, step=None):
-    """CPU seconds, and what the program wrote."""
+    """CPU seconds, and the output of the program."""
     scene = write_scene(case, end, folder, step)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     command = [program, scene, "--no-gui", "--no-initial-pause", "--output-dir", folder / "out"]

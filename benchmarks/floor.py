@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The least time of a step by bytes and operations, beside what is measured: the tables of docs/performance.md.
+"""The least time of a step by bytes and operations, beside the measured time: the tables of docs/performance.md.
 
-Counts what each pass over pairs must read, write and compute, takes the machine's bandwidth and multiply-adds from the
-speed bench, and adds up. Bytes are those of arrays with an entry per pair, and of each particle's own once per pass:
+Counts the reads, writes and operations of each pass over pairs, takes the machine's bandwidth and multiply-adds from the
+speed benchmark, and adds up. Bytes are those of arrays with an entry per pair, and of each particle's own once per pass:
 its neighbours' are taken to be in a cache.
 Usage: benchmarks/floor.py speed/speed.json    of `tailwater bench speed --part rooms`
 """
@@ -49,7 +49,7 @@ def pair_vector(d):
     return 3 * d**2 + 3 * d
 
 
-# At best a pass reads the neighbour's index and computes the rest from what the cache has of both ends. A pass is joined
+# At best a pass reads the neighbour's index and computes the rest from the data of both ends in the cache. A pass is joined
 # to the one before it unless it needs a result of that one at the neighbours.
 PASSES = (
     Pass("search", lambda d: INDEX, lambda d: INDEX, lambda d: 3 * d * candidates(d) + SLOPE),
@@ -79,7 +79,7 @@ def best_times(one):
 
 @dataclass(frozen=True)
 class Row:
-    """Of a step; bytes and operations per fluid particle, times in ns per fluid particle."""
+    """A pass of a step; bytes and operations per fluid particle, times in ns per fluid particle."""
 
     name: str
     now_bytes: float
@@ -113,7 +113,7 @@ def rows(d, pairs, iterations, bandwidth, multiply_adds):
 
 
 def memory(d, pairs, numbers, label):
-    """A sentence on bytes per fluid particle: what is held now, and what the arrangement at best would hold."""
+    """A sentence on bytes per fluid particle: held now, and held by the best arrangement."""
     parts = (("rows", INDEX * pairs), ("half a matrix", (SINGLE + INDEX) * pairs / 2),
              ("fields", DOUBLE * FIELDS_HELD))
     now = {name: numbers[f"{label}.bytes.{name}"] for name in ("all", "pairs", "pair_vectors", "matrix")}
@@ -123,7 +123,7 @@ def memory(d, pairs, numbers, label):
 
 
 def table(d, numbers):
-    """Markdown for one dimension, or nothing if the bench has no rooms of it."""
+    """Markdown for one dimension, or nothing if the benchmark has no modules of it."""
     sizes = sorted({name.split(".")[1] for name in numbers if name.startswith(f"rooms.{d}D ")},
                    key=lambda size: float(size.split()[1]))
     if not sizes:

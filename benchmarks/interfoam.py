@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A dam break of ours by OpenFOAM's interFoam (volume of fluid, water and air), scored like a run of Tailwater.
 
-It tells what a computation without air, turbulence and surface tension misses, since each can be switched here.
+It shows the error of a computation without air, turbulence and surface tension, since each can be switched here.
 
 Usage: benchmarks/interfoam.py zhou1999|martin_moyce1952 OUT --dx METRES [--turbulence none|kOmegaSST]
                                [--air-density 1.2] [--surface-tension 0] [--walls slip|no-slip] [--n2 1] [--end SECONDS]
@@ -26,7 +26,7 @@ from tailwater_validation.metric import Metric  # noqa: E402
 from tailwater_validation.studies import martin_moyce1952, zhou1999  # noqa: E402
 
 OPENFOAM = "/usr/share/openfoam"  # where Debian has what its programs read
-THICKNESS = 0.1  # m, of the one layer of cells that OpenFOAM wants in two dimensions
+THICKNESS = 0.1  # m, of the one layer of cells that OpenFOAM needs in two dimensions
 WALLS = ("left", "right", "bottom")
 SAMPLES = 1000  # of every probe over a run
 

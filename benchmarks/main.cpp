@@ -1,4 +1,4 @@
-// Benchmarks of the rooms on a flow of a case after some steps. `tailwater bench speed` runs it; by hand:
+// Benchmarks of the modules on a flow of a case after some steps. `tailwater bench speed` runs it; by hand:
 //   bench_rooms CASE [--set KEY=VALUE]... [--steps N] [--benchmark_filter=REGEX and other options of Google Benchmark]
 //   bench_rooms machine
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ double bytes_of(const Array& values) {
   return static_cast<double>(values.size() * sizeof(values[0]));
 }
 
-/// What the flow holds. The arrays named are the largest; lists and the solver's own are in the sum only.
+/// Reports the memory of the flow. The arrays named are the largest; lists and the solver's own are in the sum only.
 template <int Dim>
 void add_memory(const Stage<Dim>& stage, double bytes_before) {
   const Pairs<Dim>& pairs = stage.flow.pairs();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what it costs to load and check a mesh of a million triangles: CPU time and memory of `tailwater check`.
+"""Measures the cost of loading and checking a mesh of a million triangles: CPU time and memory of `tailwater check`.
 
 The mesh is an uneven sphere of 0.4 m in diameter, a binary STL file, in a tank with 7000 particles of water. The tree of
 the mesh, its tests and the search for the wall particles behind it are all part of the figures.

@@ -1,4 +1,4 @@
-// What setting up a case costs each rank, before any step: memory and time of its checks, its walls and its water.
+// Cost of the set-up of a case on each rank, before any step: memory and time of its checks, its walls and its water.
 //   mpirun -n N build/release/bin/setup_memory CASE [KEY=VALUE...]
 #include <fmt/format.h>
 

@@ -26,7 +26,7 @@ GAUGE_REACH = 3.0  # dx; of the kernel that reads it
 
 
 def centres(begin, end, dx):
-    """Of cells of about dx between two places."""
+    """Centres of cells of about dx between two places."""
     count = round((end - begin) / dx)
     return begin + (np.arange(count) + 0.5) * (end - begin) / count
 

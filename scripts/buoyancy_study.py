@@ -2,7 +2,7 @@
 """Bodies in water at rest: the force on them over the weight of the water they displace (docs/theory/probes.md).
 
 A cylinder and a tilted square in two dimensions; a sphere, a cylinder and a tilted cube, each as STL, in three. Each is
-fixed near the middle of a tank, off the water's lattice by a share of dx, as bodies of real cases are.
+fixed near the middle of a tank, off the water's lattice by a fraction of dx, as bodies of real cases are.
 
 Printed are, over the weight of the water that the body displaces, the mean force over the second half of the run, the
 weight of the water that is really missing in the tank, and the mean force across; the force on all walls over the weight

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What pressure probes read when a dam break meets a wall: the table of docs/theory/probes.md, section First contact.
+"""Readings of pressure probes when a dam break hits a wall: the table of docs/theory/probes.md, section First contact.
 
 At the foot of the wall of Zhou's dam break, at a point and as the mean over 90 mm: the largest pressure over rho g H, how
 long it took to rise from a tenth of that, the largest mean over 20 ms, and the impulse of the first 0.15 s.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What disorder does to the pressure equation: the table of docs/theory/robustness.md#disorder-is-not-air.
+"""Effect of disorder on the pressure equation: the table of docs/theory/robustness.md#disorder-is-not-air.
 
-For jittered lattices and for fields of runs, over particles inside the water: the share of the Laplacian's weights A_0
+For jittered lattices and for fields of runs, over particles inside the water: the fraction of the Laplacian's weights A_0
 that is missing, mean of max(0, 1 - sum c/A_0); the distance over which pressure would be screened if that were air; and
 the distance over which the force itself screens it, by 4 |grad C|^2. Default kernel, 2D.
 Usage: scripts/disorder_study.py [RUN ...]   RUN: a folder of `tailwater run` of Zhou's dam break

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""What a quantity of a sweep over particles.spacing comes to at dx = 0, and how well that is known.
+"""The limit of a quantity of a sweep over particles.spacing at dx = 0, with its uncertainty.
 
 For each member: the mean of a probe's column from --from on, and its standard error, from the means of ten equal parts
-of that time. The limit is that of a straight line over dx through all members. Its uncertainty is the larger of what the
-standard errors make of it, doubled, and how far the lines through all but one of the members end from it.
+of that time. The limit is that of a straight line over dx through all members. Its uncertainty is the larger of that from
+the standard errors, doubled, and how far the lines through all but one of the members end from it.
 
 Usage: extrapolate.py SWEEP PROBE COLUMN --from S [--minus VALUE]
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What each part of the default does to the Zhou dam break: the tables of docs/theory/schemes.md and two-step.md.
+"""Effect of each part of the default on the Zhou dam break: the tables of docs/theory/schemes.md and two-step.md.
 
 One part at a time is left out of the default formulation; then the published one, to T = 8 (or until the run fails). Walls are
 free unless the change is theirs, so that energy is lost by the scheme alone.

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""The gallery, a page of all templates in the documents: runs each as it stands, draws it, and writes what it shows and costs.
+"""The gallery, a page of all templates in the documents: runs each unchanged, draws it, and writes its contents and cost.
 
 Usage: scripts/gallery.py [TEMPLATE ...]    runs those that are named, or all, where out/gallery has no whole run of them
        scripts/gallery.py --coarse ...      the same with twice the spacing, where there is no run yet; the page says so
 
-What a template shows is told by the head of its case, what it costs by its run. The pictures go to docs/images/gallery.
+The head of its case describes a template, its run gives the cost. The pictures go to docs/images/gallery.
 All need about ten minutes of CPU time. Exit code 1 if a run of a template as it stands has warned.
 """
 import pathlib

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Whether the intervals of `tailwater study` contain what is known: the table of docs/theory/uncertainty.md.
+"""Tests whether the intervals of `tailwater study` contain the known values: the table of docs/theory/uncertainty.md.
 
 Each flow has one number whose truth is known, taken over that truth. A study at seven spacings, with runs from other
 starts and one with half of the time step, gives it an interval, which should contain 1 and be narrow.
 
 Usage: scripts/interval_study.py DIR [NAME ...] [--jobs N] [--finer F]    needs the program (scripts/build.sh)
---finer F divides all spacings. Called again it goes on with what is not done. All of it takes half an hour of CPU time.
+--finer F divides all spacings. Called again it continues with the missing runs. All of it takes half an hour of CPU time.
 """
 import argparse
 import sys
@@ -54,7 +54,7 @@ def late_discharge(run):
     return shallow_water.late_discharge(run, since=0.5 * run.parameters["T"]) / (8 / 27)
 
 
-# What it is, where its truth is from; the case; the coarsest spacing (the finest is half of it); how it is read.
+# Description, source of its truth; the case; the coarsest spacing (the finest is half of it); its evaluation.
 FLOWS = {
     "poiseuille": ("mean speed at 95 % of the steady flow, series", "verification/poiseuille", "L/14", mean_speed),
     "ritter": ("late discharge of a dam break on a dry bed, 8/27", "verification/ritter", "h0/15", late_discharge),
@@ -72,7 +72,7 @@ FLOWS = {
     "jump": ("depth behind the jump, momentum of its profile", "flume/hydraulic_jump", "h1/3.5",
              error_of("hydraulic-jump", "momentum_error")),
 }
-# Ritter's discharge is late, so for longer. What a jump is read from trembles with its roller: twice the time, in a channel
+# Ritter's discharge is late, so for longer. The readings of a jump fluctuate with its roller: twice the time, in a channel
 # in which it does not wander to the gauge before it. So does a bore: a third more time, profiles five times as often. An
 # ogee is steady after 2 s, and its nose has a radius of 2.4 to 4.8 dx: finer, for less time.
 SETTINGS = {"ritter": {"parameters.T": 10.0},

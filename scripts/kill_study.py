@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Kills runs at random moments, resumes them, and compares what they leave with a run that nobody disturbed.
+"""Kills runs at random moments, resumes them, and compares their files with those of an undisturbed run.
 
 A dam break is run on -n ranks with frequent checkpoints. At a moment drawn at random, when its processes have worked for
 --apart CPU seconds at most, it is killed by SIGKILL: alone the process, of several ranks in turn the launcher alone, mpirun alone and one rank alone.
@@ -60,7 +60,7 @@ def newest_step(out):
 
 
 def cpu_seconds(out):
-    """What the processes of a run have worked so far."""
+    """CPU seconds of the processes of a run so far."""
     ticks = 0
     for process in processes_of(out):
         try:
@@ -72,7 +72,7 @@ def cpu_seconds(out):
 
 
 def kill(program, out, role):
-    """Kills one of the processes of a run; says what was killed."""
+    """Kills one of the processes of a run; returns its name."""
     mine = processes_of(out)
     mpirun = [process for process in mine if pathlib.Path(command_line(process)[0]).name in ("mpirun", "mpiexec")]
     others = [process for process in mine if process not in mpirun]

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs a sloshing tank for a stretch of wall-clock time and judges whether anything drifts.
+"""Runs a sloshing tank for a given elapsed time and judges whether anything drifts.
 
 A tank of 1 m with 0.3 m of water is shaken for as long as --minutes say. Every few seconds the memory, the CPU time and
 the step of the program are read. The first fifth is left out, since the water settles. Of what remains, the last third

@@ -12,7 +12,7 @@ BLOCK = re.compile(r"^```python\n(.*?)^```\n", re.DOTALL | re.MULTILINE)
 
 
 def cells(text):
-    """Of a page in Markdown, alternately text and code."""
+    """Cells of a page in Markdown, alternately text and code."""
     for number, part in enumerate(BLOCK.split(text)):
         if part.strip():
             common = {"id": f"cell-{number}", "metadata": {}, "source": part.strip("\n")}

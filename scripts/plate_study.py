@@ -38,7 +38,7 @@ def exact_plate():
 
 
 def exact_reading(across):
-    """What a point probe reads of the exact flow at POINTS, over the pressure there: means over the water with the kernel
+    """Readings of a point probe in the exact flow at POINTS, over the pressure there: means over the water with the kernel
     (Wendland C2, 3 dx). The water fills the quarter of the unit disc in v = (u - i w)/U."""
     radii, angles = 3000, 1500
     r = ((np.arange(radii) + 0.5) / radii)[:, None]

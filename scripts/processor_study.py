@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What it costs that a program runs on other processors too: docs/install.md.
+"""Cost of a program that also runs on other processors: docs/install.md.
 
 Usage: scripts/processor_study.py NATIVE OTHER...    programs built with -D TAILWATER_ARCH=native, x86-64-v3, x86-64-v2
 
@@ -32,7 +32,7 @@ def seconds(program, case, settings, folder):
 
 
 def name_of(program):
-    """The processor that it tells it is built for."""
+    """The processor that it is built for, by its own report."""
     told = subprocess.run([program, "info"], check=True, capture_output=True, text=True).stdout
     return told.partition("ARCH ")[2].partition(",")[0]
 

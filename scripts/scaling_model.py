@@ -43,7 +43,7 @@ def levels(fluid, dimension):
 
 
 def exchanges_of_cycle(count):
-    """Of a W cycle over so many levels: each visit exchanges before the residual goes down and before the sweep back,
+    """Exchanges of a W cycle over so many levels: each visit exchanges before the residual goes down and before the sweep back,
     and between the halves of the W, unless the next level is gathered."""
     return 3 * (2**count - 1) - 2 ** (count - 1)
 

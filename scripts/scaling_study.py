@@ -18,7 +18,7 @@ PROGRAM = ROOT / "build/release/bin/tailwater"
 CASES = {2: ("zhou1999/case.toml", 1.2 * 0.6, 0.6), 3: ("robustness/tank_3d.toml", 0.5 * 0.3 * 0.3, 0.3)}  # water, depth
 COURANT = 0.55  # scheme.courant's default
 SHORT = 5  # steps that are not counted
-COLUMNS = {  # of the file, with what the table shows of them
+COLUMNS = {  # of the file, with their format in the table
     "fluid": "{:.0f}", "particles": "{:.0f}", "ranks": "{:.0f}", "seconds_per_step": "{:.3f}",
     "microseconds_per_particle": "{:.2f}", "speed_up": "{:.2f}", "exchange_share": "{:.1%}", "reduction_share": "{:.1%}",
     "iterations_per_step": "{:.1f}", "bytes_per_step": "{:.3g}", "messages_per_step": "{:.0f}",

@@ -81,7 +81,7 @@ def configuration(source, target):
 
 
 class Links(html.parser.HTMLParser):
-    """What a page links to, what it loads, and the places on it."""
+    """Links of a page, the files it loads, and the places on it."""
 
     def __init__(self, text):
         super().__init__()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the size of the time step does: level, force and speed of ten flows with the default's steps and with short ones,
+"""Effect of the size of the time step: level, force and speed of ten flows with the default's steps and with short ones,
 the table of docs/theory/robustness.md, section The largest step.
 
 Usage: scripts/step_study.py [NAME ...]   needs build/release/bin/tailwater (scripts/build.sh); all of it takes ten minutes
@@ -19,7 +19,7 @@ from tailwater_validation import exact_flows  # noqa: E402
 from tailwater_validation.flume import steady_discharge, steady_mean  # noqa: E402
 
 PROGRAM = ROOT / "build/release/bin/tailwater"
-STEPS = (0.55, 0.2)  # dx that the fastest water goes in a step: the default, and what is taken for none
+STEPS = (0.55, 0.2)  # dx that the fastest water goes in a step: the default, and one taken for zero
 KINDS = ("level", "force", "speed")
 
 
@@ -60,7 +60,7 @@ def entry(run):
     return {"force": (float(force.window(0.5 * end, end).value.mean()), "N/m")}
 
 
-# What a plate of the dam break's wall is pushed with, where the case reads its pressure.
+# Force on a plate of the dam break's wall, where the case reads its pressure.
 ON_PLATE = """
 [[probe]]
 name = "plate"
@@ -84,7 +84,7 @@ def wave(run):
     return {"speed": (100 * found["period_error"], "% of the period")}
 
 
-CASES = {  # what it is, the case, its settings, what is read
+CASES = {  # description, the case, its settings, its evaluation
     "ogee, Hd/8": ("flume/ogee", ["particles.spacing=Hd/8", "time.end=5"], upstream),
     "sharp crest, P/10": ("flume/weir", ["particles.spacing=P/10", "time.end=5"], upstream),
     "sluice gate, a/5": ("flume/sluice_gate", ["particles.spacing=a/5", "time.end=4"], gate),

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a row costs per step, in pairs: a weight of src/neighbours/neighbourhood.cpp, docs/scaling.md.
+"""Cost of a row per step, in pairs: a weight of src/neighbours/neighbourhood.cpp, docs/scaling.md.
 
 CPU time per step and particle of periodic vortices at several supports gives the cost of a row and of a pair.
 Usage: scripts/work_study.py    needs build/release/bin/tailwater

@@ -1,6 +1,6 @@
-"""What is written: lines of Markdown have up to 120 characters, nothing cites what is not in the tree, only notebooks
+"""Rules of texts: lines of Markdown have up to 120 characters, nothing cites a file that is not in the tree, only notebooks
 name commits, loops over particles go through base/for_each.h or say on their line why they are plain loops
-(`// in order: appends`), files and functions are short, and local functions of a room, whose files are compiled as one,
+(`// in order: appends`), files and functions are short, and local functions of a module, whose files are compiled as one,
 have names of their own.
 Usage: text.py markdown|citations|loops|lengths|locals ROOT"""
 import pathlib
@@ -17,7 +17,7 @@ NAMES_COMMITS = {"docs/validation.md"}  # the one that its results are of
 
 
 def files(root):
-    """Of the tree, without what a build or a run left in it."""
+    """Files of the tree, without those of builds and runs."""
     for top in ("", "src", "tests", "docs", "cases", "validation", "scripts", "cmake", "benchmarks", "python"):
         for file in sorted((root / top).rglob("*") if top else root.glob("*")):
             if file.is_file() and file.suffix in TEXTS and file != pathlib.Path(__file__).resolve():
@@ -94,7 +94,7 @@ def lengths(root):
 
 
 def local_names(root):
-    """Of two local functions of one name and other arguments a call in either file may take the other's."""
+    """With two local functions of one name and other arguments, a call in either file may take the other's."""
     for room in sorted(path for path in (root / "src").iterdir() if path.is_dir()):
         seen = {}  # name: file
         for file in sorted(room.glob("*.cpp")):

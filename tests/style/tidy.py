@@ -1,8 +1,8 @@
-"""clang-tidy over rooms of src/ in one go. Usage: tidy.py ROOT BUILD ROOM...
+"""clang-tidy over modules of src/ in one go. Usage: tidy.py ROOT BUILD MODULE...
 
 Reading Eigen, PETSc and their like costs seconds for every file that includes them, and instantiating templates as much
-again. So all source files of the named rooms are read as one, without their explicit instantiations, with the flags that
-BUILD/compile_commands.json has for these rooms, and only checks that are cheap on other people's headers are made. The whole set of
+again. So all source files of the named modules are read as one, without their explicit instantiations, with the flags that
+BUILD/compile_commands.json has for these modules, and only checks that are cheap on other people's headers are made. The whole set of
 .clang-tidy is for `clang-tidy -p BUILD FILE...` by hand.
 
 Since the files are read together, no two of them may have local helpers of equal name.
@@ -77,7 +77,7 @@ def main():
     if shutil.which("clang-tidy") is None:
         sys.exit("clang-tidy is not installed; run scripts/install.sh")
     sources = [source for room in rooms for source in sorted((root / "src" / room).rglob("*.cpp"))]
-    # A file that the build joins from several sources stands below BUILD/src/ROOM.
+    # A file that the build joins from several sources stands below BUILD/src/MODULE.
     entries = [entry for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
                if any(pathlib.Path(entry["file"]).is_relative_to(top / "src" / room)
                       for room in rooms for top in (root, build))]
