@@ -18,6 +18,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 KATEX = pathlib.Path("/usr/share/javascript/katex")
+MATH = re.compile(r"^```math\n(.*?)^```$", re.DOTALL | re.MULTILINE)  # as GitHub has blocks of formulas
 LINK = re.compile(r"(?<=\]\()([^)\s#]+)(?=[)#])")
 
 
@@ -35,7 +36,7 @@ def title(page):
 def stage(folder):
     """Lays the documents out in `folder` as they are in the tree, with the files that they link to."""
     for page in pages():
-        text = (ROOT / page).read_text(encoding="utf-8")
+        text = MATH.sub(r"$$\n\1$$", (ROOT / page).read_text(encoding="utf-8"))
         for link in set(LINK.findall(text)):
             target = ((ROOT / page).parent / link).resolve()
             if "://" in link or not target.is_relative_to(ROOT):
