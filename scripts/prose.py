@@ -53,7 +53,7 @@ WORDS = [
     (r"at (this|that|the same|any) moment|moments? of time", "instant, or time"),
     (r"(the|this|that|same|one|its|their|each|a|what) shares?|shares of|share of", "fraction"),
     (r"stabilising devices?|devices? (of|for) (the )?(default|step|noise)", "stabilisation term"),
-    (r"level (quick|paper|fine|full)|(quick|paper|fine|full) level", "tier"),
+    (r"(?<!--)level (quick|paper|fine|full)|(quick|paper|fine|full) level", "tier"),
     (r"for who|of who|who has", "for users who"),
     (r"nobody", "no process, or no user"),
     (r"what (a|an|the|it|is|was|are|were|they|this|that|each|one|no|else|there)", "the noun itself, as in: cost per step"),

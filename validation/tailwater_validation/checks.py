@@ -1,4 +1,4 @@
-"""Numbers to be read from runs, and how they are held against their bars."""
+"""Numbers that are read from runs, and their comparison with targets."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,9 +9,9 @@ from .runs import finished
 
 @dataclass(frozen=True)
 class Check:
-    """One number: `compute` takes what `runs` left, and returns the value, or several fields of the metric. With
-    `also_failed` it takes the runs themselves and the folder of the whole instead, whatever became of them. In a
-    comparison `variant` is what is compared."""
+    """One number: `compute` takes the results of `runs` and returns the value, or several fields of the metric. With
+    `also_failed` it takes the runs themselves and the folder of the whole instead, including failed runs. `variant`
+    names the compared variant in a comparison."""
 
     metric: Metric
     runs: tuple

@@ -1,4 +1,4 @@
-"""What the commands that make and score runs share: options, error messages, and the order of their work."""
+"""Options, error messages and order of work that all commands share which make and score runs."""
 
 import difflib
 import signal
@@ -13,7 +13,7 @@ from .runs import INTERRUPTED, Program, duration, make, outcome, require_accepte
 
 
 class OutParser(Parser):
-    """Of commands that make runs by the program and leave their results in a folder."""
+    """Options of commands that make runs with the program and write results to a folder."""
 
     def __init__(self, prog, what, out):
         super().__init__(prog, needs_program=True, description=what)
@@ -22,7 +22,7 @@ class OutParser(Parser):
 
 
 class RunsParser(OutParser):
-    """Of commands whose runs are made once, several at a time, and kept."""
+    """Options of commands whose runs are made once, several at a time, and kept."""
 
     def __init__(self, prog, what, out, jobs):
         super().__init__(prog, what, out)
@@ -60,7 +60,7 @@ def interrupt(*_):
 
 def execute(options, choose_groups, score):
     """Makes the runs of the groups that `choose_groups()` returns, then prints what `score(groups, program, options)`
-    returns. The exit code: 0 whatever the verdicts are; 2 for bad input, also if the program refuses every run; 4 if a
+    returns. The exit code: 0 whatever the results are; 2 for bad input, also if the program refuses every run; 4 if a
     file cannot be written; 130 if interrupted."""
     signal.signal(signal.SIGTERM, interrupt)
     try:

@@ -5,7 +5,7 @@ import numpy as np
 
 from tailwater.errors import DataError
 
-# Share of a window that two curves must both cover to be compared over it. Less would compare other events.
+# Fraction of a window that two curves must both cover to be compared over it. Less would compare other events.
 LEAST_COVERAGE = 0.95
 # Samples inside the running median's width below which it follows the noise itself.
 LEAST_MEDIAN_SAMPLES = 5

@@ -1,7 +1,7 @@
-"""Errors of runs of cases/robustness, cases/verification and cases/flume against what theory says.
+"""Errors of runs of cases/robustness, cases/verification and cases/flume against theory.
 
 Each function takes a Run and returns its numbers by name; all are without unit unless the name ends in one. They
-throw DataError where the run does not have what they need.
+throw DataError where the run lacks the data that they need.
 """
 
 import cmath
@@ -285,10 +285,10 @@ def couette(run):
 
 
 def uniform_flow(run):
-    """Of the last quarter of the run. depth_error: the depth over that of Manning's formula for the discharge, the slope
-    and n, less 1. keulegan_error: the mean speed over that of the logarithmic law, less 1. profile_error: rms distance of
-    the particles' speed from the logarithmic law, over its mean, up to half the depth. stress_error: by how much the bed's
-    stress differs from that of a steady flow, from what the water gains or loses."""
+    """Errors over the last quarter of the run. depth_error: the depth over that of Manning's formula for the discharge,
+    the slope and n, less 1. keulegan_error: the mean speed over that of the logarithmic law, less 1. profile_error: rms
+    distance of the particles' speed from the logarithmic law, over its mean, up to half the depth. stress_error: by how
+    much the bed's stress differs from that of a steady flow, from the momentum that the water gains or loses."""
     depth, n, slope, ks, shear = (run.parameters[name] for name in ("h", "n", "S", "ks", "ut"))
     last = [frame for frame in frames(run) if frame.time >= 0.75 * run.case["time"]["end"]]
     law = 1 / 0.41
@@ -309,7 +309,7 @@ def uniform_flow(run):
 # ------------------------------------------------------------------------------------------------ a jet on a plate
 
 
-# Of a block with free sides and any length that meets a wall all at once (Cooker & Peregrine 1995): the impulse P of the
+# A block with free sides and any length meets a wall all at once (Cooker & Peregrine 1995): the impulse P of the
 # pressure obeys Laplace's equation, P = 0 on the sides, dP/dy = -rho U on the wall. In the middle of the wall it is
 # 4 G/pi^2 rho U b, with Catalan's constant G.
 JET_IMPULSE = 4 * 0.915965594 / math.pi**2
@@ -356,9 +356,9 @@ def slot_contraction(share):
 
 
 def slot(run):
-    """Means over the last quarter of the run. contraction_error: of what the piston pushes out over the speed of the jet,
-    from 2.5 to 4 half slots behind the slot, and the slot, over theory, less 1. thickness_error: likewise, of the volume of
-    the jet over its length. pressure_error: before the slot, over that of the jet's speed, less 1."""
+    """Means over the last quarter of the run. contraction_error: of the discharge of the piston over the speed of the
+    jet, from 2.5 to 4 half slots behind the slot, and the slot, over theory, less 1. thickness_error: likewise, of the
+    volume of the jet over its length. pressure_error: before the slot, over that of the jet's speed, less 1."""
     a, B, V, end = run.parameters["a"], run.parameters["B"], run.parameters["V"], run.case["time"]["end"]
     speeds, counts = [], []
     for frame in frames(run):

@@ -81,7 +81,7 @@ class Oscillator:
             tank.breadth**3 / 12 - tank.breadth * tank.draught * 0.5 * (tank.height - tank.draught))
         stiffness[last, last] = 0.5 * tank.density * tank.gravity * restoring
         free = np.eye(last + 1)
-        if not rolls:  # what the box displaces stands in the surface
+        if not rolls:  # the displaced water raises the surface
             free = free[:, 1:]
             free[0, :-1] = -1.0
             free[0, -1] = -0.5 * tank.breadth / side
@@ -116,7 +116,7 @@ def period(time, value):
 
 
 def theory(tank, rolls, end):
-    """(period, share of the motion that is in the strongest mode), extrapolated to cells without size."""
+    """(period, fraction of the motion that is in the strongest mode), extrapolated to cells without size."""
     time = np.linspace(0, end, 20001)
     found = [Oscillator(tank, rolls, cells) for cells in CELLS]
     periods = [period(time, oscillator.motion(time)) for oscillator in found]
@@ -136,7 +136,7 @@ def floating_box(run):
     end = run.case["time"]["end"]
     curve = run.curve("box", "angle_rad" if rolls else "displacement_y_m")
     p = run.parameters
-    # Where it comes to rest; what it displaces there stands around it.
+    # Where it comes to rest; the water that it displaces there stands around it.
     rest = 0.0 if rolls else p["up"] * (p["B"] / p["W"] - 1)
     place = curve.value + p["tilt"] if rolls else curve.value - rest
     computed = period(curve.time, place)

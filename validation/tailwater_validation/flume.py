@@ -1,7 +1,7 @@
 """Flows in a flume against the formulas of hydraulics: runs of cases/flume.
 
 Each function takes a Run and returns its numbers by name; all are relative unless the name ends in a unit. They
-throw DataError where the run does not have what they need.
+throw DataError where the run lacks the data that they need.
 """
 
 import math
@@ -18,7 +18,7 @@ from .potential_gate import contraction
 from .profiles import profile_at, profile_table, rms
 from .wave_flume import irregular_waves, wave_flume
 
-STEADY = 0.5  # share of the run after which the flow counts as steady
+STEADY = 0.5  # fraction of the run after which the flow counts as steady
 SURFACE_TENSION_HEAD = 0.0011  # m, Rehbock's, of surface tension and viscosity
 
 
@@ -37,7 +37,7 @@ def steady_mean(run, probe, column):
 
 
 def steady_discharge(run, probe):
-    """Of a discharge probe, from the volume that has passed: exact also where the flow bends."""
+    """Mean of a discharge probe, from the volume that has passed: exact also where the flow bends."""
     volume = steady(run, probe, "volume_m3")
     return float((volume.value[-1] - volume.value[0]) / (volume.time[-1] - volume.time[0]))
 
@@ -104,8 +104,8 @@ def broad_weir(run):
 # m^(1/2)/s; q = 2.18 H^1.5 at the design head, for a crest twice as high: 3.95 ft^(1/2)/s (U.S. Bureau of Reclamation,
 # Design of Small Dams). Laboratories and manuals have 2.17 to 2.23.
 OGEE_COEFFICIENT = 2.18
-# The same by potential_crest.py for the crest of cases/flume/ogee.toml as its gauge reads H; 2.2238 for the true one, since
-# the water at the surface is faster there than the mean.
+# Discharge coefficient by potential_crest.py for the crest of cases/flume/ogee.toml as its gauge reads H; 2.2238 for
+# the true one, since the water at the surface is faster there than the mean.
 OGEE_POTENTIAL_COEFFICIENT = 2.2386
 
 
@@ -264,7 +264,7 @@ def wall_history(height):
 
 
 def wall_load_errors(run, height):
-    """Of the force on the wall that a solitary wave of this height (h) meets, and of the pressures there."""
+    """Errors of the force on the wall that a solitary wave of this height (h) meets, and of the pressures there."""
     depth = run.parameters["h"]
     scale, weight = math.sqrt(depth / run.gravity), run.density * run.gravity
     exact = wall_history(height)
@@ -281,12 +281,13 @@ def wall_load_errors(run, height):
 
 def solitary_wave(run):
     """speed_error: over Fenton's third order for the mean height at the gauges, less 1. wall_error: largest height of
-    connected water on the wall at the end of the channel, above the still water, over that of the third order of Su & Mirie
-    for the height at the last gauge, less 1. height_lost: share of the wave's height from the first gauge to the last.
+    connected water on the wall at the end of the channel, above the still water, over that of the third order of Su &
+    Mirie for the height at the last gauge, less 1. height_lost: fraction of the wave's height from the first gauge to
+    the last.
 
-    Of the force on that wall and of the pressures p1 and p2, less those at rest, against potential flow for that height
-    (potential_wave.py): force_error and pressure_error, of the largest values (of p1 or p2, whichever is worse), relative;
-    force_rms, over WALL_WINDOW about the largest force, over the largest.
+    The force on that wall and the pressures p1 and p2, less those at rest, are compared with potential flow for that
+    height (potential_wave.py): force_error and pressure_error, of the largest values (of p1 or p2, whichever is worse),
+    relative; force_rms, over WALL_WINDOW about the largest force, over the largest.
 
     Su C.H., Mirie R.M. (1980), On head-on collisions between two solitary waves, J. Fluid Mech. 98, 509-525; a wall is the
     plane of symmetry between equal waves."""

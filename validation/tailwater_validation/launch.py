@@ -1,12 +1,12 @@
 """Starts a command of Tailwater that is a program in Python: python3 -m tailwater_validation.launch MODULE [arguments].
 
-A library that the program needs and that is not there is told in one line, with the Debian package that has it. This
+A missing library is reported in one line, with the Debian package that has it. This
 module is not one of `tailwater`, because that package itself needs libraries."""
 
 import runpy
 import sys
 
-# What Python imports: what people call it, and where Debian has it. What draws in 3D needs Xvfb too.
+# Module that Python imports: its usual name, and its Debian packages. Drawing in 3D needs Xvfb too.
 LIBRARIES = {"numpy": ("NumPy", "python3-numpy"), "matplotlib": ("Matplotlib", "python3-matplotlib"),
              "PIL": ("Pillow", "python3-pil"), "scipy": ("SciPy", "python3-scipy"), "pandas": ("pandas", "python3-pandas"),
              "vtkmodules": ("VTK", "python3-vtk9 xvfb")}

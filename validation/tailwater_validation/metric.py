@@ -1,4 +1,4 @@
-"""One number that is held against a bar."""
+"""One number that is compared with a target."""
 
 import math
 from dataclasses import dataclass, replace
@@ -8,11 +8,11 @@ from tailwater.errors import DataError
 
 @dataclass(frozen=True)
 class Metric:
-    """One number of a comparison. `value` is None where it could not be had; `note` then says why. RMS differences
-    from laboratory curves also have the value at the best shift in time of the measured curve, and that shift. `paper` is
-    what the case's paper reports for its own code, `peers` what other codes give: (name, lowest, highest). An error that
-    was taken at several spacings has its observed `order`, of three or more also an `uncertainty`, either way.
-    `met_because` says why a value outside of its bar meets it all the same."""
+    """One number of a comparison. `value` is None where it could not be had; `note` then says why. RMS differences from
+    laboratory curves also have the value at the best shift in time of the measured curve, and that shift. `paper` is
+    the value that the case's paper reports for its own code, `peers` are values of other codes: (name, lowest,
+    highest). An error that was taken at several spacings has its observed `order`, of three or more also an
+    `uncertainty`, either way. `met_because` says why a value outside of its target meets it all the same."""
 
     name: str
     what: str
@@ -67,7 +67,7 @@ def shown(metric):
 
 
 def bar(low, high):
-    """A bar as text, such as "0.6..0.66", "<= 0.05" or ">= 1.5"; empty if there is none."""
+    """A target as text, such as "0.6..0.66", "<= 0.05" or ">= 1.5"; empty if there is none."""
     if None not in (low, high):
         return f"{low:g}..{high:g}"
     return f"<= {high:g}" if high is not None else f">= {low:g}" if low is not None else ""

@@ -10,13 +10,13 @@ import numpy as np
 
 from tailwater.tables import read_table
 
-BINS = 300  # of a curve, each with its least and its largest value: what a plot half a page wide can show
+BINS = 300  # of a curve, each with its least and its largest value: enough for a plot half a page wide
 DIGITS = 7  # of small changes of large numbers
 MOST_RUNS = 8  # in one plot
 
 
 def rounded(values):
-    """To DIGITS digits; None for what is no number."""
+    """Rounded to DIGITS digits; None for a value that is not finite."""
     return [float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None for value in values]
 
 
@@ -42,7 +42,7 @@ def over_time(label, curve_of_run, kind="run"):
 
 
 def panel(title, x, y, curves, logarithmic=False, limits=None):
-    """`x` and `y` name what is along the axes; `limits` of y that are shown, all by default."""
+    """`x` and `y` name the axes; `limits` of y that are shown, all by default."""
     return {"title": title, "x": x, "y": y, "logarithmic": logarithmic, "limits": limits, "curves": list(curves)}
 
 
@@ -51,7 +51,7 @@ def run_label(run):
 
 
 def labels(runs, names=None):
-    """A label for each run that tells them apart: from `names` {folder's name: label} if given, else spacing and
+    """A label for each run that differs from all others: from `names` {folder's name: label} if given, else spacing and
     integrator, or the folder's name where those do not."""
     if names:
         return [names[run.path.name] for run in runs]
@@ -74,7 +74,7 @@ WATER_INSIDE = {"water inside, of the start":
 
 
 def histories(runs, names=None):
-    """Energies, the volume's error by the density and, if water leaves, what is inside, over time, of several runs;
+    """Energies, the volume's error by the density and, if water leaves, the volume inside, over time, of several runs;
     `names` as in `labels`."""
     told = [(label, run, read_table(run.path / "steps.csv")) for run, label in zip(runs, labels(runs, names))]
     leaves = any(steps["volume_out_m3"].any() for _, _, steps in told)

@@ -38,8 +38,8 @@ def sech_integral(x):
 
 
 class Flow:
-    """Of a `discharge` over a bed that is level up to points[0] and whose highest point is at the height 0. `step` and `knot`
-    are distances in phi, of the surface's pieces and of what its curve goes through."""
+    """Flow of a `discharge` over a bed that is level up to points[0] and whose highest point is at the height 0. `step`
+    and `knot` are distances in phi, of the surface's pieces and of the knots of its curve."""
 
     def __init__(self, points, discharge, step=0.02, knot=0.2):
         self.points, self.discharge, self.step = np.array(points, dtype=float), discharge, step

@@ -4,7 +4,7 @@ Lengths over the depth h of the jet far downstream, speeds over its speed V, so 
 E. In t = exp(pi (phi + i psi)) the water is the upper half plane: t > 0 is the bed, 0 > t > R^2 - 1 the surface upstream,
 which is taken as level, from there to t = -1 the gate, and t = -1 - s^2 the surface of the jet. Of omega = ln u - i theta,
 with speed u and direction theta, one part is known everywhere: theta on walls and gate, by Bernoulli u on the jet. So
-omega/sqrt(t + 1) is an integral over what is known (Riemann and Hilbert), and the jet is found by iteration.
+omega/sqrt(t + 1) is an integral over the known values (Riemann and Hilbert), and the jet is found by iteration.
 """
 
 import math
@@ -41,7 +41,8 @@ def jet(energy):
 
 @lru_cache(maxsize=None)
 def contraction(share):
-    """Depth of the jet over the opening of a gate, whose opening has this share of the depth upstream, at most a half."""
+    """Depth of the jet over the opening of a gate, whose opening is this fraction of the depth upstream, at most a
+    half."""
     low, high = math.log(3.0), math.log(1e4)
     for _ in range(22):
         middle = 0.5 * (low + high)

@@ -1,5 +1,5 @@
-"""A solitary wave that meets an upright wall, by fully nonlinear potential flow: what the force and the pressure on the
-wall are compared with. High-order spectral method (Dommermuth & Yue 1987, J. Fluid Mech. 184, 267; West et al. 1987, J.
+"""A solitary wave that meets an upright wall, by fully nonlinear potential flow: the reference for the force and the
+pressure on the wall. High-order spectral method (Dommermuth & Yue 1987, J. Fluid Mech. 184, 267; West et al. 1987, J.
 Geophys. Res. 92, 11803): the wall is the plane of symmetry between two equal waves in a periodic channel.
 
 Lengths over the depth h of the still water, times over sqrt(h/g), pressures over rho g h.

@@ -1,9 +1,9 @@
 """Water over a broad weir with a rounded nose, by potential flow with gravity: its discharge over that of critical flow.
 
-Lengths over the critical depth, speeds over that of critical flow, so that g and the discharge are 1. The stream function
-is 0 along bed, weir and the underside of the sheet that falls from it, 1 along the surface, and even across both ends.
-Boundary elements tell from it the speed along the water's outline. Surface and underside are curves through some heights,
-which are sought, with the energy head, until Bernoulli's equation holds along both as well as it can.
+Lengths over the critical depth, speeds over that of critical flow, so that g and the discharge are 1. The stream
+function is 0 along bed, weir and the underside of the sheet that falls from it, 1 along the surface, and even across
+both ends. Boundary elements give the speed along the water's outline from it. Surface and underside are curves through
+some heights, which are sought, with the energy head, until Bernoulli's equation holds along both as well as it can.
 """
 
 import math
@@ -25,7 +25,8 @@ def line(start, end, size):
 
 
 def speeds(points, psi):
-    """Of water to the left of an outline, along each of its pieces, at whose middles the stream function is `psi`."""
+    """Speed of water to the left of an outline, along each of its pieces, at whose middles the stream function is
+    `psi`."""
     along = np.diff(points, axis=0)
     length = np.hypot(*along.T)
     apart = (0.5 * (points[1:] + points[:-1]))[:, None] - points[:-1]
@@ -79,8 +80,8 @@ class Flow:
         return points, psi, under, surface
 
     def misfit(self, unknown):
-        """Of Bernoulli's equation along underside and surface. The sheet's end, where the speed is not even, and the edge
-        from which it falls have no say."""
+        """Residuals of Bernoulli's equation along underside and surface. They leave out the sheet's end, where the
+        speed is not even, and the edge from which the sheet falls."""
         points, psi, under, surface = self.outline(unknown)
         height = 0.5 * (points[1:, 1] + points[:-1, 1]) - self.height
         off = 0.5 * speeds(points, psi) ** 2 + height - unknown[-1]

@@ -10,7 +10,7 @@ from tailwater.tables import read_table
 
 from .curves import LEAST_COVERAGE
 
-# s: how late a profile may be where a run does not tell its longest step
+# s: how late a profile may be where a run does not report its longest step
 LATEST = 0.004
 ROUND_OFF = 1e-6  # s, of times written as text
 
@@ -28,7 +28,7 @@ class Profile:
 
     @property
     def level(self):
-        """Of the water joined with the bed; the bed where it is dry."""
+        """Surface of the water joined with the bed; the bed where it is dry."""
         return self.bed + self.connected
 
     @property

@@ -17,7 +17,7 @@ def flow_numbers(flow, path):
 
 @lru_cache(maxsize=None)
 def scores(metrics, path):
-    """{name: Metric} of what a laboratory's `metrics` find in the folder of a run."""
+    """{name: Metric} that a laboratory's `metrics` find in the folder of a run."""
     return {metric.name: metric for metric in metrics(Run(path))}
 
 

@@ -1,11 +1,11 @@
-"""The gates of the robust core: studies of its own of the program, with bars.
+"""The gates of the robust core: studies of its own of the program, with targets.
 
-`tailwater bench robustness` runs this module: it makes the runs, scores them and writes what `tailwater validate` does.
-All cases and both integrators run with the defaults. `--set` changes the default under test, but not what defines a gate
-(its start, its spacing).
+`tailwater bench robustness` runs this module: it makes the runs, scores them and writes the same files as `tailwater
+validate`. All cases and both integrators run with the defaults. `--set` changes the default under test, but not the
+start and the spacing, which define a gate.
 
 Usage: python -m tailwater_validation.robustness --program FILE [--out DIR] [--level quick|full] [--gate NAME]...
-Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
+Exit codes: 0 all was run and scored, whatever the results are; 2 bad input, 4 a file cannot be written, 130
 interrupted.
 """
 
@@ -65,7 +65,7 @@ def number(name, what, unit, runs, compute, against="", low=None, high=None, als
 
 
 def tank_gate(bench, name, what, case, dx, end, seconds, factor=1.0, is_implicit_quick=False):
-    """Still water; the bars are multiplied by `factor`."""
+    """Still water; the targets are multiplied by `factor`."""
     checks = []
     for integrator in bench.integrators if bench.is_full or is_implicit_quick else ("explicit",):
         run = bench.run(f"{name}_{integrator}", case,
@@ -114,7 +114,7 @@ def count_finished(runs, out):
 
 
 def largest(read, runs, out):
-    """The largest value of the runs that finished; those that did not miss the bar of finishing."""
+    """The largest value of the runs that finished; a run that did not finish misses the target for finishing."""
     values = [read(finished(run, out)) for run in runs if outcome(out / "runs" / run.name).get("exit_code") == 0]
     if not values:
         raise DataError("none of the runs finished")
@@ -216,10 +216,10 @@ def laboratory_gate(bench):
 
 @dataclass(frozen=True)
 class ExactFlow:
-    """A flow with a known solution, at the spacings of the quick level and one more of the full level. Every quantity is
-    shown at each spacing; those in `bars` must be below their bar from the second spacing on, and the order of `ordered`
-    must be LEAST_ORDER, unless the coarsest set is right already (OrderOfError). The run at the coarsest spacing costs
-    `seconds`, the others grow with the power `growth`."""
+    """A flow with a known solution, at the spacings of the quick tier and one more of the full tier. Every quantity is
+    shown at each spacing; those in `bars` must be below their target from the second spacing on, and the order of
+    `ordered` must be LEAST_ORDER, unless the coarsest set is right already (OrderOfError). The run at the coarsest
+    spacing costs `seconds`, the others grow with the power `growth`."""
 
     case: str
     spacings: tuple
@@ -233,9 +233,9 @@ class ExactFlow:
 
 
 LEAST_ORDER = 1.5
-# The bars are our own, set for the second spacing: 50 particles across the box of vortices, 20 in the wave's depth, 20 in
-# the drop's radius. Of the wave's period linear theory leaves out 0.03 % ((k a)^2/8): a bar ten times that is the scheme's
-# own error. The pressure of the tank has its bar in the gates of the tanks.
+# The targets are our own, set for the second spacing: 50 particles across the box of vortices, 20 in the wave's depth,
+# 20 in the drop's radius. Of the wave's period linear theory leaves out 0.03 % ((k a)^2/8): a target ten times that is
+# the scheme's own error. The gates of the tanks have the target for the pressure of the tank.
 EXACT_FLOWS = {
     "taylor-green": ExactFlow("robustness/taylor_green.toml", (0.04, 0.02), 0.01, 0.4, 3.4,
                               ("velocity_error", "pressure_error", "decay_error"), "velocity_error",
@@ -253,12 +253,12 @@ EXACT_FLOWS = {
 
 @dataclass(frozen=True)
 class OrderOfError(Check):
-    """The observed order of an error; `error` reads it from one run, the coarsest comes first. `bar` is that of the error
-    on the finer sets, if it has one.
+    """The observed order of an error; `error` reads it from one run, the coarsest comes first. `bar` is the target of
+    the error on the finer sets, if it has one.
 
     A method that just meets `bar` at the order asked for is off by 2^LEAST_ORDER times as much at twice the spacing. One
     that is within `bar` on the coarsest set already is better there by all of that, and has so much less to gain: it meets
-    the order's bar too, as long as its error does not grow from the coarsest set to the finest."""
+    the order's target too, as long as its error does not grow from the coarsest set to the finest."""
 
     error: Callable | None = None
     bar: float | None = None

@@ -1,7 +1,7 @@
 """Runs made by the program under test: several at a time, in order of a list, and none twice.
 
-Every run is an ordinary folder, OUT/runs/NAME, with one file more, made.json: what it was made from and how it ended. A
-run whose made.json tells of the same case, settings and program is not made again.
+Every run is an ordinary folder, OUT/runs/NAME, with one file more, made.json: its case, settings and program, and its
+end. A run whose made.json has the same case, settings and program is not made again.
 """
 
 import hashlib
@@ -21,19 +21,19 @@ from tailwater.errors import DataError
 from tailwater.run import Run as RunFolder
 
 INTERRUPTED = 130
-# A run that takes this many times what it was estimated at, and so much longer at least, is stopped.
+# A run that takes this many times its estimate, and so much longer at least, is stopped.
 PATIENCE = 10
 LEAST_PATIENCE = 600  # s
 
 
 def digest(path):
-    """Of a file's content; "" if there is none."""
+    """Hash of a file's content; "" if there is none."""
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
 
 
 @dataclass(frozen=True)
 class Run:
-    """A case with settings (key=value); `seconds` is about what it costs on one core. The name is that of its folder
+    """A case with settings (key=value); `seconds` is about its cost on one core. The name is that of its folder
     and belongs to one case and one set of settings."""
 
     name: str
@@ -42,7 +42,7 @@ class Run:
     seconds: float = 10.0
 
     def recipe(self, program):
-        """What the results depend on."""
+        """Inputs on which the results depend."""
         return {"case": digest(self.case), "settings": list(self.settings), "program": program.identity,
                 "ranks": program.ranks}
 
@@ -56,7 +56,7 @@ class Run:
 
 @dataclass(frozen=True)
 class TestRun:
-    """The GoogleTest program of a room of the build, for the numbers that the tests matching `tests` record."""
+    """The GoogleTest program of a module of the build, for the numbers that the tests matching `tests` record."""
 
     name: str
     room: str
@@ -113,7 +113,7 @@ def outcome(folder):
 
 
 def finished(run, out):
-    """What a run that reached its end left: a RunFolder, or the numbers of tests. Throws DataError with the program's
+    """Result of a run that reached its end: a RunFolder, or the numbers of tests. Throws DataError with the program's
     own message for any other."""
     folder = out / "runs" / run.name
     made = outcome(folder)
@@ -130,7 +130,7 @@ def settings_of(run):
 
 
 def require_accepted(run, program, out):
-    """Throws DataError, with what the program says, if it does not accept the case with these settings."""
+    """Throws DataError, with the program's message, if it does not accept the case with these settings."""
     command = [program.path, "check", run.case, "--no-preview", *settings_of(run)]
     result = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
     if result.returncode != 0:
@@ -138,7 +138,7 @@ def require_accepted(run, program, out):
 
 
 def message_of(folder, errors):
-    """Why a run failed, in one line: its summary, or what the program said."""
+    """Why a run failed, in one line: from its summary, or the program's message."""
     try:
         told = json.loads((folder / "summary.json").read_text(encoding="utf-8")).get("message", "")
     except (OSError, ValueError):
@@ -191,9 +191,9 @@ def make_one(run, program, out, under_way, stopping):
 
 
 def make(runs, program, out, jobs):
-    """Makes the runs that are not there yet, `jobs` at a time, and tells on standard error what has ended and when the
-    rest should. A run that fails is left as it is. On KeyboardInterrupt the runs under way are stopped, to be made again
-    next time, and it is raised again."""
+    """Makes the runs that are not there yet, `jobs` at a time, and reports on standard error which have ended and when
+    the rest should. A run that fails is left as it is. On KeyboardInterrupt the runs under way are stopped, to be made
+    again next time, and it is raised again."""
     waiting = [run for run in runs if outcome(out / "runs" / run.name).get("recipe") != run.recipe(program)]
     if len(waiting) < len(runs):
         print(f"{len(runs) - len(waiting)} of {len(runs)} runs are there already", file=sys.stderr)

@@ -1,8 +1,7 @@
-"""What a run that you have made of one of the cases comes to: its numbers, by name, as JSON. The functions that find them
-say what they are.
+"""Numbers of a run that you have made of one of the cases, by name, as JSON. The functions that find them explain them.
 
 Usage: python -m tailwater_validation.score CASE RUN_DIR
-Exit codes: 0 done, 2 there is no such case, 4 the run cannot be read or lacks what is needed.
+Exit codes: 0 done, 2 there is no such case, 4 the run cannot be read or lacks data.
 """
 
 import argparse

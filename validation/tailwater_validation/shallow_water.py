@@ -70,7 +70,7 @@ class RoughBed:
         return KARMAN * np.abs(speed) / (logarithm - share * (1 - self.y0 / layer * logarithm))
 
     def slow(self, depth, speed, layer, dt):
-        """(speed, layer) after dt. A layer grows by kappa u_tau, by which its missing momentum is what the bed takes."""
+        """(speed, layer) after dt. A layer grows by kappa u_tau; then its missing momentum is that lost to the bed."""
         u_tau = self.friction_velocity(depth, speed, layer)
         rate = u_tau**2 / np.maximum(np.abs(speed) * depth, DRY)
         return speed / (1 + dt * rate), np.minimum(layer + dt * KARMAN * u_tau, np.maximum(depth, self.roughness))
@@ -93,7 +93,7 @@ def fluxes(depth, speed):
 
 
 def hll(left, right):
-    """Flux between the states (depth, speed) on both sides of each face; a dry side is what a rarefaction reaches."""
+    """Flux between the states (depth, speed) on both sides of each face; a rarefaction reaches into a dry side."""
     (hl, ul), (hr, ur) = left, right
     cl, cr = np.sqrt(hl), np.sqrt(hr)
     middle, c = 0.5 * (ul + ur) + cl - cr, np.maximum(0.5 * (cl + cr) + 0.25 * (ul - ur), 0.0)
@@ -174,7 +174,7 @@ def slope(times, values):
 
 def water_passed(run):
     """(T, water over h0^2 that has passed x = 0 since the start) of a run's frames. Particles are counted: depths of a profile
-    hold the air under a bore's roller, and miss what it throws."""
+    hold the air under a bore's roller, and miss the water that it throws."""
     depth, dx, scale = run.parameters["h0"], run.spacing, time_unit(run)
     frames = [read_frame(*entry) for entry in list_frames(run.path)]
     # Each is a cell that is dx wide.
@@ -201,8 +201,8 @@ def last_place(x, depth, level):
 
 
 def place_of_bore(x, depth, still, start):
-    """Of a bore onto water of the depth `still`, behind which the depth is even from x = `start` on: twice as far from
-    there as the middle of the water that it has brought. The splashes of its roller hardly move that."""
+    """Place of a bore onto water of the depth `still`, behind which the depth is even from x = `start` on: twice as far
+    from there as the middle of the water that it has brought. The splashes of its roller hardly move that."""
     above = np.where(x > start, depth - still, 0.0)
     return start + 2 * float((x - start) @ above) / float(above.sum())
 
@@ -252,8 +252,9 @@ def stoker_dam_break(run):
 
 
 def uneven_momentum(run, start, end):
-    """Of the water from x = start T to end T, in h0, from LATE on: its flux of momentum over g h0^2 beyond that of even flow
-    of the same depth and discharge, the mean over the frames and over pieces of the water half as long as h0."""
+    """Excess of momentum of the water from x = start T to end T, in h0, from LATE on: its flux of momentum over g h0^2
+    beyond that of even flow of the same depth and discharge, the mean over the frames and over pieces of the water half
+    as long as h0."""
     depth, scale = run.parameters["h0"], time_unit(run)
     excess = []
     for frame in (read_frame(*entry) for entry in list_frames(run.path)):
@@ -270,9 +271,9 @@ def uneven_momentum(run, start, end):
 
 
 def bore_speed_error(run):
-    """Of Stoker's bore: its speed over that of mass and momentum for the velocities that are behind it, less 1. The water
-    between that of the reservoir and the bore has been through the roller, which leaves it uneven; the half that the bore
-    has left behind longest is read."""
+    """Error of Stoker's bore: its speed over that of mass and momentum for the velocities that are behind it, less 1.
+    The water between that of the reservoir and the bore has been through the roller, which leaves it uneven; the half
+    that the bore has left behind longest is read."""
     still = run.parameters["h1"] / run.parameters["h0"]
     _, speed, bore = stoker_state(still)
     _, _, with_profile = stoker_state(still, uneven_momentum(run, speed, 0.5 * (speed + bore)))
@@ -314,8 +315,9 @@ def front_history(run):
 
 
 def rough_dry_bed(run):
-    """Of the tip that friction holds back. front_error: of its place at the last profile, relative. speed_error: of its mean
-    speed over the last third, relative. profile_error: rms over h0 of the water ahead of the gate at the last profile."""
+    """Errors of the tip that friction holds back. front_error: of its place at the last profile, relative. speed_error:
+    of its mean speed over the last third, relative. profile_error: rms over h0 of the water ahead of the gate at the
+    last profile."""
     history = front_history(run)
     T, found, exact = history[-1]
     late = [entry for entry in history if entry[0] > 2 / 3 * T]
@@ -342,7 +344,7 @@ def held_back(rough, free):
 
 
 def held_back_error(rough, free):
-    """Of the water that the bed's friction has held back by the last frame, relative."""
+    """Error of the water that the bed's friction has held back by the last frame, relative."""
     _, found, exact = held_back(rough, free)[-1]
     return found / exact - 1
 

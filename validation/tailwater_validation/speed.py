@@ -1,10 +1,10 @@
-"""`tailwater bench speed`: what cases, steps and rooms cost in CPU time and memory, and how that grows.
+"""`tailwater bench speed`: cost of cases, steps and modules in CPU time and memory, and its growth.
 
 Runs one thing at a time, prints a table, and writes OUT/speed.json, speed.csv and speed.md. Times are CPU times, except
 where ranks are compared; memory is the peak of the process.
 
 Usage: python -m tailwater_validation.speed --program FILE [--level tiny|quick|full] [--part NAME]... [--out DIR]
-Exit codes: 0 all was measured, whatever the verdicts are; 2 bad input, 3 a run failed (the rest is written), 4 a file
+Exit codes: 0 all was measured, whatever the results are; 2 bad input, 3 a run failed (the rest is written), 4 a file
 cannot be read or written, 130 interrupted.
 """
 
@@ -47,7 +47,7 @@ class Level:
     deep: tuple  # rows of depth
     steps: int  # counted
     repeats: int
-    min_time: float  # s, of a benchmark of the rooms
+    min_time: float  # s, of a benchmark of the modules
 
 
 LEVELS = {
@@ -70,7 +70,7 @@ class Bench:
 
     @contextlib.contextmanager
     def measuring(self, name, what):
-        """Tells what is measured; a failure is a number without a value, and what was to follow in the block is left out."""
+        """Reports the measurement; a failure is a number without a value, and the rest of the block is left out."""
         self.say(what)
         try:
             yield
@@ -161,7 +161,7 @@ class Bench:
                 self.add(f"{name}.memory", f"{what}: peak memory over that of one rank", "ratio", two.memory / one.memory)
 
     def profile(self):
-        """Of the first steps, start of the run included."""
+        """Profile of the first steps, start of the run included."""
         for dimension, sizes in self.level.rooms.items():
             name, what = f"profile.{dimension}D", f"{dimension}D, {sizes[0]:g} particles, where the time goes"
             with self.measuring(name, what):
@@ -194,7 +194,8 @@ def choose_parts(options):
 
 
 def provenance(runner):
-    """Of the program, by a run of no length; so settings that it does not accept are refused before all else."""
+    """Version, compiler and machine of the program, by a run of no length; it refuses wrong settings before all
+    else."""
     summary = runner.run(ZHOU, ("particles.spacing=0.06", "time.end=1e-6"))
     return {key: summary[key] for key in ("version", "commit", "compiler", "options", "libraries", "machine")}
 

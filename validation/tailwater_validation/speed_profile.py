@@ -9,7 +9,7 @@ from tailwater.errors import DataError
 
 from .metric import Metric
 
-LEAST_SHARE = 1.0  # %; of what is shown
+LEAST_SHARE = 1.0  # %; smaller ones are not shown
 SAMPLES_PER_SECOND = 499  # prime, so that no loop keeps step with it
 
 
@@ -19,7 +19,7 @@ def require_perf():
 
 
 def name_of(library, symbol):
-    """What a sample is counted under: the function without templates and parameters; a library; the kernel."""
+    """Name under which a sample is counted: the function without templates and parameters; a library; the kernel."""
     if symbol.startswith("[k]"):
         return "kernel"
     if library.strip() != "tailwater":
@@ -47,7 +47,7 @@ def perf(arguments):
 
 
 def measure(runner, dimension, command):
-    """Shares of the command's CPU time."""
+    """Fractions of the command's CPU time."""
     samples = str(Path(runner.folder) / "perf.data")
     perf(["record", "-q", "-F", str(SAMPLES_PER_SECOND), "-o", samples, "--", *command])
     report = perf(["report", "-i", samples, "--stdio", "--no-children", "-g", "none", "-t", "|", "-F",

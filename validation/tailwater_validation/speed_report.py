@@ -1,4 +1,4 @@
-"""What the speed bench found, as speed.json, speed.csv and speed.md, and beside what it found before."""
+"""Results of the speed benchmark, as speed.json, speed.csv and speed.md, and beside earlier results."""
 
 import csv
 import io
@@ -67,7 +67,7 @@ def read(path):
 
 
 def comparison(old, new):
-    """A table of all numbers that both have, with the ratio of the new to the old one, and what else differs."""
+    """A table of all numbers that both have, with the ratio of the new to the old one, and all other differences."""
     before = {number["name"]: number["value"] for number in old["numbers"]}
     lines = []
     for number in new["numbers"]:

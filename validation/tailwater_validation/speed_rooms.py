@@ -1,4 +1,4 @@
-"""The benchmarks of the rooms: runs the program bench_rooms (benchmarks/) and reads what Google Benchmark writes."""
+"""The benchmarks of the modules: runs the program bench_rooms (benchmarks/) and reads what Google Benchmark writes."""
 
 import json
 import subprocess
@@ -8,7 +8,7 @@ from tailwater.errors import DataError
 from .metric import Metric
 from .speed_runs import WATERS, exponent
 
-# The yardstick of the pressure solve, and what is measured by it.
+# The yardstick of the pressure solve, and the benchmarks that are measured by it.
 PRODUCT = "pressure/product"
 SOLVES = {"pressure/set_up": "set-up and first iteration", "pressure/cold": "cold solve to 1e-6, set-up included",
           "pressure/step": "both solves of a step"}
@@ -88,14 +88,14 @@ def growth(dimension, results):
 
 
 def machine(result):
-    """What one core can do at best."""
+    """Memory bandwidth and operations per second of one core."""
     return [Metric(name, f"{name}, one core", unit, "", value=1e-9 * entry[counter] / seconds)
             for name, (seconds, entry) in times(result).items()
             for counter, unit in (("bytes", "GB/s"), ("operations", "GFlop/s")) if counter in entry]
 
 
 def measure(program, level, commit, settings, say):
-    """Yields the numbers of the rooms, flow by flow. Throws DataError if the program fails."""
+    """Yields the numbers of the modules, flow by flow. Throws DataError if the program fails."""
     say("the machine")
     yield machine(run(program, ["machine"], level.min_time, level.repeats))
     for dimension, sizes in level.rooms.items():

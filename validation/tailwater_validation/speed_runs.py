@@ -1,4 +1,4 @@
-"""Runs of the speed bench: what a case costs, and what a step of it costs, read from the summaries of runs."""
+"""Runs of the speed benchmark: cost of a case, and of one of its steps, read from the summaries of runs."""
 
 import json
 import math
@@ -63,7 +63,7 @@ WATERS = {2: Water(ZHOU, "particles.spacing", 1.2 * 0.6, 0.6, 2, ("wall.tank.sli
 
 
 class Runner:
-    """Runs cases one after the other, each into the same scratch folder, and tells of each on standard error."""
+    """Runs cases one after the other, each into the same scratch folder, and reports each on standard error."""
 
     def __init__(self, program, folder, settings, say):
         self.program, self.folder, self.settings, self.say = program, folder, settings, say
@@ -88,7 +88,7 @@ class Runner:
 
 @dataclass(frozen=True)
 class StepCost:
-    """Of one step."""
+    """Cost of one step."""
 
     fluid: int
     cpu: float  # s
@@ -102,7 +102,7 @@ class StepCost:
 
 
 def difference(short, long):
-    """What a step costs, from two runs that differ in their ends: start and end of the runs cancel."""
+    """Cost of a step, from two runs that differ in their ends: start and end of the runs cancel."""
     steps = long["steps"]["count"] - short["steps"]["count"]
     if steps <= 0:
         raise DataError(f"the longer run has {long['steps']['count']} steps, the shorter {short['steps']['count']}")

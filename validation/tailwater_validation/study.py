@@ -1,4 +1,4 @@
-"""A study: which runs it needs, what is read from them, what it is held against, and what is drawn."""
+"""A study: its runs, the numbers that are read from them, their references, and its drawings."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -29,9 +29,10 @@ class Plot:
 
 @dataclass(frozen=True)
 class Study:
-    """`about` says what is compared with what, `uncertainty` how well that is known. The water of `shown` is in the report,
-    which points to it at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories` the energies mean
-    nothing, such as those of a flow that a body force drives around. `names` {run's name: label} tell runs apart in plots."""
+    """`about` names the compared values, `uncertainty` how well the reference is known. The water of `shown` is in the
+    report, which points to it at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories`
+    the energies mean nothing, such as those of a flow that a body force drives around. `names` {run's name: label} are
+    labels of plots."""
 
     name: str
     title: str
@@ -63,7 +64,7 @@ class Plan:
     scheme: str = ""
 
     def at(self, quick, paper, fine):
-        """What belongs to the level."""
+        """The one of three values that belongs to the tier."""
         return {"quick": quick, "paper": paper, "fine": fine}[self.level]
 
     @property
@@ -72,7 +73,7 @@ class Plan:
 
     @property
     def integrators(self):
-        """The plain one, then the one that the bars are for; "" where the scheme has no choice."""
+        """The plain one, then the one that the targets are for; "" where the scheme has no choice."""
         return ("explicit", "implicit") if self.scheme in ("", "farzin2014") else ("", "")
 
     def run(self, name, case, settings=(), seconds=10.0, integrator=""):
@@ -106,8 +107,8 @@ class OrderCheck(Check):
 
 @dataclass(frozen=True)
 class AllChecks:
-    """All numbers that `metrics` finds in one run, [Metric], and whose names `keep` accepts; `paper` has what the paper
-    reports for its own code, by name. Of a run that did not reach its end: that it did not."""
+    """All numbers that `metrics` finds in one run, [Metric], and whose names `keep` accepts; `paper` has the values
+    that the paper reports for its own code, by name. Of a run that did not reach its end: that it did not."""
 
     name: str
     metrics: Callable

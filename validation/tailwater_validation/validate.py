@@ -4,7 +4,7 @@ OUT/runs/NAME are ordinary runs; OUT/validation.json holds every number with its
 same with plots, which `tailwater view OUT` shows; OUT/report.html is that page as one file.
 
 Usage: python -m tailwater_validation.validate --program FILE [CASE...] [--level quick|paper|fine] [--out DIR]
-Exit codes: 0 all was run and scored, whatever the verdicts are; 2 bad input, 4 a file cannot be written, 130
+Exit codes: 0 all was run and scored, whatever the results are; 2 bad input, 4 a file cannot be written, 130
 interrupted.
 """
 
@@ -42,7 +42,7 @@ def metric_record(check, metric):
 
 
 def run_record(run, out):
-    """What a run was and cost; only why it failed, if it did; of tests, that they passed."""
+    """Settings, size and cost of a run; only why it failed, if it did; of tests, that they passed."""
     try:
         left = finished(run, out)
     except DataError as error:
@@ -70,7 +70,7 @@ def study_record(study, out):
 
 
 def collect(chosen, program, options):
-    """What validation.json holds."""
+    """Content of validation.json."""
     records = [study_record(study, options.out) for study in chosen]
     verdicts = [metric["verdict"] for record in records for metric in record["metrics"]]
     cost = {run["name"]: run.get("cpu_s", 0.0) for record in records for run in record["runs"]}
@@ -93,7 +93,7 @@ def processor():
 
 
 def finished_of(runs, out):
-    """What those of the runs left that are cases and reached their end."""
+    """Folders of those runs that are cases and reached their end."""
     found = []
     for run in runs:
         try:
@@ -113,7 +113,7 @@ def figure(caption, runs, out, draw):
 
 
 def figures(study, out):
-    """Of a study: its plots, histories."""
+    """Figures of a study: its plots and histories."""
     found = [figure(plot.caption, plot.runs, out, plot.draw) for plot in study.plots]
     cases = [run for run in study.runs if not isinstance(run, TestRun)]
     if cases and study.has_histories:
@@ -123,13 +123,13 @@ def figures(study, out):
 
 
 def moments(study):
-    """Of the shown run, with words for buttons."""
+    """Moments of the shown run, with words for buttons."""
     return [{"time": time, "label": f"t = {time:.3g} s" + (f", T = {time / study.time_scale:.3g}" if study.time_scale else "")}
             for time in study.moments]
 
 
 def report(result, chosen, out):
-    """What report.json holds: the result with, of each study, what there is to look at."""
+    """Content of report.json: the result with the pictures and plots of each study."""
     return result | {"studies": [
         record | {"shown": study.shown.name if study.shown and finished_of((study.shown,), out) else None,
                   "moments": moments(study), "figures": figures(study, out)}

@@ -6,15 +6,16 @@ from tailwater.errors import DataError
 from tailwater.waves import BAND, Gauges, separate as separate_spectrum, single_waves, wave_numbers
 
 PERIODS = 5  # at the end of the run, in which waves are read
-# Waves of finite height are longer than linear theory has them. The wave number is looked for within these shares of it.
+# Waves of finite height are longer than linear theory has them. The wave number is looked for within these fractions of
+# it.
 LENGTHS = np.linspace(0.8, 1.15, 141)
-FAR = 10  # wavelengths over which the height that is left is told
+FAR = 10  # wavelengths over which the remaining height is reported
 PEAK_ENHANCEMENT = 3.3  # of the JONSWAP spectrum; the default of the maker
 MAKER = (0.5, 3.0)  # frequencies that the maker makes, over that of the peak
 COMPONENTS = 200  # sines of a maker
 # Frequencies over that of the peak between which the energy of irregular waves is compared: below, at and above the peak.
 PARTS = (BAND[0], 0.9, 1.1, BAND[1])
-DRAWS = 2000  # of a sea, for the scatter of what is read from it
+DRAWS = 2000  # of a sea, for the scatter of its readings
 
 
 def first_harmonic(time, value, period):
@@ -59,8 +60,9 @@ class Group:
 
 
 def wave_flume(run):
-    """height_error: between crest and trough near the maker, over what was asked for, less 1. height_left: share of the
-    first harmonic that ten wavelengths leave, by its decay between both groups of gauges. reflection: of the absorber."""
+    """height_error: between crest and trough near the maker, over the height in the case, less 1. height_left: fraction
+    of the first harmonic that ten wavelengths leave, by its decay between both groups of gauges. reflection: of the
+    absorber."""
     near, far = Group(run, "a"), Group(run, "b")
     wavelengths = (far.place[0] - near.place[0]) / run.parameters["L"]
     return {"height_error": near.height / run.parameters["H"] - 1, "height_left": float((far.there / near.there) ** (FAR / wavelengths)),

@@ -93,7 +93,7 @@ ACCELERATED_GATE = ('gate=[{name="gate", from=["lock", 0], to=["lock", "h0+6*dx"
 
 
 def wet_bed(plan):
-    """The pair on the paper's case for it, and what the gate does."""
+    """The pair on the paper's case for it, and the influence of the gate."""
     plan = replace(plan, scheme="")
     count = plan.at(7, 13, 21)
     run = partial(case_run, plan, "janosi2004", "d", count, 50)

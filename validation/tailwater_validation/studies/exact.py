@@ -11,7 +11,7 @@ from ..study import EXACT, OrderCheck, Plot, Study
 
 
 def error_checks(name, flow, runs, quantities):
-    """Of each quantity (key, words, unit, bar) the error on the last run, and its observed order."""
+    """Error of each quantity (key, words, unit, target) on the last run, and its observed order."""
     return tuple(OrderCheck(Metric(f"{name}.{key}", words, unit, "exact solution", high=high), runs, partial(exact, flow, key),
                             interval_of=partial(signed, flow, key))
                  for key, words, unit, high in quantities)

@@ -17,7 +17,7 @@ def draw_gauge(probe, *runs):
 
 def flume_study(plan, name, title, about, uncertainty, gauge, rows, seconds, quantities, kind=EXACT):
     """A study of cases/flume at several numbers of `rows`: particles over the case's own length, (key, its rows at
-    quick and at paper); `seconds` of CPU time at the first. `quantities`: (key, words, unit, against, bar)."""
+    quick and at paper); `seconds` of CPU time at the first. `quantities`: (key, words, unit, against, target)."""
     length, quick, paper = rows
     chosen = plan.at(quick, paper, paper)
     runs = tuple(plan.run(f"{name}_{length}{n}", f"flume/{name.replace('-', '_')}.toml",

@@ -1,4 +1,4 @@
-"""Bore on a wet bed behind a rising gate: cases/janosi2004 (its README says what was measured).
+"""Bore on a wet bed behind a rising gate: cases/janosi2004 (its README lists the measurements).
 
 Surfaces at eight instants after the gate opens: x from the closed end of the lock, heights above the bed, m.
 """
@@ -23,7 +23,7 @@ INSTANTS = (0.156, 0.219, 0.281, 0.343, 0.406, 0.468, 0.531, 0.593)  # s
 SHIFTS = (-0.03, -0.025, -0.02, -0.015, -0.01, -0.005, 0.0, 0.005, 0.01, 0.015, 0.02, 0.025, 0.03)
 
 DISTANCE_TARGET = 4.0  # mm
-TARGET_FROM = 0.28  # s: before that the bar does not hold
+TARGET_FROM = 0.28  # s: the target does not hold before
 
 
 def laboratory(run, instant):

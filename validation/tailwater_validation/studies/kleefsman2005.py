@@ -1,4 +1,4 @@
-"""Dam break against a box in 3D, SPHERIC 2: cases/kleefsman2005 (its README says what was measured).
+"""Dam break against a box in 3D, SPHERIC 2: cases/kleefsman2005 (its README lists the measurements).
 
 Times in s, heights over the water's depth at the start, pressures in Pa.
 """
@@ -62,7 +62,7 @@ def arrival(curve):
 
 
 def impulses(curve):
-    """Of a measured pressure, Pa s since its first sample; that of a run is a column of its own."""
+    """Impulse of a measured pressure, Pa s since its first sample; that of a run is a column of its own."""
     steps = 0.5 * (curve.value[1:] + curve.value[:-1]) * np.diff(curve.time)
     return Curve(curve.time, np.concatenate([[0.0], np.cumsum(steps)]))
 
@@ -75,7 +75,8 @@ def gains(impulse, start, end):
 
 
 def largest(impulse):
-    """Of all means over MEAN_OVER, Pa. The largest begins or ends at a sample, since impulses are linear between them."""
+    """Largest of all means over MEAN_OVER, Pa. It begins or ends at a sample, since impulses are linear between
+    them."""
     starts = np.clip(np.concatenate([impulse.time, impulse.time - MEAN_OVER]), IMPACT[0], IMPACT[1] - MEAN_OVER)
     return float(gains(impulse, starts, starts + MEAN_OVER).max()) / MEAN_OVER
 
@@ -86,7 +87,7 @@ def of_impact(impulse):
 
 
 def excess(read, run, sensor):
-    """By how much what is read of the computed impulse is more than of the measured one, percent."""
+    """By how much the reading of the computed impulse exceeds that of the measured one, percent."""
     return 100 * (read(run.curve(sensor, "impulse_Pa_s")) / read(impulses(laboratory(run, sensor))) - 1)
 
 
@@ -97,7 +98,7 @@ def end_of(run):
 
 
 def of_heights(run):
-    """A run that ends before END has no bar."""
+    """A run that ends before END has no target."""
     end = end_of(run)
     is_whole = end == END
     columns = (("", "joined with the bed", "connected_m"), (" highest", "highest water", "highest_m"))

@@ -1,4 +1,4 @@
-"""What the studies of laboratories share."""
+"""Functions that the studies of laboratories share."""
 
 from functools import partial
 from pathlib import Path
@@ -15,8 +15,8 @@ ALWAYS = ("The laboratory's gate, friction of side walls and surface tension are
 
 
 def measured_tables(run, probe):
-    """{name of the file: {quantity: values}}, in SI units, of what the case's `[[measurement]]`s compare a probe with. Throws
-    DataError if there is nothing."""
+    """{name of the file: {quantity: values}}, in SI units, of the case's `[[measurement]]`s of a probe. Throws
+    DataError if there are none."""
     paths = [Path(table["file"]) for table in run.case.get("measurement", []) if table["probe"] == probe]
     if not paths:
         raise DataError(f"{run.path}: its case has no [[measurement]] of {probe}")
@@ -30,7 +30,7 @@ def measured_curves(run, probe, column="value"):
 
 
 def case_run(plan, name, length, count, seconds, integrator=None, variant="", settings=()):
-    """A run with `count` particles over the case's own length; `seconds` is what it costs with ten of them."""
+    """A run with `count` particles over the case's own length; `seconds` is its cost with ten of them."""
     return plan.run("_".join(filter(None, (f"{name}_{length}-{count}", variant))), f"{name}/case.toml",
                     (f"particles.spacing={length}/{count}", *settings), seconds * (count / 10) ** 3.1,
                     plan.integrators[-1] if integrator is None else integrator)

@@ -1,4 +1,4 @@
-"""Dam break through a block of crushed rock: cases/liu1999 (its README says what was measured).
+"""Dam break through a block of crushed rock: cases/liu1999 (its README lists the measurements).
 
 Surfaces at six instants after the start of the gate: x from the wall of the reservoir, heights above the bed, m.
 """

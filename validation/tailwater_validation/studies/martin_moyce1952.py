@@ -1,4 +1,4 @@
-"""Collapse of a column on a dry bed: cases/martin_moyce1952 (its README says what was measured).
+"""Collapse of a column on a dry bed: cases/martin_moyce1952 (its README lists the measurements).
 
 Front x/a over T = t sqrt(n2 g/a), height of the column over n2 a, over tau = t sqrt(g/a); a is the width of the column
 and n2 its height over a. The run's parameters say which column it is.
@@ -24,7 +24,7 @@ SPEED_BETWEEN = (2.0, 4.0)  # x/a
 
 
 def n2_of(run):
-    """Height over width of the run's column. Throws DataError if what it is compared with was measured on another."""
+    """Height over width of the run's column. Throws DataError if the measurements are of another column."""
     n2 = run.parameters["n2"]
     for name in measured_curves(run, "front"):
         if f"_n2_{n2:g}_" not in name:
@@ -93,8 +93,8 @@ def beside(name, what, unit, label, measured, computed, high=None):
 
 
 def of_laboratory(run):
-    """The run's numbers beside the laboratory's, as [Metric]. The bar is for the table of the column that is computed; the
-    other series say how well it is known."""
+    """The run's numbers beside the laboratory's, as [Metric]. The target is for the table of the column that is
+    computed; the other series say how well it is known."""
     return [
         *(beside(f"rms front {label}", "RMS of the front, T {:.2g}..{:.2g}", "a", label, curve, partial(front, run),
                  FRONT_TARGET if label == "table" else None) for label, curve in fronts(run).items()),

@@ -1,4 +1,4 @@
-"""Dam break over a hump with an open end: cases/ozmen_cagatay2014 (its README says what was measured).
+"""Dam break over a hump with an open end: cases/ozmen_cagatay2014 (its README lists the measurements).
 
 T = t sqrt(g/h0); X = x/h0 from the gate, downstream; heights over h0. A height is the level above the channel's floor, over the
 hump too (the README argues for it); the mean errors are also given for the other reading, depth above the hump.
@@ -29,10 +29,10 @@ TOE, CREST, HUMP_END, HUMP_HEIGHT = 6.0, 8.0, 10.0, 0.3  # X, X, X, over h0
 # Largest mean error in %, over the profile and the gauge points, by scheme; and the largest of one point.
 MEAN_TARGETS = {"farzin2014": {"profile": 6.0, "gauge": 8.0}, "farmani2020": {"profile": 9.24, "gauge": 12.47}}
 LARGEST_TARGET = 15.3
-# What the paper of the scheme reports of its own, in %.
+# Errors that the paper of the scheme reports for its own model, in %.
 FARMANI = (("mean error profile", 9.24), ("largest error profile", 14.2), ("mean error gauge", 12.47),
            ("largest error gauge", 15.3))
-# The gauges whose point lies on the face of the reflected bore: there the height tells when it comes.
+# The gauges whose point lies on the face of the reflected bore: there the height depends on its arrival.
 ON_THE_BORE = ("P4", "P2", "P1")
 BORE_WITHIN = 6.0  # of T either way
 
@@ -53,7 +53,7 @@ class Point:
 
     @property
     def farmani_error(self):
-        """Of the published model, in % of the measured height."""
+        """Error of the published model, in % of the measured height."""
         return 100 * abs(self.farmani - self.measured) / self.measured
 
 

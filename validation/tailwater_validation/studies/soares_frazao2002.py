@@ -1,6 +1,6 @@
-"""Dam break over a sill into still water: cases/soares_frazao2002 (its README says what was measured).
+"""Dam break over a sill into still water: cases/soares_frazao2002 (its README lists the measurements).
 
-The events and surfaces that the experiment shows. No measured numbers are published: nothing here has a bar.
+The events and surfaces that the experiment shows. No measured numbers are published: nothing here has a target.
 """
 
 from functools import partial
@@ -74,7 +74,7 @@ def draw(run):
 
 
 def draw_surface_distances(*runs):
-    """Of each run but the last from the last, by spacing. Throws DataError if there is only one."""
+    """Distance of each run but the last from the last, by spacing. Throws DataError if there is only one."""
     if len(runs) < 2:
         raise DataError("only one run reached its end")
     return panels.convergence({f"t = {instant:g} s": {run.spacing: surface_distance(instant, run, runs[-1]) for run in runs[:-1]}

@@ -1,4 +1,4 @@
-"""Impact of a dam break on a wall: cases/zhou1999 (its README says what was measured, and by whom).
+"""Impact of a dam break on a wall: cases/zhou1999 (its README lists the measurements and their sources).
 
 T = t sqrt(g/H); depths over H; pressures over rho g H. Two people digitised the same curves; a distance from the
 laboratory is the mean of those from both.
@@ -27,14 +27,14 @@ TIME_SCALE, PRESSURE_SCALE = (H / GRAVITY) ** 0.5, DENSITY * GRAVITY * H
 TIME_UNCERTAINTY = 0.12  # of T: the instant of release is known to 0.03 s
 LABORATORY_QUIET = 1.5  # T before which the gauge shows only the noise of the release
 
-# The bars. Depths: by window of T, largest RMS over H.
+# The targets. Depths: by window of T, largest RMS over H.
 DEPTH_TARGETS = {(0.0, 6.0): 0.05, (0.0, 8.0): 0.10}
 PRESSURE_TARGET = 0.20  # rho g H, RMS at the best shift
 NOISE_TARGET = 6e-3  # rho g H
 ARRIVAL_TARGET = (0.61, 0.64)  # s
 RISE_TARGET = 1e-4  # of the energy at the start
 
-# The same dam break by other programs, at 0.015 m with free walls, as benchmarks/beside.py has measured them.
+# This dam break by other programs, at 0.015 m with free walls, as benchmarks/beside.py has measured them.
 COST_PEERS = peers_of("zhou", "cpu_s_per_simulated_s")
 
 GRID = 0.01  # of T, on which curves are compared
@@ -58,7 +58,8 @@ def laboratory(run, quantity):
 
 
 def depth(run, gauge, column="wet_m"):
-    """Computed depth over H at a gauge, over T; by default what the laboratory's wire reads, the length under water."""
+    """Computed depth over H at a gauge, over T; by default the reading of the laboratory's wire, the length under
+    water."""
     return run.curve(gauge, column).scaled(1 / TIME_SCALE, 1 / H)
 
 
@@ -120,7 +121,7 @@ def energy_at(T, run):
 
 
 def measured(run, read):
-    """"openmps 0.596, fluidity 0.607": what the laboratory's P2 gives, read with the rule for the computed curve."""
+    """"openmps 0.596, fluidity 0.607": values of the laboratory's P2, read with the rule for the computed curve."""
     return ", ".join(f"{name} {read(curve, LABORATORY_QUIET):.3f}" for name, curve in laboratory(run, "P2").items())
 
 
@@ -140,7 +141,8 @@ def impact(run):
 
 
 def distances(run, reading=""):
-    """Of each gauge and window from the laboratory, as [Metric]; by default the mean over all readings of its curves."""
+    """Distance of each gauge and window from the laboratory, as [Metric]; by default the mean over all readings of its
+    curves."""
     windows = [*((gauge, window, "H") for gauge in GAUGES for window in DEPTH_TARGETS),
                *((probe, PRESSURE_WINDOW, "rho g H") for probe in ("P2", *POINT_HEIGHTS))]
     return [measure(Metric(f"rms {probe} T {start:g}..{end:g} {reading}".rstrip(), f"RMS of {probe}, T {start:g}..{end:g}", unit,
