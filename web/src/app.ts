@@ -1,4 +1,4 @@
-// What the parts of the page share: runs, clock, look, and where data come from.
+// State that all parts of the page share: runs, clock, look, and the source of the data.
 import { linesOf, nameAt } from "./case/pointing.ts";
 import type { Drawing, Lines, State } from "./contract.ts";
 import { DecodeWorker } from "./frames/window.ts";

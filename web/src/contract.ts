@@ -1,4 +1,4 @@
-// What the program's server tells, as docs/reference/view.md has it. Lengths in m, times in s.
+// Data that the program's server sends, as described in docs/reference/view.md. Lengths in m, times in s.
 
 export type Point = number[];
 /** First and last line of the case file, from 1; only in the drawing of a case. */

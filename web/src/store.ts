@@ -1,4 +1,4 @@
-// What the page shows and how: one object, changed by change(), and whoever listens is told.
+// Content and look of the page: one object, changed by change(), which notifies all listeners.
 import { useLayoutEffect, useReducer } from "preact/hooks";
 import type { ColourMap } from "./colours.ts";
 

@@ -1,5 +1,6 @@
-// From the planes of a frame's payload to particles. Each coordinate is told as the difference to what the two frames
-// before predict for the same particle; a Decoder remembers these two, so frames come in order from a key frame on.
+// Decodes the planes of a frame's payload into particles. Each coordinate is stored as the difference to the prediction
+// of the two frames before for the same particle; a Decoder remembers these two, so frames come in order from a key
+// frame on.
 import { FrameError, stride, type Frame, type Header } from "./format.ts";
 
 /** Reads LEB128 varints from a plane of ids. */

@@ -1,5 +1,5 @@
-// A window of decoded frames around the time that is shown. Whoever asks for a frame that is not there gets the nearest
-// decoded one at once, never nothing, and is told when the right one has come.
+// A window of decoded frames around the time that is shown. A caller that asks for a missing frame gets the
+// nearest decoded one at once, never nothing, and is notified when the right one has come.
 import type { Source, FrameEntry } from "../source.ts";
 import type { Frame } from "./format.ts";
 import type { Order, Reply } from "./worker.ts";
@@ -157,7 +157,7 @@ export class FrameWindow {
       let farthest = -1;
       for (const place of this.decoded.keys()) {
         const late = place - this.wanted;
-        const distance = late < 0 ? -4 * late : late; // what was shown goes before what comes
+        const distance = late < 0 ? -4 * late : late; // frames before the shown one are dropped first
         if (farthest < 0 || distance > Math.abs(farthest - this.wanted) * (farthest < this.wanted ? 4 : 1)) farthest = place;
       }
       this.decoded.delete(farthest);

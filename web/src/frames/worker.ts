@@ -28,7 +28,7 @@ async function decode(order: Order): Promise<void> {
   postMessage(reply, { transfer: [frame.data.buffer as ArrayBuffer, ...(copy ? [copy.buffer] : [])] });
 }
 
-// One after the other: a frame is told as the difference to the one before.
+// One after the other: a frame is stored as the difference to the one before.
 let queue = Promise.resolve();
 onmessage = (event: MessageEvent<Order>) => {
   queue = queue.then(() =>

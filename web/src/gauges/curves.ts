@@ -1,4 +1,4 @@
-// What a probe's plot shows: curves over time of one column, of every run, and the laboratory's points.
+// Content of a probe's plot: curves over time of one column, of every run, and the laboratory's points.
 import type { Measurement, Probe } from "../contract.ts";
 import type { Subject } from "../run/subject.ts";
 import { printed } from "../units.ts";

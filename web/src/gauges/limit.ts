@@ -1,8 +1,8 @@
-// What a reading comes to at dx = 0, and how well that is known: the way of scripts/extrapolate.py. The limit is that of a
-// straight line over dx; its uncertainty is the larger of twice what the standard errors of the means make of it, and how
-// far the lines through all but one of the runs end from it.
+// Limit of a reading at dx = 0, and its uncertainty, by the method of scripts/extrapolate.py. The limit is that of a
+// straight line over dx. Its uncertainty is the larger of two values: twice its standard error, from those of the
+// means, and the largest distance of the limits of all but one of the runs.
 
-/** Equal parts of the time, whose means tell the standard error. */
+/** Equal parts of the time, whose means give the standard error. */
 const parts = 10;
 
 export interface Mean {

@@ -1,4 +1,4 @@
-// A film of what is seen: the moments of a span of time, drawn one after the other and recorded as WebM.
+// A film of the picture: the moments of a span of time, drawn one after the other and recorded as WebM.
 import type { App } from "../app.ts";
 import { compose } from "./still.ts";
 import { saveText } from "./save.ts";

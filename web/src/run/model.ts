@@ -1,4 +1,4 @@
-// A run as the page knows it: scene, frames, tables, what it tells of itself; kept up to date by the server's events.
+// A run as the page knows it: scene, frames, tables, status and messages; kept up to date by the server's events.
 import type { Info, Scene } from "../contract.ts";
 import { DecodeWorker, FrameWindow } from "../frames/window.ts";
 import type { Source } from "../source.ts";
@@ -137,7 +137,7 @@ export class RunModel implements Subject {
       table.append(text);
       if (table.columns.length > 0) this.tables.set(path, table);
     } catch {
-      // nobody answers; that is told by the run's events
+      // the server does not answer; the run's events report that
     }
     this.reading.delete(path);
     this.changed();

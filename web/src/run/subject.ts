@@ -1,4 +1,4 @@
-// What can be shown: a run, or the drawing of a case.
+// Subject of a picture: a run, or the drawing of a case.
 import type { Drawing, Info, Scene } from "../contract.ts";
 import { stride, type Frame } from "../frames/format.ts";
 import { fromBase64, type FrameEntry } from "../source.ts";

@@ -12,7 +12,7 @@ export class Eye {
   readonly camera: Camera;
   private up: Vector3;
   private across: [Vector3, Vector3];
-  private reach = 1; // size of what there is to see
+  private reach = 1; // size of the scene
 
   constructor(readonly dim: 2 | 3, gravity: number[]) {
     this.camera = dim === 2 ? new OrthographicCamera() : new PerspectiveCamera();

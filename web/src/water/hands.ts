@@ -1,5 +1,5 @@
 // Pointer, wheel and touch on the picture: drag turns (3D) or moves (2D), with shift or the right button always moves,
-// the wheel and two fingers come nearer. A press without a move is a click.
+// the wheel and two fingers zoom. A press without a move is a click.
 import type { WaterView } from "./view.ts";
 
 export interface Hands {

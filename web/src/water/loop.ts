@@ -77,7 +77,7 @@ export class Loop {
     if (rests && pace.rest()) this.dirty = true;
     if (this.dirty) {
       this.dirty = false;
-      // How long a picture takes is told by the next one only if that was asked for meanwhile.
+      // The time to the next picture is the cost of this one only if the next was requested meanwhile.
       if (!rests) pace.moved(this.drawnAt === before ? Math.min(now - before, 1500) : undefined);
       this.drawnAt = now;
       this.view.effort = app.recording ? whole : pace.effort;

@@ -28,7 +28,7 @@ export class ParticleMark {
   private shown: { a: Frame; b: Frame } | null = null;
   private chosen: { frame: Frame; choice: Choice } | null = null;
   private index = new BufferAttribute(new Uint32Array(0), 1);
-  private capacity = -1; // a moment without water needs room, too
+  private capacity = -1; // so that even a moment without water allocates a buffer
   private levelsOf: Frame | null = null;
 
   constructor(dim: 2 | 3, private spacing: number, private up: { axis: number; sign: 1 | -1 }) {
@@ -103,7 +103,7 @@ export class ParticleMark {
     const geometry = this.room(a.count);
     if (this.shown && this.shown.b === a && this.shown.a.ids === a.ids) {
       const first = geometry.getAttribute("a");
-      geometry.setAttribute("a", geometry.getAttribute("b")); // what was next is here already
+      geometry.setAttribute("a", geometry.getAttribute("b")); // "b" has the data of the next frame already
       geometry.setAttribute("b", first);
     } else {
       this.upload("a", a.data);

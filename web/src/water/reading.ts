@@ -1,4 +1,4 @@
-// What is under the pointer: its place, and speed and pressure of the water there.
+// Reading under the pointer: its place, and speed and pressure of the water there.
 import { decimals, number } from "../units.ts";
 import { nearest } from "./pick.ts";
 import type { Staging } from "./staging.ts";

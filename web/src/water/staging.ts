@@ -1,4 +1,4 @@
-// Which runs are on stage, and how they look: keeps the stages of the view in step with what is chosen.
+// Runs on stage and their look: keeps the stages of the view in step with the choice of the user.
 import { Color, Vector2, Vector4 } from "three";
 import { series } from "../colours.ts";
 import type { Subject } from "../run/subject.ts";
@@ -79,7 +79,7 @@ export class Staging {
       return true;
     };
     take(frame);
-    // All frames that are at hand, so that colours mean the same from the first on; some of them at a time.
+    // All frames that are available, so that colours mean the same from the first on; some of them at a time.
     const { list } = run.frames;
     for (let place = 0, room = most; colouring !== "depth" && place < list.length && room > 0; ++place) {
       const other = run.frames.frame(place);

@@ -1,5 +1,5 @@
-// The surface of the water in 3D, made in the picture (van der Laan, Green and Sainz, I3D 2009): the spheres' depth is drawn
-// into a texture, smoothed there but not across edges, and lit by the slopes of what is left.
+// The surface of the water in 3D, made in the picture (van der Laan, Green and Sainz, I3D 2009): the spheres' depth is
+// drawn into a texture, smoothed there but not across edges, and lit by the slopes of the result.
 import {
   BufferAttribute, BufferGeometry, FloatType, GLSL3, Mesh, NearestFilter, PerspectiveCamera, Points, RawShaderMaterial, RGBAFormat, Scene, Vector2, Vector3,
   WebGLRenderTarget, type Camera, type WebGLRenderer,

@@ -1,4 +1,4 @@
-// What the water's colour means: the quantity, its unit, its limits, and the value of one particle.
+// Meaning of the water's colour: the quantity, its unit, its limits, and the value of one particle.
 import type { Colouring } from "../store.ts";
 import type { Subject } from "../run/subject.ts";
 import { stride, type Frame } from "../frames/format.ts";
