@@ -28,8 +28,7 @@ FILE_KEYS = ("file", "motion", "points_file")  # of all tables of a case
 RESULTS = ("steps.csv", "probes/*.csv")  # of a run; those that are compared bit for bit
 UNITS = ("All numbers are in SI units (m, kg, s, N, Pa).",
          "In two dimensions volumes, masses, forces and discharges are per metre of width.",
-         "Coordinates and levels are those of the case: heights count from the origin of its axes, upwards against gravity. "
-         "The case gives no datum and no coordinate system of a survey.")
+         "Coordinates and levels are those of the case: heights count from the origin of its axes, upwards against gravity.")
 
 
 class Report:
@@ -88,10 +87,18 @@ def report(folder, *, answer: str = "", question: str = "", pictures: int = 3) -
         "warnings": report_faults.warnings_of(found.roles), "results": found.rows, "case": case_of(finest),
         "provenance": provenance(found.runs), "inputs": inputs, "runs": [run_record(role, run, row) for role, run in found.roles],
         "features": sorted(features), "validated": validated(features, finest, row),
-        "limits": case_features.limits_of(features), "units": list(UNITS),
+        "limits": case_features.limits_of(features), "units": [*UNITS, *references_of(finest.case)],
         "pictures": pictures_of(finest, found.study, row, pictures)}
     content["first_line"] = first_line(content)
     return Report(content)
+
+
+def references_of(case):
+    """Sentences on the datum and the coordinate reference system of a case."""
+    about = case.get("case", {})
+    datum, crs = about.get("datum", ""), about.get("crs", "")
+    return [f"Vertical datum: {datum}." if datum else "The case names no vertical datum (case.datum).",
+            f"Coordinate reference system: {crs}." if crs else "The case names no coordinate reference system (case.crs)."]
 
 
 class Material:

@@ -84,6 +84,8 @@ struct CaseTable {
   int format = case_format;
   std::string title = "untitled";
   int dimension = 2;
+  std::string datum;
+  std::string crs;
 
   bool operator==(const CaseTable&) const = default;
 
@@ -93,6 +95,11 @@ struct CaseTable {
               "Version of the format that the case is written in; a program refuses one that is newer than its own");
     v.text("title", self.title, "Title of the case in summaries and reports, one line");
     v.integer("dimension", self.dimension, "", Range::between(2, 3), "Number of space dimensions");
+    v.text("datum", self.datum, "Vertical datum of heights and levels, such as \"DHHN2016 - 84.2 m\", for reports");
+    v.text("crs", self.crs,
+           "Coordinate reference system and offset of horizontal coordinates, such as \"EPSG:25832 - (512000, "
+           "5401000)\", for "
+           "reports");
   }
 };
 

@@ -185,6 +185,8 @@ std::vector<std::string> explain_case(const CaseSpec& spec, const RunEstimate& e
   std::vector<std::string> sentences{fmt::format("\"{}\" is a case in {} dimensions.", spec.general.title,
                                                  spec.general.dimension == 2 ? "two" : "three"),
                                      about_water(spec, estimate), about_walls(spec)};
+  if (!spec.general.datum.empty()) sentences.push_back(fmt::format("The datum of heights is {}.", spec.general.datum));
+  if (!spec.general.crs.empty()) sentences.push_back(fmt::format("Coordinates are in {}.", spec.general.crs));
   add_driven_walls(spec, sentences);
   add_open_ends(spec, sentences);
   add_air(spec, sentences);
