@@ -83,7 +83,10 @@ class Migrator {
       if (const std::optional<Entry> entry = find(key)) change(*entry);
     }
     if (!studies_.empty()) add_studies();
-    if (!format) add_format();
+    if (!format) {
+      add_format();
+      look_at_outlets();
+    }
     std::ranges::sort(changes_, {}, &Change::line);
     Migration migration{changes_.empty() ? std::string(text_) : lines_.text(), {}};
     for (const Change& made : changes_) {
@@ -169,6 +172,20 @@ class Migrator {
       lines_.add_after(0, "case." + line);
     }
     changes_.push_back({header.value_or(1), fmt::format("case.format = {} is written down", case_format)});
+  }
+
+  /// Outlets that say nothing of what is beyond them: whether one is a hole is for its owner to see.
+  void look_at_outlets() {
+    const toml::array* outlets = root_["outlet"].as_array();
+    for (std::size_t k = 0; outlets != nullptr && k < outlets->size(); ++k) {
+      const toml::table* outlet = (*outlets)[k].as_table();
+      if (outlet == nullptr || outlet->contains("level") || outlet->contains("file")) continue;
+      changes_.push_back(
+          {outlet->source().begin.line,
+           fmt::format("outlet[{}] is a channel that goes on, as before; if it is a hole in a wall, give beyond = "
+                       "\"air\", or the level beyond, and leave the pit out",
+                       k)});
+    }
   }
 
   const std::string& file_;

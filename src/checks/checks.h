@@ -59,7 +59,8 @@ template <int Dim>
 Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Errors: an inlet or an outlet that lies across a periodic direction, has a rim that is not on the walls, overlaps a
-/// wall, cuts through water, or faces the wrong way.
+/// wall, has walls or water where its duct or its jet is, shares that space with another, cuts through water, is a hole
+/// without anything said of what is beyond, or faces the wrong way.
 template <int Dim>
 Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 

@@ -169,6 +169,26 @@ void check_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const Cha
       {"give beyond = \"air\" for a free jet, or the level of the water beyond"}));
 }
 
+/// Ducts of two openings must not meet.
+template <int Dim>
+void check_ducts_apart(const CaseSpec& spec, const std::vector<ChannelEnd<Dim>>& ends, Findings& findings) {
+  for (const ChannelEnd<Dim>& end : ends) {
+    if (end.air()) continue;
+    for (const Vec<Dim>& x : places_beyond(end.mouth, end.duct, spec.particles.spacing)) {
+      const auto holds = [&](const ChannelEnd<Dim>& other) {
+        return &other != &end && Duct<Dim>{other.mouth, other.duct}.holds(x);
+      };
+      const auto other = std::ranges::find_if(ends, holds);
+      if (other == ends.end()) continue;
+      findings.push_back(Finding::error(
+          {"{} and {} share the space at {}, up to {:.6g} m outside of each, where the program adds a duct for each",
+           end.mouth.label(), other->mouth.label(), place(x), end.duct},
+          {"move them apart"}));
+      return;
+    }
+  }
+}
+
 /// Returns whether it is sound.
 template <int Dim>
 bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const FluidParticles<Dim>& fluid,
@@ -177,11 +197,13 @@ bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const Flu
     Vec<Dim> place;
     int block;
   };
-  std::vector<Particle> first;  // on each rank
+  const double layers = dummy_layers(spec) * spec.particles.spacing;  // of the walls of the duct
+  std::vector<Particle> first;                                        // on each rank
   std::int64_t own = 0;
   for (std::size_t i = 0; i < fluid.position.size(); ++i) {
     const Vec<Dim>& x = fluid.position[i];
-    if (end.beyond(x) <= corner_tolerance * spec.particles.spacing || !end.spans(x)) continue;
+    const bool is_beside_duct = !end.meets_air && end.beyond(x) < duct_length(spec) && end.aside(x) < layers;
+    if (end.beyond(x) <= corner_tolerance * spec.particles.spacing || !(is_beside_duct || end.spans(x))) continue;
     if (own++ == 0) first.push_back({x, fluid.block[i]});
   }
   const std::int64_t beyond = fluid.ranks.sum(own);
@@ -216,13 +238,15 @@ void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Ope
 template <int Dim>
 Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Findings findings;
-  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+  const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
+  for (const ChannelEnd<Dim>& end : ends) {
     check_direction(spec, end.mouth, findings);
     check_rim(spec, boundary, end.mouth, findings);
     check_space_beyond(spec, boundary, end.mouth, findings);
     check_beyond(spec, boundary, end, findings);
     if (check_fluid_beyond(spec, end.mouth, fluid, findings)) check_facing(spec, boundary, end.mouth, findings);
   }
+  if (findings.empty()) check_ducts_apart(spec, ends, findings);
   return findings;
 }
 

@@ -11,8 +11,9 @@ namespace {
 
 /// [dx]; walls of which so much lies beside an edge of the rim close it. Of shorter edges they close half.
 constexpr double least_closed = 2.0;
-constexpr double march = 0.25;  // dx; with which walls that lead on are followed
-constexpr double exact = 1e-9;  // dx; to which their ends are found: much finer than what counts as one corner
+constexpr double march = 0.25;         // dx; with which walls that lead on are followed
+constexpr double looking_away = -0.1;  // cosine between a wall's normal and the way inwards
+constexpr double exact = 1e-9;         // dx; to which their ends are found: much finer than what counts as one corner
 
 /// Where walls are beside the rim of one opening, and how far they lead on along its normal.
 template <int Dim>
@@ -21,21 +22,25 @@ class Rim {
   Rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& mouth)
       : spec_(spec), boundary_(boundary), mouth_(mouth), dx_(spec.particles.spacing), length_(duct_length(spec)) {}
 
-  /// The wall beside a place on the rim; no face if it is open there.
-  NearestWall<Dim> wall_at(const Vec<Dim>& x) const {
+  /// The wall beside a place on the rim, from which the inside lies in the direction `inwards`; no face if the rim is
+  /// open there. A bank that the top of a river's section meets looks the other way.
+  NearestWall<Dim> wall_at(const Vec<Dim>& x, const Vec<Dim>& inwards) const {
     if (is_in_periodic_plane(spec_, x)) return {};
-    return boundary_.nearest(x, rim_tolerance(mouth_) * dx_);
+    const NearestWall<Dim> wall = boundary_.nearest(x, rim_tolerance(mouth_) * dx_);
+    const bool looks_away = wall.face >= 0 && boundary_.faces[wall.face].normal.dot(inwards) < looking_away;
+    return looks_away ? NearestWall<Dim>{} : wall;
   }
 
   /// Whether walls lie beside an edge of the rim (3D). Its ends do not count: what lies there is beside the next edge.
   bool is_closed(const Vec<Dim>& from, const Vec<Dim>& to) const {
     const double length = (to - from).norm();
+    const Vec<Dim> inwards = inwards_of(from, to);
     const double margin = std::min(0.25 * length, dx_);
     const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * (length - 2.0 * margin) / dx_)));
     const double piece = (length - 2.0 * margin) / pieces;
     int closed = 0;
     for (int k = 0; k < pieces; ++k) {
-      closed += wall_at(Vec<Dim>(from + (margin + (k + 0.5) * piece) / length * (to - from))).face >= 0;
+      closed += wall_at(Vec<Dim>(from + (margin + (k + 0.5) * piece) / length * (to - from)), inwards).face >= 0;
     }
     return closed > 0 && closed * piece >= std::min(0.5 * (length - 2.0 * margin), least_closed * dx_);
   }
@@ -54,6 +59,12 @@ class Rim {
       (is_beside_wall(x, middle) ? low : high) = middle;
     }
     return low;
+  }
+
+  /// Unit vector at right angles to an edge of the rim; the rim runs counter-clockwise around the normal (3D).
+  Vec<Dim> inwards_of(const Vec<Dim>& from, const Vec<Dim>& to) const {
+    if constexpr (Dim == 3) return mouth_.normal.cross(to - from).normalized();
+    return (mouth_.corner + 0.5 * mouth_.edges[0] - from).normalized();
   }
 
   double length() const { return length_; }
@@ -78,9 +89,9 @@ std::vector<WallFace<2>> walls_of(const Rim<2>& rim, int wall) {
   const Opening<2>& mouth = rim.mouth();
   std::vector<WallFace<2>> faces;
   for (const Vec<2>& x : mouth.rim()) {
-    const NearestWall<2> beside = rim.wall_at(x);
+    const Vec<2> inwards = rim.inwards_of(x, x);
+    const NearestWall<2> beside = rim.wall_at(x, inwards);
     if (beside.face < 0) continue;
-    const Vec<2> inwards = (mouth.corner + 0.5 * mouth.edges[0] - x).normalized();
     const double begin = rim.led_on(beside.point);
     const double end = rim.length() - mouth.beyond(beside.point);
     if (end - begin <= corner_tolerance * rim.length()) continue;

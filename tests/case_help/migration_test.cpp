@@ -51,6 +51,17 @@ TEST_P(RemovedKeyTest, BecomesWhatIsReadToday) {
 INSTANTIATE_TEST_SUITE_P(Case, RemovedKeyTest, testing::ValuesIn(removed_keys().begin(), removed_keys().end()),
                          [](const auto& key) { return fmt::format("{}_{}", key.param.table, key.param.key); });
 
+/// An outlet that was a hole must say what is beyond it; the file alone does not tell whether it is one.
+TEST(Migration, ReportsOutletsWithoutALevel) {
+  const std::string ends =
+      "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\n[[outlet]]\nfrom = [0, 0]\nto = [0, 1]\nlevel = 1\n";
+  const Migration migration = migrate_case(required_keys + water + ends, "old.toml");
+  ASSERT_EQ(migration.changes.size(), 2u);
+  EXPECT_NE(migration.changes[1].find("outlet[0] is a channel that goes on"), std::string::npos);
+  EXPECT_NE(migration.changes[1].find("beyond = \"air\""), std::string::npos);
+  EXPECT_EQ(migrate_case(migration.text, "new.toml").changes.size(), 0u);
+}
+
 TEST(Migration, LeavesACaseOfThisFormatAsItIs) {
   const std::string text = required_keys + "case.format = 1 # ours\n" + water;
   const Migration migration = migrate_case(text, "case.toml");

@@ -84,6 +84,17 @@ TEST(EndChecks, TheSpaceBeyondIsFree) {
   EXPECT_EQ(errors_of(spec), "");
 }
 
+TEST(EndChecks, DuctsDoNotMeet) {
+  CaseSpec spec = empty_case(0.02);
+  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.3, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
+  spec.outlets = {outlet({1.0, 0.0}, {1.0, 0.5}), outlet({1.3, 0.0}, {1.3, 0.5})};
+  spec.outlets[1].direction = {-1.0, 0.0};
+  spec.fluid = {box_fluid({0.0, 0.0}, {1.0, 0.3})};
+  const std::string refused = errors_of(spec);
+  EXPECT_NE(refused.find("outlet 'outlet1' and outlet 'outlet2' share the space at (1.1, "), std::string::npos)
+      << refused;
+}
+
 /// An inlet that enters upwards is told a time, as any other.
 TEST(EndChecks, AnUprightInletMayStopWithinAWave) {
   CaseSpec spec = tank_over_slot();

@@ -193,6 +193,24 @@ TEST(Ducts, OfADiscAreTubes) {
   }
 }
 
+/// The top of a river's section meets gentle banks, which are beside it for many spacings and do not close it.
+TEST(Ducts, OfARiverAreOpenAbove) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.02, 3);
+  spec.walls = {
+      folder.wall(sheet_mesh(8, [](double, double y) { return 0.1 * std::abs(2.0 * y - 1.0); }), FluidSide::above)};
+  OutletTable end;
+  end.direction = {1.0, 0.0, 0.0};
+  end.through = {1.0, 0.5, 0.09};
+  spec.outlets = {end};
+  double area = 0.0;
+  for (const WallFace<3>& face : duct_faces(with_ducts<3>(spec))) {
+    EXPECT_GT(face.normal[2], 0.9);
+    area += face.measure();
+  }
+  EXPECT_NEAR(area, 0.9 * std::hypot(1.0, 0.2) * length * 0.02, 1e-6);
+}
+
 /// Initial water stands in the duct as before its mouth, column by column, and nowhere else.
 TEST(Ducts, HoldTheWaterThatStandsAtTheirMouth) {
   CaseSpec spec = channel_in_3d();
