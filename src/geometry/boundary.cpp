@@ -155,7 +155,12 @@ template <int Dim>
 NearestWall<Dim> Boundary<Dim>::nearest_to_water(const Vec<Dim>& x, double search_distance) const {
   NearestWall<Dim> wall = nearest(x, search_distance);
   if (wall.face < 0 || wall.signed_distance >= 0.0) return wall;
-  if (is_beside_free_end(faces[wall.face].wall, wall.point)) wall.signed_distance = -wall.signed_distance;
+  const bool is_screened = std::ranges::any_of(screens_near(wall.point, 0.0), [&](int s) {
+    return !screens[s].is_plate && !screens[s].is_beyond && screens[s].front == wall.face;
+  });
+  if (is_screened && is_beside_free_end(faces[wall.face].wall, wall.point)) {
+    wall.signed_distance = -wall.signed_distance;
+  }
   return wall;
 }
 

@@ -1,5 +1,8 @@
 #include "walls/hidden_pairs.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/for_each.h"
 
 namespace tailwater {
@@ -8,10 +11,18 @@ namespace {
 /// How water feels the wall particle of a row that stands at `x`.
 template <int Dim>
 int felt_through(const Walls<Dim>& walls, std::int32_t row, const Vec<Dim>& x) {
+  const Boundary<Dim>& boundary = walls.boundary;
   const int wall = walls.particles.wall[row];
-  if (walls.boundary.plate_of(wall) >= 0) return wall;
-  if (walls.boundary.is_beside_free_end(wall, x)) return wall;
-  return walls.particles.is_beyond_end[row] != 0 ? never_felt : felt_past_plates;
+  if (boundary.plate_of(wall) >= 0) return wall;
+  const bool is_beyond_end = walls.particles.is_beyond_end[row] != 0;
+  if (!boundary.is_beside_free_end(wall, x)) return is_beyond_end ? never_felt : felt_past_plates;
+  // Another part of the wall may be as near to the end, as the top of a wall with thickness whose underside ends there.
+  const NearestWall<Dim> nearest = boundary.nearest(x, std::numeric_limits<double>::infinity());
+  const bool is_screened = std::ranges::any_of(boundary.screens_near(nearest.point, 0.0), [&](int s) {
+    const Screen<Dim>& screen = boundary.screens[s];
+    return screen.wall == wall && !screen.is_beyond && screen.front == nearest.face;
+  });
+  return is_beyond_end || is_screened ? wall : felt_past_plates;
 }
 
 }  // namespace

@@ -1,0 +1,107 @@
+#include "geometry/rim_ends.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/mesh_surface.h"
+
+namespace tailwater {
+namespace {
+
+/// Cosine of the angle between the normal of a wall and the direction in which an edge points at the wall.
+constexpr double faces_edge = -0.5;
+
+}  // namespace
+
+template <int Dim>
+WallBesidePlate closing_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap,
+                             int own) {
+  const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
+  const bool closes = beside.distance <= gap && boundary.faces[beside.face].normal.dot(out) <= corner_tolerance;
+  return closes ? beside : WallBesidePlate{};
+}
+
+template <int Dim>
+bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths) {
+  const auto is_near = [&](const WallFace<Dim>& face, double distance) {
+    return (closest_point(face, x) - x).norm() <= distance;
+  };
+  if (std::ranges::any_of(boundary.continued, [&](const auto& face) { return is_near(face, lengths.gap()); })) {
+    return true;
+  }
+  for (const WallPlate& plate : boundary.plates) {
+    for (int f = plate.first_face; f < plate.first_face + plate.pieces; ++f) {
+      if (plate.wall == own && (piece < 0 || f == piece)) continue;
+      if (is_near(boundary.faces[f], plate.wall == own ? lengths.tolerance() : lengths.gap())) return true;
+    }
+  }
+  return false;
+}
+
+RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
+                 const Lengths& lengths) {
+  const auto is_closed = [&](double share) {
+    return is_closed_by_wall(boundary, Vec<3>(from + share * (to - from)), out, lengths.gap(), own);
+  };
+  // Beside a wall that it does not point at, as at the side wall of a flume, an edge goes on to be free.
+  const auto is_ended = [&](const Vec<3>& x) {
+    const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
+    return (beside.distance <= lengths.gap() && boundary.faces[beside.face].normal.dot(out) < faces_edge) ||
+           is_continued(boundary, x, own, -1, lengths);
+  };
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / lengths.spacing)));
+  int on_wall = 0;
+  for (int k = 0; k <= steps; ++k) on_wall += is_closed(static_cast<double>(k) / steps) ? 1 : 0;
+  if (on_wall == steps + 1) return RimEnd::on_wall;
+  int ended = 0;
+  for (int k = 0; k < steps; ++k) {
+    ended += is_ended(Vec<3>(from + (k + 0.5) / steps * (to - from))) ? 1 : 0;
+  }
+  return 2 * ended >= steps ? RimEnd::continued : RimEnd::free;
+}
+
+std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengths) {
+  std::vector<WallEnd> ends;
+  for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
+    const WallFace<2>& face = boundary.faces[f];
+    if (boundary.walls[face.wall].is_plate) continue;
+    for (const int corner : {0, 1}) {
+      const Vec<2>& x = face.corners[corner];
+      const Vec<2> out = (x - face.corners[1 - corner]).normalized();
+      const auto is_alike = [&](int g) {
+        return boundary.walls[boundary.faces[g].wall].body == boundary.walls[face.wall].body;
+      };
+      const WallBesidePlate beside = closing_wall(boundary, x, out, lengths.gap(), face.wall);
+      bool is_end = !is_continued(boundary, x, face.wall, -1, lengths) && (beside.face < 0 || !is_alike(beside.face));
+      for (int g = 0; g < static_cast<int>(boundary.faces.size()) && is_end; ++g) {
+        const bool touches = (closest_point(boundary.faces[g], x) - x).norm() <= lengths.tolerance();
+        is_end = g == f || !touches || !is_alike(g);
+      }
+      if (is_end) ends.push_back({f, corner, false});
+    }
+  }
+  return ends;
+}
+
+void find_free_edges(const Boundary<3>& boundary, const Lengths& lengths, WallMesh& mesh) {
+  const MeshSurface& surface = *mesh.surface;
+  const TriangleMesh& triangles = surface.mesh();
+  for (int t = 0; t < static_cast<int>(triangles.triangles.size()); ++t) {
+    for (int e = 0; e < 3; ++e) {
+      if (surface.neighbours()[t][e] >= 0) continue;
+      const Vec<3>& from = triangles.corner(t, e);
+      const Vec<3>& to = triangles.corner(t, (e + 1) % 3);
+      const Vec<3> out = (to - from).cross(triangles.area_normal(t)).normalized();
+      if (end_along(boundary, from, to, out, mesh.wall, lengths) != RimEnd::free) continue;
+      mesh.free_edges.resize(triangles.triangles.size(), 0);
+      mesh.free_edges[t] |= static_cast<std::uint8_t>(1U << e);
+    }
+  }
+}
+
+template WallBesidePlate closing_wall(const Boundary<2>&, const Vec<2>&, const Vec<2>&, double, int);
+template WallBesidePlate closing_wall(const Boundary<3>&, const Vec<3>&, const Vec<3>&, double, int);
+template bool is_continued(const Boundary<2>&, const Vec<2>&, int, int, const Lengths&);
+template bool is_continued(const Boundary<3>&, const Vec<3>&, int, int, const Lengths&);
+
+}  // namespace tailwater

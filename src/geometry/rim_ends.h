@@ -1,0 +1,52 @@
+// How walls end: on other walls, continued by something else, or in the water.
+#pragma once
+
+#include <vector>
+
+#include "geometry/boundary.h"
+#include "geometry/plate_shape.h"
+
+namespace tailwater {
+
+/// How a piece of the rim of a wall ends. Screens end at once where the wall is continued by something else.
+enum class RimEnd { on_wall, continued, free };
+
+/// The spacing of the particles and the support of the kernel, m.
+struct Lengths {
+  double spacing;
+  double reach;
+  double gap() const { return 0.5 * spacing; }  ///< an end that is as near to another wall leaves no opening
+  /// What a wall hides fades over this distance on either side of its rim. A pair that appears at once changes the
+  /// energy (p_i + p_j) w_i w_j W_ij without work, and still water beside the rim then never comes to rest.
+  double fade() const { return spacing; }
+  double tolerance() const { return corner_tolerance * spacing; }
+};
+
+/// The wall, no plate, on which wall `own` ends that points `out` at `x`: nearer to it than `gap`, or in front of it.
+/// One that it points away from, as that of a pipe which opens beside a plate, does not close it. Without a face if
+/// there is none.
+template <int Dim>
+WallBesidePlate closing_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap,
+                             int own);
+
+template <int Dim>
+bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap, int own) {
+  return closing_wall(boundary, x, out, gap, own).face >= 0;
+}
+
+/// Whether another plate, an opening or a periodic plane is at an end of wall `own`. Another piece of the wall itself
+/// must touch the end; `piece` is the face that ends there, -1: no piece of the wall counts.
+template <int Dim>
+bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths);
+
+/// How an edge of wall `own` ends, looked at in steps of dx.
+RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
+                 const Lengths& lengths);
+
+/// The ends of walls that are no plates, unless a wall of the same body closes or continues them.
+std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengths);
+
+/// Finds the free edges of the rim of a mesh.
+void find_free_edges(const Boundary<3>& boundary, const Lengths& lengths, WallMesh& mesh);
+
+}  // namespace tailwater
