@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <httplib.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +18,7 @@
 #include "results/run_info.h"
 #include "server/answers.h"
 #include "server/bounded_queue.h"
+#include "server/client_stream.h"
 #include "server/guard.h"
 #include "server/page.h"
 #include "server/run_watch.h"
@@ -46,6 +48,17 @@ class HttpServer : public httplib::Server {
  public:
   /// The library lets five connections wait.
   void let_many_wait() const { ::listen(svr_sock_, backlog); }
+
+ private:
+  /// One request for each connection, with streams of our own, whose clients have little time.
+  bool process_and_close_socket(socket_t socket) override {
+    ClientStream stream(socket);
+    bool is_closed = false;
+    const bool is_answered = process_request(stream, true, is_closed, nullptr);
+    ::shutdown(socket, SHUT_RDWR);
+    ::close(socket);
+    return is_answered;
+  }
 };
 
 }  // namespace
@@ -64,10 +77,6 @@ class ViewServer::Service {
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
     });
     http_.new_task_queue = [] { return new BoundedQueue(threads, waiting_connections); };
-    http_.set_keep_alive_max_count(1);
-    http_.set_keep_alive_timeout(2);
-    http_.set_read_timeout(5);
-    http_.set_write_timeout(5);
     http_.set_payload_max_length(largest_case);
     http_.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                                {"Referrer-Policy", "no-referrer"},

@@ -2,6 +2,7 @@
 
 import base64
 import concurrent.futures
+import contextlib
 import http.client
 import json
 import os
@@ -11,11 +12,13 @@ import shutil
 import signal
 import socket
 import subprocess
+import threading
+import time
 import unittest
 import zlib
 
 from frames import read_frames
-from program import PATIENCE, PROGRAM, ProgramTest, environment
+from program import PATIENCE, PROGRAM, SLOWDOWN, ProgramTest, environment
 
 PAGE = {"X-Tailwater": "page"}
 
@@ -202,6 +205,29 @@ class OfADoneRun(Viewed):
         for connection in silent:
             connection.close()
         self.assertLess(len(os.listdir(f"/proc/{self.server.pid}/fd")), 200)
+
+    def test_clients_that_drip_do_not_keep_others_out(self):
+        self.view("run")
+        ended = threading.Event()
+        dripping = [socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE) for _ in range(96)]
+
+        def drip():
+            while not ended.wait(0.2):
+                for connection in dripping:
+                    with contextlib.suppress(OSError):  # it has been closed
+                        connection.send(b"G")
+
+        thread = threading.Thread(target=drip)
+        thread.start()
+        try:
+            begin = time.monotonic()
+            self.assert_lives()
+            self.assertLess(time.monotonic() - begin, 20 * SLOWDOWN)
+        finally:
+            ended.set()
+            thread.join()
+            for connection in dripping:
+                connection.close()
 
     def test_a_folder_that_goes_away_is_told(self):
         self.view("run")
