@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -66,7 +65,7 @@ std::filesystem::path preview_file(const CheckOptions& options) {
 
 /// The text of a case file, "-" for that on standard input.
 std::string text_of_case(const std::filesystem::path& path) {
-  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  if (path == "-") return read_case_from(std::cin);
   return read_case_file(path, largest_case_file);
 }
 
@@ -148,7 +147,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
       "and smaller steps)\n",
       estimate.steps, readable_duration(estimate.seconds),
       !estimate.is_from_tank ? "the case"
-      : estimate.grows_much ? "a tank of about 10000 particles, because most of the water comes in later: a first guess"
+      : estimate.grows_much ? "a tank of as much water, because most of it comes in later: a first guess"
                             : "a tank of about 10000 particles, because the case is large: a first guess");
   if constexpr (Dim == 3) print_sections(spec);
   if (options.draws_nothing) return;
@@ -189,7 +188,8 @@ void add_check_command(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand("check", "Find errors, estimate size and run time, draw a preview");
   command->add_option("case", options->case_file, "Case file")->required()->type_name("");
-  command->add_option("--set", options->overrides, "Override a key, for example particles.spacing=0.01")
+  command
+      ->add_option("--set", options->overrides, "Override a key, for example particles.spacing=0.01; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command

@@ -32,7 +32,7 @@ void add_explain_command(CLI::App& app, ExitCode&) {
   auto overrides = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("explain", "Print a summary of a case");
   command->add_option("case", *case_file, "Case file")->required()->type_name("");
-  command->add_option("--set", *overrides, "Override a key, for example particles.spacing=0.01")
+  command->add_option("--set", *overrides, "Override a key, for example particles.spacing=0.01; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command->footer(

@@ -1,31 +1,26 @@
 #include "app/files_of_others.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "base/error.h"
+#include "base/input_file.h"
+#include "io/write_file.h"
 
 namespace tailwater {
 
 void require_own_regular_file(const std::filesystem::path& path) {
-  struct stat found {};
-  const bool is_there = lstat(path.c_str(), &found) == 0;
-  const auto refuse = [&](const char* what) {
-    throw InputError("'{}' is {}, and is not replaced; remedy: another name", path.string(), what);
-  };
-  if (is_there && S_ISLNK(found.st_mode)) refuse("a link");
-  if (is_there && S_ISDIR(found.st_mode)) refuse("a folder");
-  if (is_there && !S_ISREG(found.st_mode)) refuse("a device or a pipe");
-  if (is_there && found.st_uid != geteuid()) refuse("another user's file");
+  const std::string_view obstacle = obstacle_at(path);
+  if (obstacle.empty()) return;
+  throw InputError("'{}' is {}, and is not replaced; remedy: choose another name", path.string(), obstacle);
 }
 
 bool is_preview(const std::filesystem::path& path) {
   std::string begin(1024, '\0');
-  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  open_input_file(path).read(begin.data(), static_cast<std::streamsize>(begin.size()));
   return begin.find("tailwater preview") != std::string::npos;
 }
 

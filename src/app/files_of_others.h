@@ -5,8 +5,7 @@
 
 namespace tailwater {
 
-/// Throws InputError unless the path is a regular file that belongs to this user: links, devices, pipes and what others
-/// have written are not replaced.
+/// Throws InputError if what is at `path` is not replaced: a link, a folder, a device, a pipe or another user's file.
 void require_own_regular_file(const std::filesystem::path& path);
 
 /// Whether the file is a picture that `tailwater check` has drawn: it says so at its begin.

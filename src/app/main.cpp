@@ -2,6 +2,7 @@
 // those of ExitCode.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -48,6 +49,13 @@ class HelpFormatter : public CLI::Formatter {
     column_width(26);
     label("SUBCOMMAND", "COMMAND");
   }
+  /// An option that may be repeated takes one value each time, unlike one with "...".
+  std::string make_option_opts(const CLI::Option* option) const override {
+    constexpr std::string_view several = " ...";
+    std::string text = CLI::Formatter::make_option_opts(option);
+    if (!option->get_allow_extra_args() && text.ends_with(several)) text.resize(text.size() - several.size());
+    return text;
+  }
   std::string make_option_desc(const CLI::Option* option) const override {
     return broken_into_lines(option->get_description(), 80 - get_column_width());
   }
@@ -60,8 +68,11 @@ class HelpFormatter : public CLI::Formatter {
 std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> command = app.get_subcommands();
   const std::vector<std::string> rest = app.remaining();
-  if (!rest.empty() && rest.front().starts_with('-')) {
-    return fmt::format("unknown option \"{}\"; see: tailwater --help", rest.front());
+  const std::vector<std::string> all_rest = app.remaining(true);  // of commands, too
+  const auto option = std::ranges::find_if(all_rest, [](const std::string& word) { return word.starts_with('-'); });
+  if (option != all_rest.end()) {
+    const std::string of_command = command.empty() ? "" : command.front()->get_name() + " ";
+    return fmt::format("unknown option \"{}\"; see: tailwater {}--help", *option, of_command);
   }
   if (!command.empty()) {
     return fmt::format("{}; see: tailwater {} --help", error.what(), command.front()->get_name());

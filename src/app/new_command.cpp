@@ -12,6 +12,7 @@
 #include "app/case_templates.h"
 #include "app/commands.h"
 #include "app/files_of_others.h"
+#include "base/input_file.h"
 #include "io/write_file.h"
 #include "templates.h"
 
@@ -61,7 +62,7 @@ void require_place(const std::filesystem::path& file, bool force) {
 }
 
 bool holds(const std::filesystem::path& file, std::string_view text) {
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = open_input_file(file);
   return std::string(std::istreambuf_iterator<char>(stream), {}) == text;
 }
 

@@ -71,7 +71,9 @@ void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, c
   CLI::App* command = app.add_subcommand("run", "Run a case or a sweep");
   command->add_option("case", arguments->run.case_file, "Case file")->type_name("");
   command->add_option("--out", arguments->run.out, "Folder for the results; created by the run")->type_name("DIR");
-  command->add_option("--set", arguments->overrides, "Override a key, for example scheme.integrator=implicit")
+  command
+      ->add_option("--set", arguments->overrides,
+                   "Override a key, for example scheme.integrator=implicit; may be repeated")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/json.h"
 #include "case/overrides.h"
 #include "case/reader.h"
@@ -189,7 +190,7 @@ bool is_sweep(const std::filesystem::path& folder) {
 SweepPlan read_sweep_record(const std::filesystem::path& folder) {
   constexpr std::string_view remedy = "remedy: begin the sweep in another folder";
   const std::filesystem::path path = folder / sweep_record_name;
-  std::ifstream file(path);
+  std::ifstream file = open_input_file(path);
   if (!file) throw IoError("cannot read '{}'", path.string());
   try {
     const Json record = Json::parse(file);

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "base/input_file.h"
 #include "base/json.h"
 #include "io/run_folder.h"
 
@@ -52,7 +53,7 @@ constexpr std::array<TableColumn, 26> summary_columns{{
 
 /// The summary of a member; empty if it has none that can be read.
 Json summary_of(const std::filesystem::path& member) {
-  std::ifstream file(member / summary_name);
+  std::ifstream file = open_input_file(member / summary_name);
   Json summary = Json::parse(file, nullptr, false);
   return summary.is_object() ? summary : Json::object();
 }

@@ -16,6 +16,7 @@
 
 #include "app/child.h"
 #include "app/commands.h"
+#include "app/files_of_others.h"
 #include "app/processes.h"
 #include "app/sweep_plan.h"
 #include "app/temporary_folder.h"
@@ -191,6 +192,7 @@ void view(const ViewOptions& options) {
   const ViewContent content = content_of(options.paths, sweeps);
   if (options.export_file.empty()) return serve(content, sweeps, options);
   if (content.case_file) throw InputError("--export: a case has nothing to show before it has run");
+  require_own_regular_file(options.export_file);
   write_text_file(options.export_file, exported_page(content, version_line()));
   fmt::print("{}\n", options.export_file.string());
 }

@@ -6,34 +6,37 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include "base/finding.h"
+#include "base/input_file.h"
 #include "case/toml_text.h"
 
 namespace tailwater {
+namespace {
+
+InputFileKind kind_of_case(std::uintmax_t largest) {
+  return {.name = "a case file",
+          .largest = largest,
+          .remedy_for_size = "put long chains of points and time series into files of their own"};
+}
+
+}  // namespace
 
 std::string read_case_file(const std::filesystem::path& path, std::uintmax_t largest) {
-  std::error_code error;  // what does not exist is told below
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) {
-    throw IoError("{}: is a folder; give the case file in it", path.string());
-  }
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw IoError("{}: is a device or a pipe; give a case file", path.string());
-  }
-  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
-    throw InputError("{}: has {} bytes; a case file has at most {}", path.string(), size, largest);
-  }
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_input_file(path, kind_of_case(largest));
   if (!file) {
     throw IoError("{}: cannot read the case file ({}); check the path, or start one with `tailwater new`",
                   path.string(), std::generic_category().message(errno));
   }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return read_bytes(file, largest);
+}
+
+std::string read_case_from(std::istream& stream) {
+  std::string text = read_bytes(stream, largest_case_file);
+  if (text.size() <= largest_case_file) return text;
+  throw InputError("standard input has more than {} bytes, and a case file has at most as many; {}", largest_case_file,
+                   kind_of_case(largest_case_file).remedy_for_size);
 }
 
 toml::table parse_case(std::string_view text, const std::string& file) {

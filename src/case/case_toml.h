@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,9 @@ inline constexpr std::uintmax_t largest_effective_case = 32 * largest_case_file;
 
 /// Throws IoError if it is no file that can be read, InputError if it has more than `largest` bytes.
 std::string read_case_file(const std::filesystem::path& path, std::uintmax_t largest);
+
+/// The text of a case on a stream, as from standard input. Throws InputError if it has no end.
+std::string read_case_from(std::istream& stream);
 
 /// Throws InputError with `file`, line and column where the text is not TOML.
 toml::table parse_case(std::string_view text, const std::string& file);

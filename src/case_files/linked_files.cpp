@@ -9,6 +9,8 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/input_file.h"
+#include "case_files/mesh_file.h"
 #include "case_files/points_file.h"
 
 namespace tailwater {
@@ -16,25 +18,11 @@ namespace {
 
 /// bytes; 1600 for each of the points that a file may have, and read in a moment
 constexpr std::uintmax_t largest_points_file = std::uintmax_t{1} << 24;
-/// bytes; five million triangles of binary STL, which is far more than walls can be sampled from
-constexpr std::uintmax_t largest_mesh_file = std::uintmax_t{1} << 28;
 /// bytes; 64 for each of the samples
 constexpr std::uintmax_t largest_series_file = std::uintmax_t{1} << 26;
 
 std::ifstream open_file(const std::filesystem::path& path, std::uintmax_t largest) {
-  std::error_code error;  // what does not exist is told below
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) {
-    throw IoError("{}: is a folder; give a file in it", path.string());
-  }
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw IoError("{}: is a device or a pipe; give a file", path.string());
-  }
-  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > largest) {
-    throw InputError("{}: has {} bytes; such a file has at most {}: give fewer points, samples or triangles",
-                     path.string(), size, largest);
-  }
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_input_file(path, {.largest = largest});
   if (!file) {
     throw IoError("{}: cannot read it ({}); check the name, which is relative to the case file", path.string(),
                   std::generic_category().message(errno));

@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/input_file.h"
 
 namespace tailwater {
 namespace {
@@ -132,6 +133,10 @@ MeshTriangles read_stl(Source& source) {
           "has {} bytes, and an STL file of {} triangles has {}: it is cut off or of another kind; export the mesh "
           "again",
           source.size(), count, binary_size);
+    }
+    if (source.size() >= binary_size + per_triangle) {
+      source.refuse("holds {} triangles, and says that it has {}: it is damaged; export the mesh again",
+                    (source.size() - header - 4) / per_triangle, count);
     }
     for (std::size_t k = 0; k < header + 4; k += 4) source.binary<std::uint32_t>();
     for (std::uint32_t t = 0; t < count; ++t) {
@@ -283,12 +288,9 @@ MeshTriangles read_mesh(const std::filesystem::path& path) {
     throw InputError(start +
                      fmt::format("\"{}\" is no kind of mesh that is read here: export it as .stl, .obj or .ply", kind));
   }
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  std::ifstream file = open_input_file(path, {.name = "a mesh file", .largest = largest_mesh_file});
   if (!file) throw InputError(start + "cannot be read: check its name, which is relative to the case file");
-  std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
-  file.seekg(0);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  Source source(std::move(bytes), start);
+  Source source(read_bytes(file, largest_mesh_file), start);
   if (source.size() == 0) source.refuse("is empty: export the mesh again");
   MeshTriangles mesh = kind == ".stl" ? read_stl(source) : kind == ".obj" ? read_obj(source) : read_ply(source);
   if (mesh.triangles.empty()) source.refuse("has no triangles: export the mesh again, as triangles");

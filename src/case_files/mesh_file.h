@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -9,13 +10,17 @@
 
 namespace tailwater {
 
+/// bytes; five million triangles of binary STL, which is far more than walls can be sampled from
+inline constexpr std::uintmax_t largest_mesh_file = std::uintmax_t{1} << 28;
+
 struct MeshTriangles {
   std::vector<Vec<3>> points;                 ///< m
   std::vector<std::array<int, 3>> triangles;  ///< indices into `points`, counter-clockwise as their front sees them
 };
 
 /// The triangles of a file, in its order. Throws InputError, which names the file and the remedy, for a file of another
-/// kind, one that is empty or cut off, and for a coordinate that is not a number.
+/// kind, one that is empty, cut off, damaged or too large, and for a coordinate that is not a number; IoError for a
+/// folder, a device or a pipe.
 MeshTriangles read_mesh(const std::filesystem::path& path);
 
 }  // namespace tailwater

@@ -1,5 +1,10 @@
 #include "geometry/wall_patches.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/from_spec.h"
+
 namespace tailwater {
 namespace {
 
@@ -30,6 +35,31 @@ void add_pieces(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, doub
   }
 }
 
+/// Throws CaseError for faces that make more than the most patches. Halves of a face have at least half of an edge's
+/// length, so there are about as many as patches of `longest` cover it.
+template <int Dim>
+void require_few_patches(const Boundary<Dim>& boundary, double longest) {
+  double patches = 0.0;
+  std::vector<double> of_wall(boundary.walls.size(), 0.0);
+  for (const WallFace<Dim>& face : boundary.faces) {
+    const double of_face = std::max(1.0, face.measure() / std::pow(longest, Dim - 1));
+    patches += of_face;
+    of_wall[face.wall] += of_face;
+  }
+  if (patches <= most_wall_patches) return;
+  const auto largest = std::ranges::max_element(of_wall);
+  const auto wall = static_cast<int>(largest - of_wall.begin());
+  Eigen::AlignedBox<double, Dim> box;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    if (face.wall == wall) box.extend(face.box());
+  }
+  throw CaseError({"{}, which reaches from {} to {}, has {:.3g} patches of {:.3g}, in which forces on walls are found, "
+                   "and a case has at most {:.3g}",
+                   wall_label(boundary, wall), place<Dim>(box.min()), place<Dim>(box.max()), *largest,
+                   Amount{longest, "m"}, most_wall_patches},
+                  {"draw the wall no longer than the water can come, or use a larger spacing"});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -41,6 +71,7 @@ std::vector<WallPatch<Dim>> pieces_of(const WallPatch<Dim>& patch, const Boundar
 
 template <int Dim>
 std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest) {
+  require_few_patches(boundary, longest);
   std::vector<WallPatch<Dim>> patches;
   for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
     WallPatch<Dim> whole{static_cast<int>(f), {}, boundary.faces[f].measure()};

@@ -30,8 +30,11 @@ struct WallPatch {
 /// The edges of patches are not longer than this, dx.
 inline constexpr double longest_patch_edge = 1.5;
 
+/// They would take some 10 GB.
+inline constexpr double most_wall_patches = 1e8;
+
 /// All faces, halved at their longest edges until none is longer than `longest` [m]. The patches of a face follow each
-/// other.
+/// other. Throws CaseError for more than `most_wall_patches` of them, before there is memory for any.
 template <int Dim>
 std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
 
@@ -102,7 +103,7 @@ bool is_checkpoint(const fs::path& name) {
 /// The files of the probes of the run that has left its effective case in `folder`: only this case tells them from
 /// tables that a user has put beside them.
 std::vector<std::string> probe_files(const fs::path& folder) {
-  std::ifstream effective_case(folder / effective_case_name);
+  std::ifstream effective_case = open_input_file(folder / effective_case_name);
   constexpr std::string_view key = "name = \"";
   std::vector<std::string> names;
   bool is_in_probe = false;

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "io/write_file.h"
 
 namespace tailwater {
@@ -89,7 +90,7 @@ std::optional<Head> parse_head(const std::string& text) {
 
 Head read_head(std::ifstream& file, const std::filesystem::path& path) {
   errno = 0;
-  file.open(path, std::ios::binary);
+  file = open_input_file(path);
   if (!file) throw_io_error("read", path, errno);
   std::string text(head_size, '\0');
   file.read(text.data(), head_size);

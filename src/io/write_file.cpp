@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,8 @@
 namespace tailwater {
 
 namespace {
+
+constexpr std::string_view foreign_file = "another user's file";
 
 /// Whether a file must outlive a power cut.
 enum class Lasting { as_the_system_likes, on_disk };
@@ -140,15 +143,22 @@ void throw_io_error(std::string_view what, const std::filesystem::path& path, in
   throw IoError("cannot {} '{}': {}", what, path.string(), std::generic_category().message(error_number));
 }
 
+std::string_view obstacle_at(const std::filesystem::path& path) {
+  struct stat found {};
+  if (lstat(path.c_str(), &found) != 0) return {};  // what cannot be looked at cannot be opened either
+  if (S_ISLNK(found.st_mode)) return "a link";
+  if (S_ISDIR(found.st_mode)) return "a folder";
+  if (!S_ISREG(found.st_mode)) return "a device or a pipe";
+  return found.st_uid == geteuid() ? std::string_view() : foreign_file;
+}
+
 void require_regular_or_none(const std::filesystem::path& path) {
-  std::error_code error;  // what cannot be looked at cannot be opened either, which is told then
-  const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
-  if (std::filesystem::is_directory(status)) throw_io_error("write", path, EISDIR);
+  const std::string_view obstacle = obstacle_at(path);
+  if (obstacle.empty() || obstacle == foreign_file) return;
   throw IoError(
       "cannot write '{}': {} is in its place, and is neither followed nor replaced; remedy: remove it, or choose "
       "another name",
-      path.string(), std::filesystem::is_symlink(status) ? "a link" : "a device or a pipe");
+      path.string(), obstacle);
 }
 
 int open_regular_file(const std::filesystem::path& path, int flags) {

@@ -18,7 +18,12 @@ inline constexpr std::string_view temporary_ending = ".part";
 /// IoError for a link, a device, a pipe or a folder, and where it cannot be opened.
 int open_regular_file(const std::filesystem::path& path, int flags);
 
-/// Throws IoError if a link, a device or a pipe has the place of the file `path`.
+/// The one guard of files that are written: what has the place of the file `path` and is not replaced, as "a link", "a
+/// folder", "a device or a pipe", or "another user's file"; empty if there is no such thing.
+std::string_view obstacle_at(const std::filesystem::path& path);
+
+/// Throws IoError if a link, a device, a pipe or a folder has the place of the file `path`. A folder may be shared:
+/// other users' files in it are replaced.
 void require_regular_or_none(const std::filesystem::path& path);
 
 /// Writes `parts` one after the other as the file `path`. Collective: the parts of all ranks, by rank, make one file;

@@ -18,8 +18,6 @@ namespace {
 enum LevelValue { largest, time_of_largest, integral, last, values_per_line };
 constexpr std::size_t values_before_lines = 2;  // the time of the last reading, and the time that all cover
 
-constexpr double most_places = 1e6;
-
 template <int Dim>
 struct LevelMap {
   Vec<Dim> up;
@@ -41,11 +39,7 @@ struct LevelMap {
                         {"give two corners"});
       }
       places_asked_for *= std::max(1.0, std::abs(to[d] - from[d]) / step);
-      if (places_asked_for > most_places) {
-        throw CaseError(
-            {"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places_asked_for, most_places},
-            {"give a larger step, or a smaller part of the channel"});
-      }
+      require_few_places(probe, places_asked_for);
       count[d] = pieces_of_at_most(step, std::abs(to[d] - from[d]));
       piece[d] = (to[d] - from[d]) / count[d];
     }

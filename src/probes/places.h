@@ -21,6 +21,16 @@ inline double step_of(const ProbeTable& probe, double spacing) {
   return probe.step > 0.0 ? probe.step : spacing;
 }
 
+/// Most places of a probe; each of them is read by itself.
+inline constexpr double most_places = 1e6;
+
+/// Throws CaseError for more places, which may be any number, before there is memory for them.
+inline void require_few_places(const ProbeTable& probe, double places) {
+  if (places <= most_places) return;
+  throw CaseError({"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places, most_places},
+                  {"give a larger step, or a smaller part of the channel"});
+}
+
 /// The number of equal pieces of at most `step` [m]. A whole number of steps keeps that number despite rounding.
 inline int pieces_of_at_most(double step, double length) {
   return std::max(1, static_cast<int>(std::ceil(length / step - 1e-6)));
@@ -32,6 +42,7 @@ template <int Dim>
 std::vector<Vec<Dim>> places_between(const ProbeTable& probe, double step) {
   const Vec<Dim> from = to_vec<Dim>(probe.from, label(probe), "from");
   const Vec<Dim> to = to_vec<Dim>(probe.to, label(probe), "to");
+  require_few_places(probe, (to - from).norm() / step);
   const int count = pieces_of_at_most(step, (to - from).norm());
   std::vector<Vec<Dim>> places;
   for (int k = 0; k < count; ++k) places.push_back(from + (k + 0.5) / count * (to - from));

@@ -78,7 +78,9 @@ template <int Dim>
 std::vector<Vec<Dim>> places_on_disc(const ProbeTable& probe, const Vec<Dim>& centre, const CaseSpec& spec,
                                      const Boundary<Dim>& boundary) {
   const Vec<Dim> normal = normal_at(centre, boundary);
-  const int count = pieces_of_at_most(0.5 * spec.particles.spacing, probe.diameter);
+  const double step = 0.5 * spec.particles.spacing;
+  require_few_places(probe, std::pow(probe.diameter / step, Dim - 1));
+  const int count = pieces_of_at_most(step, probe.diameter);
   const auto from_centre = [&](int k) { return ((k + 0.5) / count - 0.5) * probe.diameter; };
   std::vector<Vec<Dim>> places;
   if constexpr (Dim == 2) {
@@ -108,6 +110,7 @@ std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& s
   } else {
     const Vec<3> along = to_vec<3>(probe.to, label(probe), "to") - to_vec<3>(probe.from, label(probe), "from");
     const Vec<3> across = normal_at(line[line.size() / 2], boundary).cross(along).normalized();
+    require_few_places(probe, static_cast<double>(line.size()) * (probe.width / step));
     const int count = pieces_of_at_most(step, probe.width);
     std::vector<Vec<3>> places;
     for (const Vec<3>& x : line) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string_view>
 
+#include "base/input_file.h"
 #include "io/write_file.h"
 
 namespace tailwater {
@@ -33,7 +34,7 @@ double parsed_number(std::string_view field) {
 /// heading; `second` is the number in the second column.
 template <class Take>
 void read_column(const std::filesystem::path& path, std::string_view heading, const Take& take) {
-  std::ifstream file(path);
+  std::ifstream file = open_input_file(path);
   if (!file) throw_io_error("read", path, errno);
   std::string line;
   std::getline(file, line);
@@ -128,7 +129,7 @@ ProbeProfiles read_probe_profiles(const std::filesystem::path& path, std::string
 }
 
 TableDigest digest_probe_table(const std::filesystem::path& path, double half) {
-  std::ifstream file(path);
+  std::ifstream file = open_input_file(path);
   if (!file) throw_io_error("read", path, errno);
   TableDigest table;
   std::string line;

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "case/reader.h"
 #include "io/folder_lock.h"
@@ -165,7 +166,7 @@ Json info_from(const fs::path& run, const Json& summary) {
 
 std::map<std::string, double> last_step(const fs::path& run) {
   constexpr std::streamoff enough = 4096;
-  std::ifstream file(run / "steps.csv", std::ios::binary);
+  std::ifstream file = open_input_file(run / "steps.csv");
   std::string head;
   if (!std::getline(file, head)) return {};
   file.seekg(0, std::ios::end);
@@ -187,7 +188,7 @@ std::map<std::string, double> last_step(const fs::path& run) {
 
 Json read_summary(const fs::path& run) {
   const fs::path path = run / summary_name;
-  std::ifstream file(path);
+  std::ifstream file = open_input_file(path);
   if (!file) {
     throw IoError("cannot read '{}'; is '{}' the folder of a run?", path.string(), run.string());
   }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/input_file.h"
 #include "base/json.h"
 #include "io/write_file.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Not an object if the file is none.
 Json parse_summary(const std::filesystem::path& path) {
-  std::ifstream file(path);
+  std::ifstream file = open_input_file(path);
   return Json::parse(file, nullptr, false);
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/for_each.h"
+#include "base/input_file.h"
 #include "io/run_folder.h"
 #include "io/write_file.h"
 #include "parallel/together.h"
@@ -34,7 +35,7 @@ constexpr double room_in_box = 0.05;
 constexpr double room_in_range = 0.25;
 
 std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_input_file(path);
   if (!file) throw IoError("cannot read '{}'", path.string());
   return {std::istreambuf_iterator<char>(file), {}};
 }

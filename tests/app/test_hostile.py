@@ -2,6 +2,7 @@
 messages, links, limits of the system, and memory that ends. Each gets one plain line, and nothing is written through a
 link or left half done."""
 
+import json
 import os
 import resource
 import signal
@@ -45,6 +46,14 @@ class Messages(ProgramTest):
                       ("pictures", "run", "--times", "nan"), ("pictures", "run", "--from", "nan", "1", "1")):
             with self.subTest(words):
                 self.assertEqual(len(self.call(*words, expect=2).stderr.splitlines()), 1)
+
+    def test_unknown_options_are_named_and_repeated_ones_take_one_value(self):
+        for words in (("--nosuch",), ("check", "--nosuch"), ("bench", "--nosuch"), ("check", "small.toml", "--nosuch")):
+            self.assertIn('unknown option "--nosuch"', self.call(*words, expect=2).stderr)
+        told = self.call("check", "--help").stdout
+        self.assertIn("--set KEY=VALUE ", told)
+        self.assertNotIn("KEY=VALUE ...", told)
+        self.assertIn("may be repeated", told)
 
     def test_the_same_is_told_once(self):
         (self.folder / "plate.toml").write_text(SMALL_CASE.replace("[time]", CROSSED_PLATE))
@@ -113,6 +122,38 @@ class Links(ProgramTest):
         (self.folder / "elsewhere").mkdir()
         (self.folder / "linked").symlink_to("elsewhere")
         self.call("run", "small.toml", "--out", "linked", "--quiet")  # the folder itself may be one
+
+
+class Sizes(ProgramTest):
+    def check_as_json(self, text):
+        """What `check - --json` answers in a few seconds and 2 GB."""
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+        result = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=self.folder, input=text, capture_output=True,
+                                text=True, timeout=PATIENCE, preexec_fn=None if SLOWDOWN > 1 else limit, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)["findings"]
+
+    def test_a_probe_on_a_wall_without_end(self):
+        wall = 'shape = "box"\nmin = [0, 0]\nmax = [3, 2e12]\nopen = ["+y"]\n'
+        text = SMALL_CASE.replace("points = [[0, 2], [0, 0], [3, 0], [3, 2]]\n", wall)
+        text = text.replace('type = "energy"', 'type = "force"')
+        finding = self.check_as_json(text)[0]
+        self.assertIn("GB of memory", finding["message"])
+        self.assertIn("use a spacing of at least", finding["message"])
+
+    def test_a_case_without_end_on_standard_input(self):
+        with open("/dev/zero", "rb") as endless:
+            result = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=self.folder, stdin=endless, capture_output=True,
+                                    text=True, timeout=PATIENCE, check=False)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("standard input has more than 262144 bytes", result.stderr)
+
+    def test_a_run_whose_summary_is_a_pipe(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet")
+        (self.folder / "run/summary.json").unlink()
+        os.mkfifo(self.folder / "run/summary.json")
+        self.assertIn("a device or a pipe", self.call("info", "run", expect=4).stderr)
 
 
 class Limits(ProgramTest):

@@ -2,7 +2,10 @@
 #include "geometry/meshes.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cstring>
+#include <filesystem>
 #include <limits>
 #include <random>
 
@@ -10,6 +13,7 @@
 #include "geometry/boundary.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/mesh_walls.h"
+#include "geometry/wall_patches.h"
 
 namespace tailwater {
 namespace {
@@ -41,6 +45,40 @@ TEST(MeshFile, OfEveryFormatIsTheSameWeldedMesh) {
     EXPECT_EQ(mesh.triangles.size(), 12u) << name;
     EXPECT_EQ(mesh.points.size(), 8u) << name;
     EXPECT_NEAR(volume_of(mesh), 1.0, 1e-12) << name;
+  }
+}
+
+TEST(MeshFile, ThatHasMoreTrianglesThanItSaysIsRefused) {
+  const MeshFolder folder;
+  std::string bytes = binary_stl(unit_box());
+  const std::uint32_t claimed = 8;
+  std::memcpy(bytes.data() + 80, &claimed, sizeof(claimed));
+  const std::string message = refusal_of(MeshFolder::wall_of_file(folder.write("a.stl", bytes), FluidSide::outside));
+  EXPECT_NE(message.find("holds 12 triangles, and says that it has 8"), std::string::npos) << message;
+}
+
+TEST(MeshFile, ThatIsNoFileIsRefused) {
+  const MeshFolder folder;
+  const std::string pipe = folder.write("pipe.stl", "");
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(mesh_of(MeshFolder::wall_of_file(pipe, FluidSide::outside)), IoError);
+}
+
+TEST(WallPatches, AreCountedBeforeTheyAreMade) {
+  CaseSpec spec = testing_cases::empty_case(0.1, 3);
+  spec.walls = {testing_cases::box_wall({0, 0, 0}, {1.6, 2147483648.0, 1}, {"+z", "-y", "+y"})};
+  spec.walls[0].name = "tank";
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  try {
+    make_wall_patches(boundary, 0.15);
+    FAIL() << "the patches were made";
+  } catch (const CaseError& error) {
+    const std::string message = error.what();
+    for (const std::string part : {"wall 'tank', which reaches from (0, 0, 0) to (1.6, 2.14748e+09, 1)",
+                                   "at most 1e+08", "draw the wall no longer"}) {
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+    }
   }
 }
 

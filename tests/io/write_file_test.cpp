@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <vector>
 
@@ -82,6 +83,21 @@ TEST(WriteFile, NeitherFollowsNorReplacesWhatIsNoFile) {
   write_text_file(part, "what a killed run has left");
   write_text_file(path, "text");
   EXPECT_EQ(count_entries(folder.path()), 2u);
+}
+
+TEST(WriteFile, NamesWhatIsNotReplaced) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "thing";
+  EXPECT_EQ(obstacle_at(path), "");
+  write_text_file(path, "own");
+  EXPECT_EQ(obstacle_at(path), "");
+  EXPECT_EQ(obstacle_at(folder.path()), "a folder");
+  EXPECT_EQ(obstacle_at("/dev/null"), "a device or a pipe");
+  if (geteuid() == 0) {
+    ASSERT_EQ(chown(path.c_str(), 12345, 12345), 0);
+    EXPECT_EQ(obstacle_at(path), "another user's file");
+    write_text_file(path, "in a folder that is shared");  // of a run
+  }
 }
 
 }  // namespace
