@@ -24,8 +24,10 @@ namespace {
 /// Without the first step, which builds lists and patterns and has no pressure to start from.
 constexpr int trial_steps = 3;
 
-/// Particles in the tank whose steps stand for those of a case that is too large to try.
-constexpr double particles_in_tank = 1e4;
+/// Most particles in the tank whose steps stand for those of a case that is too large to try. A small case costs more
+/// per particle, so its tank is as small.
+constexpr double most_in_tank = 1e4;
+constexpr double least_in_tank = 100.0;
 
 /// Of the water that there is in the mean: with less than this at the start its steps tell nothing about the run's.
 constexpr double share_to_try = 0.5;
@@ -47,10 +49,12 @@ double time_of_a_step(Flow<Dim>& flow, double end) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / trial_steps;
 }
 
-/// A full tank, as deep as wide, by the scheme of `spec` and with particles of the same size.
+/// A full tank, as deep as wide, by the scheme of `spec` and with particles of the same size, and about as many as the
+/// `fluid` of the case.
 template <int Dim>
-CaseSpec tank_instead_of(const CaseSpec& spec) {
-  const double side = spec.particles.spacing * std::round(std::pow(particles_in_tank, 1.0 / Dim));
+CaseSpec tank_instead_of(const CaseSpec& spec, double fluid) {
+  const double count = std::clamp(fluid, least_in_tank, most_in_tank);
+  const double side = spec.particles.spacing * std::round(std::pow(count, 1.0 / Dim));
   CaseSpec tank;
   tank.general.dimension = Dim;
   tank.particles = spec.particles;
@@ -182,7 +186,7 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   estimate.is_from_tank = at_start * neighbours > most_pairs || estimate.grows_much;
   double per_particle = 0.0;
   if (estimate.is_from_tank) {
-    Flow<Dim> tank = make_flow<Dim>(tank_instead_of<Dim>(spec));
+    Flow<Dim> tank = make_flow<Dim>(tank_instead_of<Dim>(spec, water.mean / of_a_particle));
     per_particle = time_of_a_step(tank, spec.time.end) / static_cast<double>(tank.state.particles.owned);
   } else {
     per_particle = time_of_a_step(flow, spec.time.end) / std::max(at_start, 1.0);
