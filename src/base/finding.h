@@ -156,6 +156,40 @@ inline bool has_error(const Findings& findings) {
 
 inline void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
 
+/// The findings, those that say the same of several tables as one that names them all.
+inline Findings merge_alike(const Findings& findings) {
+  const auto blanked = [](const Finding& finding) {
+    std::string text = fmt::format("{}|{}|{}|{}", finding.severity == Severity::error, finding.about.table,
+                                   finding.problem, finding.remedy);
+    std::vector<std::string> own{finding.about.with_key("").text()};
+    for (const MarkedPlace& place : finding.places) own.push_back(place.text());
+    for (const std::string& part : own) {
+      for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos;) text.erase(at, part.size());
+    }
+    return text;
+  };
+  Findings merged;
+  std::vector<std::string> kept;
+  std::vector<std::vector<std::string>> others;
+  for (const Finding& finding : findings) {
+    const std::string text = blanked(finding);
+    const auto same = std::ranges::find(kept, text);
+    if (same == kept.end() || finding.about.name.empty()) {
+      merged.push_back(finding);
+      kept.push_back(text);
+      others.emplace_back();
+      continue;
+    }
+    const auto first = static_cast<std::size_t>(same - kept.begin());
+    others[first].push_back(finding.about.with_key("").text());
+    merged[first].places.insert(merged[first].places.end(), finding.places.begin(), finding.places.end());
+  }
+  for (std::size_t n = 0; n < merged.size(); ++n) {
+    if (!others[n].empty()) merged[n].problem += fmt::format(" (likewise {})", fmt::join(others[n], ", "));
+  }
+  return merged;
+}
+
 /// Errors of a case that stop the command. The text has one line per finding, and at most 50.
 class CaseError : public InputError {
  public:

@@ -841,9 +841,11 @@ struct LimitsTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
-             "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of m "
-             "g L/2 plus the kinetic energy, and by more than lifts the water's surface by dx/10; 0: never");
+    v.number(
+        "energy_warning", self.energy_warning, "", Range::at_least(0.0),
+        "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of m "
+        "g L/2 plus the kinetic energy and the work of open ends, and by more than lifts the water's surface by dx/10 "
+        "and than a tenth of that work; 0: never");
     v.number("energy_stop", self.energy_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
     v.number("volume_warning", self.volume_warning, "", Range::at_least(0.0),
              "The run warns when the mean density of the water away from the surface is off by more than this "

@@ -18,6 +18,31 @@ Eigen::AlignedBox<double, Dim> box_of_body(const FloatingBody<Dim>& body, const 
   return box;
 }
 
+/// dx. With a smaller draught the pressure of a single row of particles moves the body more than it weighs, and its
+/// motion and the pressure do not agree (0.04 dx failed, 0.08 dx did not).
+constexpr double least_draught = 0.05;
+
+/// A body that floats on the surface like a film; empty if it does not.
+template <int Dim>
+Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const Eigen::AlignedBox<double, Dim>& box) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if (gravity.isZero(0.0)) return {};
+  int upright = 0;
+  gravity.cwiseAbs().maxCoeff(&upright);
+  Vec<Dim> sides = box.sizes();
+  sides[upright] = 1.0;
+  const double per_draught = spec.physics.density * sides.prod();  // kg/m
+  const double dx = spec.particles.spacing;
+  const double draught = body.mass / per_draught;
+  if (draught >= least_draught * dx) return {};
+  return {Finding::error(
+      {"{} = {:.4g} is so light that it floats with a draught of {:.3g} m, less than {} spacings: its motion cannot be "
+       "found from the pressure of the particles",
+       CaseLabel("body", body.name).with_key("mass"), Amount{body.mass, "kg"}, draught, least_draught},
+      {"give a mass of at least {:.3g} kg, or a spacing of at most {:.3g} m", 1.01 * least_draught * dx * per_draught,
+       0.99 * draught / least_draught})};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -26,6 +51,7 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) {
     const Eigen::AlignedBox<double, Dim> box = box_of_body(body, boundary);
     if (box.isEmpty()) continue;
+    append(findings, check_mass(spec, body, box));
     const Vec<Dim>& centre = body.drawn.centre;
     const CaseLabel label("body", body.name);
     if (box.exteriorDistance(centre) > corner_tolerance * spec.particles.spacing) {

@@ -22,7 +22,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_wall_thickness(spec, boundary, fluid));
   append(findings, check_plates(spec, boundary));
   if (!has_error(findings)) append(findings, check_closed_gaps(spec, boundary));
-  append(findings, check_roughness(spec, boundary));
+  append(findings, check_roughness(spec, boundary, fluid));
   append(findings, check_overlap(spec, boundary, fluid));
   append(findings, check_fluid_at_walls(spec, boundary, fluid));
   append(findings, check_open_ends(spec, boundary, fluid));
@@ -33,6 +33,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   if (!has_error(flows)) append(findings, check_speeds<Dim>(spec));
   append(findings, check_late_starts(spec));
   append(findings, check_bodies(spec, boundary));
+  append(findings, check_body_gaps(spec, boundary));
   append(findings, check_moorings(spec, boundary));
   append(findings, check_air_places(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));

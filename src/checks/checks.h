@@ -29,7 +29,8 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
 /// other walls; a body longer than twice all these.
 Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid);
 
-/// Error: a wave maker whose depth is not that of the water in front of it. Collective.
+/// Error: a wave maker whose depth is not that of the water in front of it. Warning: waves lower than two spacings.
+/// Collective.
 template <int Dim>
 Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
@@ -46,9 +47,10 @@ Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Warning: a wall whose roughness is larger than dx.
+/// Errors: a wall whose roughness is larger than 15 dx, or than the water is deep; side walls of a channel rougher than
+/// half of its width. Warning: a roughness larger than dx. Collective.
 template <int Dim>
-Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary);
+Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Error: blocks of fluid that overlap. On both sides of a plate they may be near each other.
 template <int Dim>
@@ -88,9 +90,14 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
 template <int Dim>
 Findings check_speeds(const CaseSpec& spec);
 
-/// Warning: a centre of mass outside of the body, or an inertia that no mass within it has.
+/// Error: a body that is so light that it floats with a draught of a twentieth of dx. Warning: a centre of mass outside
+/// of the body, or an inertia that no mass within it has.
 template <int Dim>
 Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Error: a body that fills its space from side to side, but for gaps through which no water gets past it.
+template <int Dim>
+Findings check_body_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 /// Error: a mooring that is fastened far from its body.
 template <int Dim>

@@ -69,6 +69,14 @@ struct Approach {
   }
 };
 
+/// Faces of a round wall, each with few particles in front of it, of which the nearest may stand anywhere up to a
+/// cell's diagonal away: only the wall as a whole has a gap or none.
+template <int Dim>
+bool is_short(const WallFace<Dim>& face, double dx) {
+  constexpr double long_enough = 2.0;  // dx
+  return Dim == 2 && (face.corners[1] - face.corners[0]).norm() < long_enough * dx;
+}
+
 /// What all ranks have found, by the same keys.
 template <class Found>
 std::map<std::pair<int, int>, Found> together(const Communicator& ranks,
@@ -122,6 +130,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
       }
       // The particles nearest to a small triangle of a mesh may all be farther away than those beside it.
       if (!is_square || is_sheet[wall] || boundary.mesh_of(near.face) != nullptr) continue;
+      if (is_short(boundary.faces[near.face], dx)) continue;
       Approach<Dim>& approach = contacts.by_face[{near.face, fluid.block[i]}];
       if (near.signed_distance < approach.distance) approach = {near.signed_distance, x};
     } else if (is_square) {
@@ -171,15 +180,26 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
     }
   }
   std::set<std::pair<int, int>> reported;  // wall and block
-  for (const auto& [key, approach] : contacts.by_face) {
-    const int wall = boundary.faces[key.first].wall;
-    const bool is_gap = approach.distance > gap_from && approach.distance < gap_to;
-    if (!is_gap || !reported.insert({wall, key.second}).second) continue;
+  const auto report_gap = [&, gap_from = gap_from, gap_to = gap_to, regular = regular](
+                              int wall, int block, double distance, const Vec<Dim>& at) {
+    const bool is_gap = distance > gap_from && distance < gap_to;
+    if (!is_gap || !reported.insert({wall, block}).second) return;
     findings.push_back(Finding::warning(
         {"there is a gap between {} and {}: the nearest particle stands {:.2f} from the wall, at {}, instead of {:.2f}",
-         fluid_label(spec, key.second), wall_label(boundary, wall), Amount{approach.distance / dx, "spacings"},
-         place(approach.at), regular},
+         fluid_label(spec, block), wall_label(boundary, wall), Amount{distance / dx, "spacings"}, place(at), regular},
         {"put the block's edge on the wall, or at least two spacings away from it"}));
+  };
+  for (const auto& [key, approach] : contacts.by_face) {
+    report_gap(boundary.faces[key.first].wall, key.second, approach.distance, approach.at);
+  }
+  std::vector<bool> is_round(boundary.walls.size(), false);
+  for (const WallFace<Dim>& face : boundary.faces) is_round[face.wall] = is_short(face, dx);
+  for (const WallFace<Dim>& face : boundary.faces) {
+    if (!is_short(face, dx)) is_round[face.wall] = false;
+  }
+  for (const auto& [key, contact] : contacts.by_wall) {
+    if (is_round[key.first] && contact.in_front > 0)
+      report_gap(key.first, key.second, contact.nearest, contact.nearest_at);
   }
   return findings;
 }

@@ -26,6 +26,17 @@ std::optional<double> depth_at(const WavePlate<Dim>& plate, const FluidParticles
   return highest > none ? std::optional(highest) : std::nullopt;
 }
 
+/// Waves that the particles do not resolve.
+Findings check_height(const WaveMakerTable& maker, double dx) {
+  if (maker.waves == WaveKind::none || maker.height >= lowest_resolved_wave * dx) return {};
+  return {Finding::warning(
+      {"{} = {:.4g} is {:.2g} spacings: waves lower than {:g} spacings are not resolved, and their heights are not to "
+       "be trusted",
+       CaseLabel("wave_maker", maker.name).with_key("height"), Amount{maker.height, "m"}, maker.height / dx,
+       lowest_resolved_wave},
+      {"use a spacing of at most {:.3g} m, better a tenth of the height", 0.99 * maker.height / lowest_resolved_wave})};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -33,6 +44,7 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
   Findings findings;
   const double dx = spec.particles.spacing;
   for (const WaveMakerTable& maker : spec.wave_makers) {
+    append(findings, check_height(maker, dx));
     const std::optional<double> depth = depth_at(WavePlate<Dim>(spec, maker), fluid, dx);
     if (!depth || std::abs(*depth - maker.depth) <= std::max(most_error * maker.depth, most_columns * dx)) continue;
     findings.push_back(

@@ -10,6 +10,9 @@
 
 namespace tailwater {
 
+/// dx; lower waves are not resolved: the surface is known to about half a spacing.
+inline constexpr double lowest_resolved_wave = 2.0;
+
 /// A solitary wave of Rayleigh's shape, and the plate that moves with its water: D.G. Goring (1979); K. Guizien,
 /// E. Barthelemy (2002).
 class SolitaryWave {

@@ -10,15 +10,17 @@ namespace tailwater {
 
 class ResultLimits {
  public:
-  /// The energy is compared with m g L/2 plus the kinetic energy, as in balance_energy. Collective.
+  /// The energy is compared with m g L/2 plus the kinetic energy, as in balance_energy, and the work of open ends.
+  /// Collective.
   template <int Dim>
   ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow);
 
-  /// Call after every step; `energy_rise` [J] is the largest rise so far. Warns when an error passes its limit. Of a
+  /// Call after every step; `energy_rise` [J] is the largest rise so far, `work_of_ends` [J] what the pressure at open
+  /// ends has done. Warns when an error passes its limit. Of a
   /// rise of energy it does not warn as long as that would lift the water's surface by less than a tenth of dx: so well
   /// a lattice that was cut by walls knows where it comes to rest. Throws SolverError, which names the key, beyond a
   /// limit that ends the run.
-  void check(double time, double energy_rise, const FlowMeasures& measures);
+  void check(double time, double energy_rise, double work_of_ends, const FlowMeasures& measures);
   /// Warns again of what has grown since it was warned of. Call at the end of the run.
   void warn_of_largest();
 

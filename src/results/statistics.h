@@ -20,6 +20,8 @@ class RunStatistics {
 
   /// J; largest rise of the energy, open ends and walls accounted for.
   double energy_rise() const { return energy_rise_; }
+  /// J; of the pressure at open ends.
+  double work_of_ends() const { return brought_by_ends_; }
 
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
   Json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;

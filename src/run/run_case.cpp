@@ -115,7 +115,7 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
     findings = check_geometry(spec, boundary, fluid);
   }
   Findings errors;
-  for (const Finding& finding : spec.sources.located(findings)) {
+  for (const Finding& finding : merge_alike(spec.sources.located(findings))) {
     if (finding.severity == Severity::error) {
       errors.push_back(finding);
     } else if (warnings == CaseWarnings::told) {

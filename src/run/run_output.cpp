@@ -18,6 +18,7 @@
 #include "results/probe_results.h"
 #include "results/provenance.h"
 #include "results/summary_file.h"
+#include "results/unresolved.h"
 #include "run/estimate.h"
 #include "walls/hidden_pairs.h"
 
@@ -246,7 +247,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   record_probes(flow, measures, report.dt);
   progress_.show(flow.state.time, flow.state.step, report, measures);
   try {
-    limits_.check(flow.state.time, statistics_.energy_rise(), measures);
+    limits_.check(flow.state.time, statistics_.energy_rise(), statistics_.work_of_ends(), measures);
   } catch (const SolverError&) {
     write_fields(flow);
     frames_.write(flow);
@@ -281,6 +282,9 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   do_on_root(ranks_, [this] { step_log_->csv().require_in_place(); });
   limits_.warn_of_largest();
   for (const auto& part : flow.parts) part->warn_at_end(flow);
+  do_on_root(ranks_, [&] {
+    for (const std::string& line : unresolved_surfaces(spec_, folder_)) warn(line);
+  });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
   tell_results();

@@ -102,6 +102,50 @@ def read_page(page, dimension):
     return types
 
 
+# A solitary wave of 0.6 spacings.
+LOW_WAVE = """
+[particles]
+spacing = 0.05
+[[fluid]]
+min = [0, 0]
+max = [3, 0.4]
+[[wall]]
+name = "channel"
+points = [[-0.4, 1], [-0.4, 0], [3, 0], [3, 1]]
+[[wave_maker]]
+name = "piston"
+from = [0, 0]
+to = [0, 1]
+depth = 0.4
+waves = "solitary"
+height = 0.03
+[time]
+end = 3
+[[probe]]
+name = "g1"
+type = "depth"
+at = [0.5, 0]
+[[probe]]
+name = "g2"
+type = "depth"
+at = [0.7, 0]
+"""
+
+
+class UnresolvedSurfaces(ProgramTest):
+    def test_waves_lower_than_two_spacings_and_films_are_told(self):
+        (self.folder / "wave.toml").write_text(LOW_WAVE)
+        told = self.call("run", "wave.toml", "--out", "wave").stderr
+        self.assertRegex(told, r"warning: .*wave_maker 'piston': height = 0.03 m is 0.6 spacings: waves lower than 2")
+        self.assertRegex(told, r"warning: at probes 'g1', 'g2' the surface moved by 0.0\d+ m or less, 0.\d+ spacings: waves")
+        self.assertEqual(len(self.summary("wave")["warnings"]), 2, told)
+        film = self.call("run", "small.toml", "--out", "film", "--set", "probe.depth.at=[1.3,0]", "--set",
+                         "time.end=0.25").stderr
+        self.assertRegex(film, "at probe 'depth' the largest depth was 0.[01]\\d* m or less, .* spacings: films of less than 2")
+        high = self.call("run", "wave.toml", "--out", "high", "--set", "wave_maker[0].height=0.12").stderr
+        self.assertNotIn("resolved", high)
+
+
 class ProbeOutput(ProgramTest):
     def page(self, dimension):
         return read_page(self.call("run", "--help-case=probes").stdout, dimension)

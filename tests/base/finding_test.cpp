@@ -50,5 +50,20 @@ TEST(CaseError, ShowsTheFirstFiftyFindings) {
   EXPECT_EQ(error.findings().size(), 52u);
 }
 
+TEST(MergeAlike, NamesAllTablesThatHaveTheSameFinding) {
+  const auto hose = [](const std::string& name, double x, double depth) {
+    return Finding::warning(
+        {"{} is {:.2g} deep at {}", CaseLabel("inlet", name), Amount{depth, "m"}, MarkedPlace{{x, 0.0, 0.0}, 2}},
+        {"use a smaller spacing"});
+  };
+  const Findings merged =
+      merge_alike({hose("a", 1.0, 0.1), hose("b", 2.0, 0.1), hose("c", 3.0, 0.2), hose("d", 4.0, 0.1)});
+  ASSERT_EQ(merged.size(), 2u);
+  EXPECT_EQ(merged[0].message(),
+            "inlet 'a' is 0.1 m deep at (1, 0) (likewise inlet 'b', inlet 'd'); use a smaller spacing");
+  EXPECT_EQ(merged[0].places.size(), 3u);
+  EXPECT_EQ(merged[1].message(), hose("c", 3.0, 0.2).message());
+}
+
 }  // namespace
 }  // namespace tailwater

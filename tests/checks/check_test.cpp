@@ -9,6 +9,7 @@
 #include "checks/check.h"
 #include "checks/checks.h"
 #include "geometry/cases.h"
+#include "support/circle.h"
 
 namespace tailwater {
 namespace {
@@ -139,12 +140,106 @@ TEST(Check, RoughnessLargerThanTheSpacing) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+TEST(Check, RoughnessBeyondTheLawOfRoughWalls) {
+  CaseSpec spec = tank();  // dx = 0.1 m, water 0.4 m deep
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].manning = 0.1;
+  expect_only(check(spec), Severity::error,
+              {"k_s = 267 m", "15 spacings", "k_s/30 = 8.89 m", "manning = 0.0421 or less"});
+  spec.walls[0].manning = 0.0;
+  spec.walls[0].roughness = 0.5;
+  expect_only(check(spec), Severity::error,
+              {"k_s = 0.5 m", "than the water is deep, 0.4 m", "roughness of at most 0.396 m"});
+  spec.walls[0].roughness = 0.3;
+  expect_only(check(spec), Severity::warning, {"k_s = 0.3 m", "larger than the spacing"});
+  spec.walls[0].roughness = 0.0;
+  spec.physics.channel_width = 0.6;
+  spec.physics.channel_roughness = 0.4;
+  expect_only(check(spec), Severity::error, {"channel_roughness = 0.4 m", "half of the channel's width, 0.3 m"});
+}
+
 TEST(Check, GapBetweenFluidAndWall) {
   CaseSpec spec = tank();
   spec.fluid = {box_fluid({0.06, 0}, {0.56, 0.4})};
   expect_only(check(spec), Severity::warning, {"gap", "'fluid1'", "'wall1'", "1.10 spacings", "(0.11, "});
   spec.fluid = {box_fluid({0.3, 0}, {0.6, 0.4})};  // on purpose away from the wall
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, RoundBodiesHaveAGapOnlyWhereWaterIsAwayFromAllOfThem) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 2}, {0, 0}, {2, 0}, {2, 2}}),
+                polygon(circle(48, 0.25, {1.013, 0.9}), FluidSide::outside)};
+  spec.fluid = {box_fluid({0, 0}, {2, 1})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.walls[1] = polygon(circle(24, 0.2, {1.0, 1.0}), FluidSide::outside);
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.fluid = {box_fluid({0, 0}, {2, 0.75})};  // 0.05 m under the body
+  expect_only(check(spec), Severity::warning, {"gap between fluid 'fluid1' and wall 'wall2'", "1.5"});
+}
+
+TEST(Check, WaveLowerThanTwoSpacings) {
+  CaseSpec spec = tank();
+  WaveMakerTable maker;
+  maker.name = "piston";
+  maker.from = {0, 0};
+  maker.to = {0, 1};
+  maker.depth = 0.4;
+  maker.height = 0.19;
+  maker.period = 2.0;
+  spec.wave_makers = {maker};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const auto fluid = make_fluid_particles<2>(spec, boundary);
+  expect_only(check_wave_makers<2>(spec, fluid), Severity::warning,
+              {"height = 0.19 m is 1.9 spacings", "2 spacings are not resolved", "at most 0.094 m"});
+  spec.wave_makers[0].height = 0.2;
+  EXPECT_TRUE(check_wave_makers<2>(spec, fluid).empty());
+}
+
+/// A floating box from `left` to `right` [m] between walls at 0 and 2 m.
+CaseSpec box_between_walls(double left, double right) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 2}, {0, 0}, {2, 0}, {2, 2}}),
+                box_wall({left, 0.7}, {right, 1.1}, {}, FluidSide::outside)};
+  spec.walls[1].name = "hull";
+  spec.fluid = {box_fluid({0, 0}, {2, 0.6})};
+  BodyTable body;
+  body.name = "b";
+  body.walls = {"hull"};
+  body.mass = 400.0 * (right - left);
+  body.centre = {0.5 * (left + right), 0.9};
+  body.inertia = {0.1 * body.mass};
+  body.free = {"x", "y", "rotation"};
+  body.velocity = {0.0, 0.0};
+  spec.bodies = {body};
+  spec.walls[1].drive = {Drive::By::body, 0};
+  return spec;
+}
+
+TEST(Check, BodyThatLetsNoWaterPass) {
+  const CaseSpec narrow = box_between_walls(0.02, 1.98);
+  expect_only(check_body_gaps<2>(narrow, make_boundary<2>(narrow)), Severity::error,
+              {"body 'b' has gaps", "together 0.04 m", "wall 'wall1'", "0.8 spacings", "leave 0.151 m", "0.0132 m"});
+  CaseSpec touching = box_between_walls(0.0, 2.0);
+  expect_only(check_body_gaps<2>(touching, make_boundary<2>(touching)), Severity::error,
+              {"together 0 m", "leave 0.151 m"});
+  touching.air.pockets = AirPockets::adiabatic;
+  EXPECT_TRUE(check_body_gaps<2>(touching, make_boundary<2>(touching)).empty());
+  for (const CaseSpec& good :
+       {box_between_walls(0.02, 1.84), box_between_walls(0.08, 1.92), box_between_walls(0.02, 1.0)}) {
+    EXPECT_TRUE(check_body_gaps<2>(good, make_boundary<2>(good)).empty());
+  }
+}
+
+TEST(Check, BodyThatIsTooLight) {
+  CaseSpec spec = box_between_walls(0.5, 1.0);
+  spec.bodies[0].mass = 1.0;
+  spec.bodies[0].inertia = {0.03};
+  expect_only(
+      check_bodies<2>(spec, make_boundary<2>(spec)), Severity::error,
+      {"body 'b': mass = 1 kg", "a draught of 0.002 m", "0.05 spacings", "at least 1.26 kg", "at most 0.0396 m"});
+  spec.bodies[0].mass = 1.3;
+  EXPECT_TRUE(check_bodies<2>(spec, make_boundary<2>(spec)).empty());
 }
 
 TEST(Check, WallThatCrossesItself) {

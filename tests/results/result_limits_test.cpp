@@ -16,9 +16,11 @@ class Limits {
  public:
   Limits() : flow_(make_flow<2>(pond_case<2>())), limits_(LimitsTable{}, flow_), before_(warnings().size()) {}
 
-  void rise_to(double share) {
+  /// Open ends have done `work` of the same unit.
+  void rise_to(double share, double work = 0.0) {
     const double mass = fluid_sums_of_rank(flow_).mass;
-    limits_.check(flow_.state.time, share * 0.5 * mass * flow_.setup.gravity.norm() * flow_.setup.length, {});
+    const double unit = 0.5 * mass * flow_.setup.gravity.norm() * flow_.setup.length;
+    limits_.check(flow_.state.time, share * unit, work * unit, {});
   }
   double rows() const { return flow_.setup.length / flow_.setup.scale.spacing; }
   ResultLimits& limits() { return limits_; }
@@ -38,6 +40,17 @@ TEST(ResultLimits, IsSilentOfWhatTheLatticeDoesNotResolve) {
   EXPECT_EQ(run.count(), 0U);
   run.rise_to(1.01 * harmless);
   EXPECT_EQ(run.count(), 1U);
+}
+
+// A space that fills through an end that does 20 times the energy of the start.
+TEST(ResultLimits, ComparesARiseWithTheWorkOfOpenEnds) {
+  Limits run;
+  run.rise_to(1.0, 20.0);
+  run.limits().warn_of_largest();
+  EXPECT_EQ(run.count(), 0U);
+  run.rise_to(4.2, 20.0);
+  ASSERT_EQ(run.count(), 1U);
+  EXPECT_NE(warnings().back().find("by 20 %"), std::string::npos) << warnings().back();
 }
 
 TEST(ResultLimits, TellsInTheEndWhatTheEnergyRoseTo) {

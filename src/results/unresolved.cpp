@@ -1,0 +1,75 @@
+#include "results/unresolved.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "case/probe_columns.h"
+#include "motion/wave_maker.h"
+#include "results/probe_table.h"
+
+namespace tailwater {
+namespace {
+
+/// dx; a surface that moves less is taken to be at rest.
+constexpr double least_motion = 0.25;
+
+/// Probes with a height each, of which the largest is told.
+struct Gauges {
+  std::vector<std::string> names;
+  double largest = 0.0;  ///< m
+
+  void add(const std::string& name, double height) {
+    names.push_back(fmt::format("'{}'", name));
+    largest = std::max(largest, height);
+  }
+  std::string text() const {
+    return fmt::format("{} {}", names.size() == 1 ? "probe" : "probes", fmt::join(names, ", "));
+  }
+};
+
+/// The column "connected" of a probe of depth or run-up; without numbers if it has none.
+ColumnDigest connected_surface(const ProbeTable& probe, const CaseSpec& spec, const RunFolder& folder) {
+  const std::vector<OutputColumn> columns = columns_of(probe, spec.general.dimension);
+  const auto column = std::ranges::find(columns, std::string_view("connected"), &OutputColumn::name);
+  if (column == columns.end()) return {};
+  const TableDigest table = digest_probe_table(folder.probe(probe.name), 0.0);
+  const auto place = std::ranges::find(table.names, column->heading);
+  return place == table.names.end() ? ColumnDigest() : table.columns[place - table.names.begin()];
+}
+
+}  // namespace
+
+std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder) {
+  const double dx = spec.particles.spacing;
+  const double lowest = lowest_resolved_wave * dx;
+  const bool has_waves =
+      std::ranges::any_of(spec.wave_makers, [](const WaveMakerTable& maker) { return maker.waves != WaveKind::none; });
+  Gauges waves, films;
+  for (const ProbeTable& probe : spec.probes) {
+    if (probe.type != ProbeType::depth && probe.type != ProbeType::run_up) continue;
+    const ColumnDigest surface = connected_surface(probe, spec, folder);
+    if (surface.count == 0) continue;
+    const double motion = surface.largest - surface.least;
+    if (probe.type == ProbeType::depth && surface.largest > 0.0 && surface.largest < lowest) {
+      films.add(probe.name, surface.largest);
+    } else if (has_waves && motion > least_motion * dx && motion < lowest) {
+      waves.add(probe.name, motion);
+    }
+  }
+  std::vector<std::string> lines;
+  const auto add_line = [&](const Gauges& gauges, std::string_view what, std::string_view thing) {
+    if (gauges.names.empty()) return;
+    lines.push_back(fmt::format(
+        "at {} {} {:.3g} m or less, {:.2g} spacings: {} of less than {:g} spacings are not resolved; remedy: use a "
+        "spacing of at most {:.3g} m",
+        gauges.text(), what, gauges.largest, gauges.largest / dx, thing, lowest_resolved_wave,
+        0.99 * gauges.largest / lowest_resolved_wave));
+  };
+  add_line(waves, "the surface moved by", "waves");
+  add_line(films, "the largest depth was", "films");
+  return lines;
+}
+
+}  // namespace tailwater
