@@ -147,8 +147,8 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
       "and smaller steps)\n",
       estimate.steps, readable_duration(estimate.seconds),
       !estimate.is_from_tank ? "the case"
-      : estimate.grows_much ? "a tank of as much water, because most of it comes in later: a first guess"
-                            : "a tank of about 10000 particles, because the case is large: a first guess");
+      : estimate.grows_much  ? "a tank of as much water, because most of it comes in later: a first guess"
+                             : "a tank of about 10000 particles, because the case is large: a first guess");
   if constexpr (Dim == 3) print_sections(spec);
   if (options.draws_nothing) return;
   const Boundary<Dim> drawn = make_boundary<Dim>(spec);
