@@ -23,8 +23,11 @@ struct Basin {
 
 template <int Dim>
 Basin basin_of(const Boundary<Dim>& boundary, const std::vector<ChannelEnd<Dim>>& ends, const Vec<Dim>& up) {
-  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
-  for (const ChannelEnd<Dim>& end : ends) box.extend(end.low);
+  Eigen::AlignedBox<double, Dim> box;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    if (!boundary.walls[face.wall].is_duct) box.extend(face.box());
+  }
+  for (const ChannelEnd<Dim>& end : ends) box.extend(end.on_mouth(end.low));
   int axis = 0;
   up.cwiseAbs().maxCoeff(&axis);
   Vec<Dim> sides = box.sizes();

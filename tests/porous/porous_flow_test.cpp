@@ -211,7 +211,7 @@ TEST(PorousTank2D, RefusesALayerOutsideOfTheCase) {
       << refusal_of(spec);
 }
 
-TEST(PorousTank2D, RefusesALayerAtAnOpenEnd) {
+TEST(PorousTank2D, RefusesALayerBeyondAnOpenEnd) {
   CaseSpec spec = tank_case<2>(0.05, 1.0, 0.5);
   spec.walls[0].open = {"+y", "+x"};
   OutletTable outlet;
@@ -221,9 +221,9 @@ TEST(PorousTank2D, RefusesALayerAtAnOpenEnd) {
   outlet.direction = {1.0, 0.0};
   outlet.level = 0.5;
   spec.outlets = {outlet};
-  spec.porous = {layer_of({0.3, 0.0}, {0.6, 1.0}, 0.4, 1.0)};
+  spec.porous = {layer_of({0.3, 0.0}, {1.0, 1.0}, 0.4, 1.0)};
   EXPECT_EQ(refusal_of(spec), "");
-  spec.porous[0].max[0] = 0.8;
+  spec.porous[0].max[0] = 1.2;  // beyond the opening
   EXPECT_NE(refusal_of(spec).find("outlet 'end': a porous layer is at"), std::string::npos) << refusal_of(spec);
 }
 
