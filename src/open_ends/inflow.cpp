@@ -18,8 +18,10 @@ constexpr double first_entry = 0.5;
 /// very plane would leave and enter again with every tremble of water at rest.
 constexpr double least_entry = 0.25;
 
-/// [dx]; from other water, at which a particle stands at least that comes in where a level is prescribed.
-constexpr double closest_entry = 0.7;
+/// [dx] from other water, at which a particle that comes in stands at least; and the least free volume of its row, over
+/// its own. A row of an even lattice that has just room has half of it free.
+constexpr double closest_entry = 0.85;
+constexpr double least_free_volume = 0.25;
 
 /// A particle that comes in.
 template <int Dim>
@@ -69,6 +71,17 @@ class EntryLattice {
       }
     }
   }
+  /// Calls with the two cells between whose middles a place is, and with the share of each in it.
+  template <class Body>
+  void for_rows_around(const Vec<Dim>& x, Body&& body) const {
+    const std::size_t c = rows_.empty() ? 0 : end_.column_at(x);
+    if (rows_.empty() || rows_[c] == 0) return;
+    const double place = std::clamp(end_.height_in(c, x) / height_[c] - 0.5, 0.0, static_cast<double>(rows_[c] - 1));
+    const auto row = static_cast<std::size_t>(place);
+    const double share = place - static_cast<double>(row);
+    body(first_[c] + row, 1.0 - share);
+    if (share > 0.0) body(first_[c] + row + 1, share);
+  }
 
  private:
   std::size_t column_of(std::size_t cell) const {
@@ -96,7 +109,26 @@ std::vector<double> free_lengths(const OpenEnd<Dim>& end, const EntryLattice<Dim
   return length;
 }
 
-/// Takes out what would stand too near to other water, as where water has left its row. All ranks find the same.
+/// How much less water than its volume [m^Dim] each row of the buffer holds, over all ranks, weighted by a share that
+/// falls from 1 at the opening to 0 where the buffer begins. In a lattice whose first column stands one spacing behind
+/// the opening half a particle is missing.
+template <int Dim>
+std::vector<double> free_volumes(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> volume(lattice.size(), 0.0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: several may stand in a row
+    const Vec<Dim>& x = particles.position[i];
+    if (!particles.is_fluid(i) || !end.holds(x)) continue;
+    const double weighted = particles.volume[i] * (1.0 + end.opening.beyond(x) / end.stretch);
+    lattice.for_rows_around(x, [&](std::size_t cell, double share) { volume[cell] -= share * weighted; });
+  }
+  flow.setup.ranks.sum_of_each(volume);
+  for (std::size_t cell = 0; cell < volume.size(); ++cell) volume[cell] += 0.5 * lattice.area(cell) * end.stretch;
+  return volume;
+}
+
+/// Takes out what would stand too near to other water, or in a row that is full of it, as where water has left its row.
+/// All ranks find the same.
 template <int Dim>
 void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, const Flow<Dim>& flow,
                     std::vector<std::optional<Entrant<Dim>>>& of_cell) {
@@ -110,8 +142,11 @@ void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, c
     });
   }
   flow.setup.ranks.least_of_each(nearest);
+  const std::vector<double> free = free_volumes(end, lattice, flow);
   for (std::size_t cell = 0; cell < nearest.size(); ++cell) {
-    if (nearest[cell] < closest_entry * end.spacing) of_cell[cell].reset();
+    std::optional<Entrant<Dim>>& entrant = of_cell[cell];
+    const bool has_room = nearest[cell] >= closest_entry * end.spacing;
+    if (entrant && (!has_room || free[cell] < least_free_volume * entrant->volume)) entrant.reset();
   }
 }
 
@@ -135,7 +170,7 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
     if (end.opening.normal.dot(velocity) >= 0.0 || (end.holds_level() && pressure <= 0.0)) continue;
     of_cell[cell] = {position, velocity, pressure, volume ? *volume : lattice.area(cell) * length};
   }
-  if (end.holds_level()) remove_crowded(end, lattice, flow, of_cell);
+  remove_crowded(end, lattice, flow, of_cell);
   std::vector<Entrant<Dim>> entrants;
   for (const std::optional<Entrant<Dim>>& entrant : of_cell) {
     if (entrant) entrants.push_back(*entrant);

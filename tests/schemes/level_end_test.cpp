@@ -105,7 +105,7 @@ void expect_follows(const CaseSpec& spec, const Varying& level, double rate, dou
   const double calm = duration + 8.0 * length / std::sqrt(g * at_rest);
   double mean = 0.0;
   int count = 0;
-  while (flow.state.time < calm + 1.0) {
+  while (flow.state.time < calm + 3.0) {
     pass_and_step(flow);
     if (flow.state.time < calm) continue;
     mean += depth_away_from_end(flow);
@@ -123,11 +123,13 @@ TEST(OpenEnd, ATankFollowsAnySeriesOfLevels) {
   expect_follows<2>(spec, Varying("0.5 + 0.1*sin(1.5*min(t, 8*atan(1)/1.5))"), 0.15, 6.0, 0.5);
 }
 
-/// A level that steps in the middle of a run, up and far down: the tank overshoots, comes back to it within three
-/// seconds, which are some six ways of a wave through it, and stays.
+/// A level that steps in the middle of a run, up and far down, and lets waves out: the tank overshoots, comes back to
+/// it within three seconds, which are some six ways of a wave through it, and stays.
 TEST(OpenEnd, ATankComesToALevelThatSteps) {
   const TimeFunction asked(Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4"), {});
-  Flow<2> flow = make_flow<2>(tank_with_level(0.5, Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4")));
+  CaseSpec spec = tank_with_level(0.5, Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4"));
+  spec.outlets[0].absorbing = 1.0;
+  Flow<2> flow = make_flow<2>(spec);
   start(flow);
   while (flow.state.time < 10.0) {
     pass_and_step(flow);
@@ -283,7 +285,7 @@ TEST(OpenEnd, ARiverRunsIntoARisingSea) {
     start(flow);
     while (flow.state.time < 5.0) {
       pass_and_step(flow);
-      ASSERT_LT(measure(flow).density_error_rms, 0.03) << "t = " << flow.state.time;
+      ASSERT_LT(measure(flow).density_error_rms, 0.02) << "t = " << flow.state.time;
     }
     EXPECT_NEAR(mean_depth(flow, length), 0.49, dx);
     const OpenEnd<2>& end = flow.part<OpenEnds<2>>().ends()[1];
