@@ -54,10 +54,10 @@ std::vector<std::int64_t> numbers_of(const std::vector<AirPocket>& pockets) {
 }  // namespace
 
 template <int Dim>
-AirWatch<Dim>::AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>& box,
-                        const PeriodicDomain<Dim>& domain)
+AirWatch<Dim>::AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts,
+                        const Eigen::AlignedBox<double, Dim>& box, const PeriodicDomain<Dim>& domain)
     : law_(spec.air), spacing_(spec.particles.spacing), starts_(spec.pockets), vents_(spec.vents) {
-  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec, ducts)) {
     const Vec<Dim> middle = end.low + 0.5 * (end.height * end.rise + end.width * end.aside);
     ends_.push_back({end.opening, middle - spacing_ * end.opening.normal, end.flow.feeds()});
   }

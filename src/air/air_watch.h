@@ -101,7 +101,8 @@ class AirWatch {
   /// Of a case in which enclosed air is nothing.
   AirWatch() = default;
   /// Of walls that all are within `box` during the whole run.
-  AirWatch(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>& box, const PeriodicDomain<Dim>& domain);
+  AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, const Eigen::AlignedBox<double, Dim>& box,
+           const PeriodicDomain<Dim>& domain);
 
   bool is_on() const { return grid_ != nullptr; }
   const GasLaw& law() const { return law_; }

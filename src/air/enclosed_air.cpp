@@ -58,7 +58,7 @@ std::vector<VentPlace<Dim>> make_vents(const CaseSpec& spec, const Boundary<Dim>
 
 template <int Dim>
 EnclosedAir<Dim>::EnclosedAir(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary)
-    : watch(spec, box_of_run(spec, setup, boundary), setup.domain),
+    : watch(spec, boundary.ducts, box_of_run(spec, setup, boundary), setup.domain),
       vents_(make_vents(spec, boundary)),
       starts_at_pressure_(!spec.pockets.empty()) {}
 

@@ -48,7 +48,7 @@ CaseLabel nearest_label(const Boundary<Dim>& boundary, const std::vector<Opening
 
 /// Adds the lowest cells inside of the ends through which water comes in.
 template <int Dim>
-void add_cells_at_ends(const CaseSpec& spec, const CellSpace<Dim>& space,
+void add_cells_at_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const CellSpace<Dim>& space,
                        std::vector<typename CellSpace<Dim>::Cell>& cells) {
   const double step = space.edge();
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
@@ -56,7 +56,9 @@ void add_cells_at_ends(const CaseSpec& spec, const CellSpace<Dim>& space,
     for (double aside = 0.5 * std::min(step, end.width); aside < end.width; aside += step) {
       for (double above = 0.5 * std::min(step, end.height); above < end.height; above += step) {
         const Vec<Dim> place = end.on_mouth(Vec<Dim>(end.low + above * end.rise + aside * end.aside));
-        if (!end.mouth.spans(place)) continue;  // below the bed
+        const Vec<Dim> before = place - step * end.mouth.normal;
+        const bool is_below_bed = !end.mouth.spans(place) || boundary.nearest(before, step).signed_distance < 0.0;
+        if (is_below_bed) continue;
         if (const auto inside = cell_inside(space, end.mouth, place)) cells.push_back(*inside);
         break;
       }
@@ -73,7 +75,7 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
   const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), most_cells_of_case);
   std::vector<typename CellSpace<Dim>::Cell> wet = cells_of<Dim>(space, fluid);
-  add_cells_at_ends(spec, space, wet);
+  add_cells_at_ends(spec, boundary, space, wet);
   const Spread<Dim> reached = spread(space, wet, Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return water_behind(boundary, reached);
   return {Finding::error({"the water would pour out of the case at {}, near {}", place(*reached.way_out),

@@ -12,7 +12,8 @@ namespace {
 /// [dx]; walls of which so much lies beside an edge of the rim close it. Of shorter edges they close half.
 constexpr double least_closed = 2.0;
 constexpr double march = 0.25;         // dx; with which walls that lead on are followed
-constexpr double looking_away = -0.1;  // cosine between a wall's normal and the way inwards
+constexpr double looking_away = -0.6;  // cosine between a wall's normal and the way inwards
+constexpr double led_straight = 1.0;   // dx; walls that lead to an opening are no farther from straight, a lead away
 constexpr double exact = 1e-9;         // dx; to which their ends are found: much finer than what counts as one corner
 
 /// Where walls are beside the rim of one opening, and how far they lead on along its normal.
@@ -20,7 +21,11 @@ template <int Dim>
 class Rim {
  public:
   Rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& mouth)
-      : spec_(spec), boundary_(boundary), mouth_(mouth), dx_(spec.particles.spacing), length_(duct_length(spec)) {}
+      : spec_(spec),
+        boundary_(boundary),
+        mouth_(mouth),
+        dx_(spec.particles.spacing),
+        length_(duct_length(spec) - (is_led_to() ? lead_over_spacing * dx_ : 0.0)) {}
 
   /// The wall beside a place on the rim, from which the inside lies in the direction `inwards`; no face if the rim is
   /// open there. A bank that the top of a river's section meets looks the other way.
@@ -71,6 +76,20 @@ class Rim {
   const Opening<Dim>& mouth() const { return mouth_; }
 
  private:
+  /// Whether the walls beside the rim come to it straight, from a lead inside: water that leaves does not turn there.
+  bool is_led_to() const {
+    bool is_closed_somewhere = false;
+    for (const Vec<Dim>& x : mouth_.rim()) {
+      const NearestWall<Dim> beside = wall_at(x, Vec<Dim>::Zero());
+      if (beside.face < 0) continue;
+      is_closed_somewhere = true;
+      for (const double share : {0.5, 1.0}) {
+        const Vec<Dim> inside = beside.point - share * lead_over_spacing * dx_ * mouth_.normal;
+        if (boundary_.nearest(inside, share * led_straight * dx_).face < 0) return false;
+      }
+    }
+    return is_closed_somewhere;
+  }
   /// Whether a wall is beside the place that is `distance` farther out, and not only behind it.
   bool is_beside_wall(const Vec<Dim>& x, double distance) const {
     const Vec<Dim> there = x + distance * mouth_.normal;
@@ -178,9 +197,10 @@ void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary) {
     if (mouth.meets_air) continue;
     const int wall = static_cast<int>(boundary.walls.size());
     boundary.walls.push_back({.name = mouth.name, .kind = mouth.label().table, .is_duct = true});
-    append_walls(Rim<Dim>(spec, boundary, mouth), wall, spec.particles.spacing, boundary);
-    boundary.ducts.push_back({mouth, duct_length(spec)});
-    for (const WallFace<Dim>& face : mouth.moved_out(duct_length(spec)).as_faces()) boundary.continued.push_back(face);
+    const Rim<Dim> rim(spec, boundary, mouth);
+    append_walls(rim, wall, spec.particles.spacing, boundary);
+    boundary.ducts.push_back({mouth, rim.length()});
+    for (const WallFace<Dim>& face : mouth.moved_out(rim.length()).as_faces()) boundary.continued.push_back(face);
   }
 }
 

@@ -8,10 +8,11 @@
 
 namespace tailwater {
 
-/// [dx]; along a duct before its buffer zone. Free jets are removed so far beyond their opening.
+/// [dx]; along a duct before its buffer zone, if the walls of the case do not lead to the opening straight for as long: a
+/// flow that turns into a hole contracts there. Free jets are removed so far beyond their opening.
 inline constexpr double lead_over_spacing = 6.0;
 
-/// m; a whole number of spacings
+/// m; of a duct with a lead, a whole number of spacings
 double duct_length(const CaseSpec& spec);
 
 /// [dx]; walls at most so far from the rim of an opening are beside it. A polygon may stand for a curve.

@@ -251,7 +251,7 @@ double ChannelEnd<Dim>::largest_depth(double end_time) const {
 }
 
 template <int Dim>
-std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
+std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec, std::span<const Duct<Dim>> ducts) {
   const NamedNumbers numbers = named_numbers(spec);
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   std::vector<ChannelEnd<Dim>> ends;
@@ -270,7 +270,11 @@ std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec) {
       flow.level = time_function(table.level, table.series, 0, numbers, names_of_level(numbers));
       flow.absorbing = table.absorbing;
     }
-    const double duct = opening.meets_air ? 0.0 : duct_length(spec);
+    double duct = opening.meets_air ? 0.0 : duct_length(spec);
+    if (!ducts.empty() && !opening.meets_air) {
+      duct = ducts.front().length;
+      ducts = ducts.subspan(1);
+    }
     ends.emplace_back(opening, std::move(flow), gravity, spec.particles.spacing, duct);
     if (opening.meets_air) ends.back().far_out = lead_over_spacing * spec.particles.spacing;
   }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "case/time_function.h"
+#include "geometry/boundary.h"
 #include "geometry/opening.h"
 
 namespace tailwater {
@@ -90,8 +92,9 @@ struct ChannelEnd {
   double largest_depth(double end_time) const;
 };
 
-/// The inlets of a case, then its outlets. Throws InputError as make_open_ends does.
+/// The inlets of a case, then its outlets, at the ends of the `ducts` of its boundary, or of the longest that there can
+/// be. Throws InputError as make_open_ends does.
 template <int Dim>
-std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec);
+std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec, std::span<const Duct<Dim>> ducts = {});
 
 }  // namespace tailwater

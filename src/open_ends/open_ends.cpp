@@ -246,7 +246,7 @@ template <int Dim>
 std::unique_ptr<Part<Dim>> make_open_ends_part(const CaseSpec& spec, const Setup<Dim>& setup,
                                                const Boundary<Dim>& boundary) {
   std::vector<OpenEnd<Dim>> ends;
-  for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+  for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec, boundary.ducts)) {
     ends.emplace_back(std::move(end), setup.gravity, setup.scale.spacing,
                       traits_of(spec).support * setup.scale.spacing);
     ends.back().reach = reach_of(ends.back().opening, boundary);

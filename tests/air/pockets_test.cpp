@@ -173,10 +173,10 @@ TEST(Pockets, MoreSpaceThanMemoryIsRefused) {
   CaseSpec spec;
   spec.particles.spacing = dx;
   spec.air.pockets = AirPockets::adiabatic;
-  EXPECT_NO_THROW(AirWatch<2>(spec, {Vec<2>::Zero(), Vec<2>::Ones()}, {}));
+  EXPECT_NO_THROW(AirWatch<2>(spec, {}, {Vec<2>::Zero(), Vec<2>::Ones()}, {}));
   for (const double length : {1e5, 1e15, 1e100}) {
     const Eigen::AlignedBox<double, 2> box(Vec<2>::Zero(), Vec<2>::Constant(length));
-    EXPECT_THROW(AirWatch<2>(spec, box, {}), InputError) << length;
+    EXPECT_THROW(AirWatch<2>(spec, {}, box, {}), InputError) << length;
   }
 }
 

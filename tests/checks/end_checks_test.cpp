@@ -89,7 +89,7 @@ TEST(EndChecks, DuctsDoNotMeet) {
   spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.3, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
   spec.outlets = {outlet({1.0, 0.0}, {1.0, 0.5}), outlet({1.3, 0.0}, {1.3, 0.5})};
   spec.outlets[1].direction = {-1.0, 0.0};
-  spec.fluid = {box_fluid({0.0, 0.0}, {1.0, 0.3})};
+  spec.outlets[0].level = spec.outlets[1].level = Varying{0.3};
   const std::string refused = errors_of(spec);
   EXPECT_NE(refused.find("outlet 'outlet1' and outlet 'outlet2' share the space at (1.1, "), std::string::npos)
       << refused;

@@ -88,8 +88,8 @@ TEST(Ducts, JoinWallsWithoutGapAtAnyAngle) {
     for (const Vec<2>& x : dummies.position) {
       EXPECT_LT(boundary.nearest(x, 1.0).signed_distance, 0.0) << degrees << ": " << x.transpose();
     }
-    for (double x = -0.6; x < 0.6; x += 0.02) {
-      for (double y = -0.6; y < 0.6; y += 0.02) {
+    for (double x = -0.6; x < 0.6; x += 0.03) {
+      for (double y = -0.6; y < 0.6; y += 0.03) {
         const Vec<2> place(x, y);
         const double depth = -boundary.nearest(place, 1.0).signed_distance;
         if (depth < 0.05 || depth > 0.25) continue;
