@@ -220,7 +220,7 @@ void OpenEnds<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& /
                 });
 }
 
-/// Work [J] of the prescribed water in an end stretch on the water that is solved for, as of a wall, and what is done
+/// Work [J] of the prescribed water in a buffer on the water that is solved for, as of a wall, and what is done
 /// on itself.
 template <int Dim>
 double OpenEnds<Dim>::work_of_driven_particle(const Flow<Dim>& flow, std::size_t i, double dt) const {

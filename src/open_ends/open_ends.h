@@ -69,7 +69,7 @@ class OpenEnds final : public Part<Dim> {
   std::vector<OpenEndState> states_;
   std::vector<std::string> warnings_;  ///< kinds of those that were given
   // In one step.
-  std::vector<std::int16_t> end_of_;  ///< the end whose stretch holds each owned particle, or -1
+  std::vector<std::int16_t> end_of_;  ///< the end whose buffer holds each owned particle, or -1
   double driven_change_ = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed
 };
 
