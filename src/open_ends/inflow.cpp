@@ -20,7 +20,7 @@ constexpr double least_entry = 0.25;
 
 /// [dx] from other water, at which a particle that comes in stands at least; and the least free volume of its row, over
 /// its own. A row of an even lattice that has just room has half of it free.
-constexpr double closest_entry = 0.85;
+constexpr double closest_entry = 0.7;
 constexpr double least_free_volume = 0.25;
 
 /// A particle that comes in.
