@@ -73,6 +73,50 @@ TEST(OpenEndsWarning, ReportsADischargeThatIsNotDelivered) {
   EXPECT_NE(warning_of_discharge(-1.0, -1.2).find("inlet 'in' passes more water than prescribed"), std::string::npos);
 }
 
+/// An opening with the section of a valley: columns 0.05 m wide whose bottoms lie on two slopes of 1.
+OpenEnd<3> valley() {
+  const CaseSpec spec = read_case_text(
+      "case.dimension = 3\nparticles.spacing = 0.05\ntime.end = 1\n[[wall]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
+      "max = [1, 1, 1]\nopen = [\"-x\", \"+z\"]\n[[inlet]]\nname = \"in\"\nfrom = [0, 0, 0]\nto = [0, 1, 0.5]\n"
+      "discharge = 0.05\n",
+      "case.toml");
+  ChannelEnd<3> end = make_channel_ends<3>(spec)[0];
+  for (SectionColumn& column : end.columns) column.bottom = std::abs(column.aside - 0.5);
+  return OpenEnd<3>(end, Vec<3>(0.0, 0.0, -9.81), 0.05, 0.15);
+}
+
+TEST(SectionOfAnOpening, DepthAndAreaOfAValley) {
+  const OpenEnd<3> end = valley();
+  for (const double depth : {0.1, 0.25, 0.4}) {
+    EXPECT_NEAR(end.area_below(depth), depth * depth, 0.05 * 0.05 / 4.0 + 1e-12) << "a triangle, in steps";
+    EXPECT_NEAR(end.depth_of_area(end.area_below(depth)), depth, 1e-9);
+  }
+  const double critical = end.critical_depth(0.0);
+  const auto excess = [&](double depth) {
+    return 0.05 * 0.05 * end.breadth_at(depth) - 9.81 * std::pow(end.area_below(depth), 3);
+  };
+  EXPECT_LE(excess(critical + 1e-9), 0.0);
+  EXPECT_GT(excess(critical - 1e-3), 0.0);
+}
+
+/// Whatever the column and the height, fibres of one speed move the buffer as one, and those that become deeper do so
+/// from the bottom of their column.
+TEST(SectionOfAnOpening, FibresOfOneSpeedMoveTheBufferAsOne) {
+  OpenEnd<3> end = valley();
+  end.flow.discharge.reset();
+  OpenEndState state;
+  state.fibre_speeds.assign(end.first_fibre.back(), 0.3);
+  state.stretching = 0.1;
+  const double behind_border = 0.5 * end.stretch;
+  for (const double y : {0.02, 0.31, 0.5, 0.98}) {
+    const Vec<3> x(0.5 * end.stretch, y, 0.49);
+    const Vec<3> u = end.velocity_at(state, x);
+    EXPECT_NEAR(end.opening.normal.dot(u), 0.3 - 0.1 * behind_border, 1e-12);
+    EXPECT_NEAR(u[2], 0.1 * (0.49 - end.columns[end.column_at(x)].bottom), 1e-12);
+    EXPECT_EQ(u[1], 0.0);
+  }
+}
+
 /// Bernoulli from the water at rest, and the characteristic that leaves the case.
 TEST(InflowOfHead, HasTheEnergyOfTheHeadAndTheCharacteristicFromInside) {
   const double g = 9.81;
