@@ -154,7 +154,7 @@ const std::vector<ProbeInfo> of_flow{
      {{"energy", "", "total", last}}},
     {ProbeType::volume,
      "Water in the domain, and water that has passed open ends",
-     {{"particles", number, "number of water particles"},
+     {{"particles", number, "number of water particles, without those in the ducts beyond openings"},
       {"density_error_mean", number, "mean relative density error away from the surface"},
       {"density_error_rms", number, "its root mean square"},
       {"volume_out", volume, "volume that has left through open ends", by_default},

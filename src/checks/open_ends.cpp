@@ -53,7 +53,7 @@ std::vector<Vec<Dim>> closed_rim(const CaseSpec& spec, const Opening<Dim>& end) 
 
 /// m; of a place in the plane of an opening from its rim
 template <int Dim>
-double distance_from_rim(const Opening<Dim>& end, const Vec<Dim>& x) {
+double distance_to_rim(const Opening<Dim>& end, const Vec<Dim>& x) {
   const std::vector<Vec<Dim>> corners = end.rim();
   double distance = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -80,7 +80,7 @@ std::vector<Vec<Dim>> places_beyond(const Opening<Dim>& end, double depth, doubl
     places = std::move(more);
   }
   std::erase_if(places, [&](const Vec<Dim>& x) {
-    return !end.spans(x) || distance_from_rim(end, x) < (1.0 - corner_tolerance) * step;
+    return !end.spans(x) || distance_to_rim(end, x) < (1.0 - corner_tolerance) * step;
   });
   std::vector<Vec<Dim>> beyond;
   for (const Vec<Dim>& out : points_along<Dim>(Vec<Dim>::Zero(), depth * end.normal, step)) {
