@@ -124,7 +124,7 @@ std::vector<RimPiece<3>> rim_of(const WidenedSheet& wide, const std::vector<bool
   return rim;
 }
 
-/// The screens of the triangles of a sheet of wall `wall` whose faces begin at `first_face`, and of what was drawn on.
+/// The screens of the triangles of a sheet, and of the strips that were drawn on.
 std::vector<Screen<3>> screens_of_triangles(const WidenedSheet& wide, const std::vector<bool>& is_free,
                                             const Vec<3>& moved, const WallPlate& plate, double fade) {
   std::vector<Screen<3>> screens;
@@ -281,7 +281,7 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
       for (RimPiece<3>& piece : screens.back().rim) piece = {piece[0] + moved, piece[1] + moved};
     }
   }
-  // What lies exactly behind the rim, as places of a lattice do, is hidden whatever the rounding.
+  // Places exactly behind the rim, such as places of a lattice, are hidden whatever the rounding.
   for (Screen<Dim>& screen : screens) {
     for (std::array<double, 2>& range : screen.range) {
       range[0] -= corner_tolerance * lengths.gap();

@@ -16,7 +16,7 @@ struct Lengths {
   double spacing;
   double reach;
   double gap() const { return 0.5 * spacing; }  ///< an end that is as near to another wall leaves no opening
-  /// What a wall hides fades over this distance on either side of its rim. A pair that appears at once changes the
+  /// Half-width of the fade about the rim of a wall. A pair that appears at once changes the
   /// energy (p_i + p_j) w_i w_j W_ij without work, and still water beside the rim then never comes to rest.
   double fade() const { return spacing; }
   double tolerance() const { return corner_tolerance * spacing; }
