@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "air/pocket_pressure.h"
+#include "base/finding.h"
 #include "base/for_each.h"
 #include "base/saved.h"
 #include "flow/measure.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "io/messages.h"
 
 namespace tailwater {
 
@@ -20,6 +22,9 @@ TAILWATER_SAVED(inline, AirState, pockets, hidden, brought, begun, ended, displa
                 gas_handed_on, gas_vented, energy_lost, energy_vented, energy_set)
 
 namespace {
+
+/// Rows of water whose weight a pressure below 0 may hold before a warning.
+constexpr double min_rows_of_tension = 2.0;
 
 /// Looks at the walls in a run, for the box around all places where they are.
 constexpr int looks_at_moving_walls = 1000;
@@ -87,12 +92,25 @@ AirMeasures EnclosedAir<Dim>::measures() const {
   return air;
 }
 
-/// Throws InputError where the case gives air a pressure and there is none; before a run writes anything.
+/// Throws InputError where the case gives air a pressure and there is none; before a run writes anything. Warns of air
+/// that would pull water which other air presses on.
 template <int Dim>
 void EnclosedAir<Dim>::begin(Flow<Dim>& flow) {
   if (!starts_at_pressure_) return;
-  AirState none;
-  watch.look(flow.walls, {}, flow.state.particles, flow.setup.ranks, none);
+  AirState first;
+  watch.look(flow.walls, {}, flow.state.particles, flow.setup.ranks, first);
+  const double least =
+      -min_rows_of_tension * flow.setup.liquid.density * flow.setup.gravity.norm() * flow.setup.scale.spacing;
+  for (int k = 0; k < static_cast<int>(first.pockets.size()); ++k) {
+    const double pressure = pressure_of(first.pockets[k]);
+    if (pressure >= least || watch.reference_of(k) == k) continue;
+    const Finding finding = Finding::warning(
+        {"air enclosed at the start has {:.4g}, and its water is open to other air; the water between will separate or "
+         "be stirred, because the model sustains no tension there",
+         Amount{pressure, "Pa"}},
+        {"close the space around it, or give it no overpressure below 0"});
+    tailwater::warn(finding.message());
+  }
   watch.forget();
 }
 

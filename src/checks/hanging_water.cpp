@@ -61,7 +61,7 @@ ConnectedWater follow(const CellSpace<Dim>& space, std::size_t first, const Vec<
 template <int Dim>
 Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  if (gravity.isZero(0.0) || fluid.all == 0 || spec.air.pockets != AirPockets::none) return {};
+  if (gravity.isZero(0.0) || fluid.all == 0) return {};
   const CellSpace<Dim> space(spec, faces_with(boundary, make_open_ends<Dim>(spec)), fluid.box(), most_cells_of_case);
   std::vector<bool> is_wet(space.count(), false);
   std::vector<bool> is_known(space.count(), false);
@@ -81,7 +81,7 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
          "model sustains no tension there",
          wall_label(boundary, boundary.faces[connected.face_above].wall),
          place(space.centre(space.cell(connected.cell_below))), Amount{above, "m"}},
-        {"fill it no higher, or set air.pockets, with which most of it stays"}));
+        {"fill it no higher"}));
   }
   return findings;
 }

@@ -320,9 +320,8 @@ TEST(Check, ASiphonThatWouldRunEmpty) {
     spec.fluid.push_back(inside);
   }
   expect_only(check(spec), Severity::warning, {"below wall 'hood'", "0.4 m above its own surface", "siphon"});
-  spec.air.pockets = AirPockets::adiabatic;
-  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
-  spec.air.pockets = AirPockets::none;
+  spec.air.pockets = AirPockets::adiabatic;  // half of it comes down in 2 s
+  expect_only(check(spec), Severity::warning, {"below wall 'hood'", "0.4 m above its own surface", "siphon"});
   spec.fluid = basins;
   spec.fluid.push_back(box_fluid({0.3, 0}, {0.6, 0.5}));
   spec.fluid.push_back(box_fluid({0.9, 0}, {1.2, 0.4}));
