@@ -41,10 +41,10 @@ template <int Dim>
 void require_finite_loads(Flow<Dim>& flow) {
   const ScriptLoads<Dim>& loads = script_loads(flow);
   const auto is_finite = [](const auto& load) { return load.allFinite(); };
-  const Communicator& ranks = flow.setup.ranks;
+  const Communicator& everyone = flow.setup.ranks;
   const char* what = nullptr;
-  if (ranks.any(!std::ranges::all_of(loads.acceleration, is_finite))) what = "body_force";
-  if (ranks.any(!std::ranges::all_of(loads.on_bodies, is_finite))) what = "force or moment on a body";
+  if (everyone.any(!std::ranges::all_of(loads.acceleration, is_finite))) what = "body_force";
+  if (everyone.any(!std::ranges::all_of(loads.on_bodies, is_finite))) what = "force or moment on a body";
   if (what == nullptr) return;
   throw InputError(
       "the script has given at t = {:.6g} s a {} that is not finite; remedy: look for a division by 0 or the root of a "
