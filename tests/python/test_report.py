@@ -15,6 +15,7 @@ from tailwater.report_check import check_report, read_report
 
 SOURCES = Path(__file__).resolve().parents[2] / "src"
 EFFECTIVE = DAM.replace("spacing = 0.1", "spacing = {spacing}\njitter = 0.0\nseed = 1").replace(
+    'name = "tank"', 'name = "tank"\nshape = "polyline"').replace(
     "[time]", '[scheme]\nintegrator = "explicit"\ncourant = 0.55\n[time]').replace("[case]", "[case]\ndimension = 2")
 
 

@@ -502,7 +502,7 @@ spacing = 0.02
         places = [2 * front * shallow_water.front_of(x, h) for x, h, _ in states]
         return self.write_run(
             f"[parameters]\nh0 = 2.0\nh1 = {2 * ahead}\nback = 10.0\nahead = 16.0\n[physics]\ngravity = [0.0, -9.81]\n"
-            f"[particles]\nspacing = 0.1\n[[wall]]\nroughness = {roughness}\n", [(0.0, np.zeros((1, 2)), {})],
+            f"[particles]\nspacing = 0.1\n[[wall]]\nshape = 'polyline'\nroughness = {roughness}\n", [(0.0, np.zeros((1, 2)), {})],
             {"probes/surface.csv": dict(zip(names, np.concatenate(rows).T)),
              "probes/front.csv": {"time_s": scale * np.array(self.LATE_TIMES), "front_m": np.array(places)}})
 
@@ -525,7 +525,7 @@ spacing = 0.02
             places = np.append(np.ones(int(whole)), 0.1 * (rest - 0.5))
             frames.append((T * math.sqrt(2.0 / 9.81), np.column_stack([places, places]), {}))
         return self.write_run("[parameters]\nh0 = 2.0\nh1 = 0.4\nback = 10.0\nahead = 16.0\n[physics]\ngravity = [0.0, -9.81]\n"
-                              "[particles]\nspacing = 0.1\n[[wall]]\nroughness = 0.04\n", frames)
+                              "[particles]\nspacing = 0.1\n[[wall]]\nshape = 'polyline'\nroughness = 0.04\n", frames)
 
     def test_water_that_is_held_back_by_a_known_share_too_much(self):
         rough, free = ([shallow_water.volume_ahead(x, h, 0.2) for x, h, _ in states]
