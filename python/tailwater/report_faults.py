@@ -12,7 +12,7 @@ MIN_SPACINGS = 3
 MESSAGES = {"the energy rose": re.compile(r"energy rose"),
             "the water is too dense or too light": re.compile(r"mean density of the water"),
             "a level is not held": re.compile(r"not hold its level|level at .* not held"),
-            "an open end does not deliver the prescribed discharge": re.compile(r"not bring what it should")}
+            "an open end does not deliver the prescribed discharge": re.compile(r"(brings|draws|passes) (less|more) water than")}
 
 
 def water_of(summary):
