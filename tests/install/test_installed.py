@@ -73,6 +73,8 @@ class Installed(unittest.TestCase):
         for folder in ("out", "study"):
             call("view", folder, "--export", f"{folder}.html")
             self.assertIn("tailwater-data", (self.folder / f"{folder}.html").read_text(encoding="utf-8"))
+        call("report", "study", "--pictures", "0")
+        self.assertIn("<html", (self.folder / "study/dossier.html").read_text(encoding="utf-8"))
         call("export", "out", "--netcdf", "gauges.nc", "--paraview", "state.py")
         survey = write("survey.xyz", "".join(f"{x} {y} {x + y}\n" for x in range(3) for y in range(3)))
         self.assertIn("[[wall]]", call("bed", survey, "--to", "bed.stl"))
