@@ -4,8 +4,8 @@
 Usage: scripts/level_study.py [--absorbing 0,0.3,1] [--set KEY=VALUE ...] [NAME ...]
 
 Needs build/release/bin/tailwater (scripts/build.sh). All of it takes some ten minutes on one core. The reference is the
-shallow-water equations in one dimension (finite volumes, HLL fluxes) with a level that is held at any instant, and with
-the energy of the head where water comes in.
+solution of the shallow-water equations in validation/tailwater_validation/open_basin.py, with a level that is held at any
+instant, and with the energy of the head where water comes in.
 """
 import argparse
 import pathlib
@@ -16,65 +16,23 @@ import tempfile
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "python"))
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "validation")]
 from tailwater import tables  # noqa: E402
+from tailwater_validation.open_basin import WALL, Discharge, Level, basin  # noqa: E402
 
 PROGRAM = ROOT / "build/release/bin/tailwater"
 G = 9.81
 CELLS = 200
-
-
-def state_at_level(head, outgoing):
-    """Depth and speed out at an end with a head above its bed, where the characteristic u + 2c leaves the case."""
-    still = np.sqrt(G * max(head, 0.0))
-    critical = np.sqrt(2 / 3) * still
-    if outgoing >= 2 * still:
-        c = max(still, outgoing / 3)  # at most critical
-    elif outgoing <= critical:
-        return critical**2 / G, -critical
-    else:
-        c = (outgoing + np.sqrt(3 * still**2 - outgoing**2 / 2)) / 3
-    return c * c / G, outgoing - 2 * c
-
-
-def depth_at_discharge(discharge, incoming):
-    """Depth at an end where a discharge comes in and the characteristic u - 2c arrives."""
-    low, high = 1e-6, 10.0
-    for _ in range(60):
-        h = (low + high) / 2
-        low, high = (h, high) if discharge / h - 2 * np.sqrt(G * h) > incoming else (low, h)
-    return h
+INTERVAL = 0.02  # s
 
 
 def shallow_water(length, depth, level, end, speed=0.0, inflow=None):
-    """Times, depth of all cells over time. On the left a wall, or a discharge that comes in; on the right a level."""
-    dx = length / CELLS
-    h, t = np.full(CELLS, float(depth)), 0.0
-    q = h * speed
-    times, depths = [], []
-    while t < end:
-        u, c = q / h, np.sqrt(G * h)
-        dt = 0.45 * dx / np.max(np.abs(u) + c)
-        right, left = [h[:-1], q[:-1]], [h[1:], q[1:]]
-        slow = np.minimum(np.minimum(u[:-1] - c[:-1], u[1:] - c[1:]), 0)
-        fast = np.maximum(np.maximum(u[:-1] + c[:-1], u[1:] + c[1:]), 0)
-
-        def flux(water):
-            return [water[1], water[1]**2 / water[0] + G * water[0]**2 / 2]
-        faces = [np.zeros(CELLS + 1), np.zeros(CELLS + 1)]
-        for k in range(2):
-            faces[k][1:-1] = (fast * flux(right)[k] - slow * flux(left)[k] + slow * fast * (left[k] - right[k])) / (fast - slow)
-        h_end, u_end = (h[-1], u[-1]) if u[-1] > c[-1] else state_at_level(level(t + dt / 2), u[-1] + 2 * c[-1])
-        q_in = inflow(t + dt / 2) if inflow else 0.0
-        h_in = depth_at_discharge(q_in, u[0] - 2 * c[0])
-        for k, (first, last) in enumerate(zip(flux((h_in, q_in)), flux((h_end, h_end * u_end)))):
-            faces[k][0], faces[k][-1] = first, last
-        h = np.maximum(h - dt / dx * np.diff(faces[0]), 1e-3)
-        q = q - dt / dx * np.diff(faces[1])
-        t += dt
-        times.append(t)
-        depths.append(h)
-    return np.array(times), np.array(depths)
+    """Times, and the depth in the middle over time. On the left a wall or a discharge into the case, on the right a level."""
+    unit = np.sqrt(depth / G)  # s
+    ends = (Discharge(lambda t: inflow(t * unit) * unit / depth**2) if inflow else WALL, Level(lambda t: level(t * unit) / depth))
+    times = np.arange(0, end + INTERVAL / 2, INTERVAL)
+    depths, _ = basin(length / depth, 1.0, speed * unit / depth, ends, times / unit, [length / depth / 2], CELLS)
+    return times, depth * depths[:, 0]
 
 
 def case(length, depth, level, end, spacing=0.05, top=1.0, speed=0.0, inflow=None):
@@ -84,7 +42,7 @@ def case(length, depth, level, end, spacing=0.05, top=1.0, speed=0.0, inflow=Non
     return (f"[particles]\nspacing = {spacing}\n[time]\nend = {end}\n[[fluid]]\nmin = [0, 0]\nmax = [{length}, {depth}]\n"
             f'velocity = [{speed}, 0]\n[[wall]]\npoints = {walls}\nfluid_side = "left"\n{fed}'
             f'[[outlet]]\nname = "end"\nfrom = [{length}, 0]\nto = [{length}, {top}]\nlevel = "{level}"\nabsorbing = ABSORBING\n'
-            f'[[probe]]\nname = "depth"\ntype = "depth"\nat = [{length / 2}, 0]\ninterval = 0.02\n')
+            f'[[probe]]\nname = "depth"\ntype = "depth"\nat = [{length / 2}, 0]\ninterval = {INTERVAL}\n')
 
 
 def formula(text):
@@ -116,8 +74,7 @@ def main():
             if arguments.names and name not in arguments.names:
                 continue
             inflow = other.get("inflow")
-            times, depths = shallow_water(length, depth, formula(level), end, other.get("speed", 0.0), inflow and formula(inflow))
-            middle = depths[:, CELLS // 2]
+            times, middle = shallow_water(length, depth, formula(level), end, other.get("speed", 0.0), inflow and formula(inflow))
             means = [middle[abs(times - t) < 0.25].mean() for t in shown]
             print(f"{name} at t = {shown} s\n  shallow water  ", " ".join(f"{h:.3f}" for h in means), f" lowest {middle.min():.3f}, highest {middle.max():.3f}", flush=True)
             for absorbing in arguments.absorbing.split(","):
