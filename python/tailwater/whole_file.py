@@ -10,7 +10,7 @@ __all__ = ["write_whole", "write_whole_text"]
 
 
 def obstacle_at(path: Path) -> str:
-    """What has the place of a file and is not replaced, as "a link"; "" if there is no such thing. As the program has it
+    """Obstacle in the place of a file, which is not replaced, as "a link"; "" if there is none. The program has the same rule
     (src/io/write_file.h)."""
     try:
         found = os.lstat(path)
@@ -33,8 +33,8 @@ def require_replaceable(path: Path):
 
 
 def write_whole(path, write):
-    """`write(part)` writes the file under another name. A killed program leaves no half file. Throws IoError for what is
-    not replaced, and where the file cannot be written."""
+    """`write(part)` writes the file under another name. A killed program leaves no half file. Throws IoError for an
+    obstacle, and where the file cannot be written."""
     path = Path(path)
     part = path.with_name(path.name + ".part")
     for each in (path, part):
@@ -51,5 +51,5 @@ def write_whole(path, write):
 
 
 def write_whole_text(path, text: str):
-    """The same for a text."""
+    """Writes a text as `write_whole` does."""
     write_whole(path, lambda part: part.write_text(text, encoding="utf-8"))
