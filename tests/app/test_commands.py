@@ -263,8 +263,9 @@ class Check(ProgramTest):
         result = self.call("check", "small.toml")
         self.assertEqual(result.stderr, "")
         self.assertIn('small.toml: valid, "Small dam break"', result.stdout)
-        # 10 x 5 of fluid. Walls, three rows: 2 x 3 x 20 at the sides, 3 x (30 + 2 x 3) below, corners included.
-        self.assertIn("particles: 50 fluid, 228 wall, spacing 0.1 m", result.stdout)
+        # 10 x 5 of fluid. Walls, three rows: 2 x 3 x (20 + 3) at the sides, three of them above the free end, and
+        # 3 x (30 + 2 x 3) below, corners included.
+        self.assertIn("particles: 50 fluid, 246 wall, spacing 0.1 m", result.stdout)
         self.assertRegex(result.stdout, r"memory: +about \d+ MB")
         # Steps of at most courant dx / sqrt(2 g H) = 0.55 x 0.1 / sqrt(2 x 9.81 x 0.5) = 17.6 ms, and a flow this slow
         # takes no smaller ones: 0.1 s are 5.69 steps. How long they take depends on what else the machine does.
@@ -367,7 +368,7 @@ class Info(ProgramTest):
         self.call("run", "small.toml", "--out", "run", "--quiet")
         self.assertEqual(json.loads(self.call("info", "run", "--json").stdout), self.summary("run"))
         digest = self.call("info", "run").stdout
-        for part in ("Small dam break\nstatus:    done\nwarnings:  none\n", "particles: 50 fluid, 228 wall",
+        for part in ("Small dam break\nstatus:    done\nwarnings:  none\n", "particles: 50 fluid, 246 wall",
                      "water:     500 kg per m at the start, 0 in, 500 inside, 0 outside, 0 out"):
             self.assertIn(part, digest)
 

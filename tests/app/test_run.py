@@ -65,7 +65,7 @@ class OutputContract(ProgramTest):
         self.assertEqual(summary["case"], "small.toml")
         self.assertEqual((summary["status"], summary["exit_code"], summary["message"]), ("done", 0, ""))
         self.assertEqual(summary["spacing_m"], 0.1)
-        self.assertEqual(summary["particles"], {"fluid": 50, "wall": 228})
+        self.assertEqual(summary["particles"], {"fluid": 50, "wall": 246})
         self.assertEqual(summary["time_s"], {"end": 0.1, "reached": steps[-1][0]})
         self.assertEqual(summary["steps"]["count"], len(steps))
         self.assertEqual(summary["volume"]["fluid_particles_end"], summary["volume"]["fluid_particles_start"])
