@@ -85,7 +85,7 @@ void hand_on(const VoidGrid<Dim>& grid, const SealedSpaces<Dim>& spaces, const G
   state.hidden = std::move(kept);
 }
 
-/// Gives a pocket that begins, or has grown over cells of the water, what it is of its neighbour.
+/// Gives a pocket that begins, or has grown over cells of the water, its part of the neighbour's gas.
 template <int Dim>
 void take_part(const VoidGrid<Dim>& grid, std::size_t n, double volume, const GasLaw& law,
                std::vector<FoundPocket>& found, AirState& state) {

@@ -17,8 +17,8 @@
 namespace tailwater {
 
 /// The exchange after a look for pockets that began when `begun_before` had begun. `volumes` are those of their cells,
-/// to which the volume of a pocket that continues is corrected by the fraction `pace`. What has no pocket in its space
-/// stays in `state.hidden`; what is in no sealed space any more is lost.
+/// to which the volume of a pocket that continues is corrected by the fraction `pace`. Gas without a pocket in its
+/// space stays in `state.hidden`; gas that is in no sealed space any more is lost.
 template <int Dim>
 void exchange_gas(const VoidGrid<Dim>& grid, const SealedSpaces<Dim>& spaces, std::span<const double> volumes,
                   std::int64_t begun_before, double pace, const GasLaw& law, std::vector<FoundPocket>& found,

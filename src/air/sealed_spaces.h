@@ -1,5 +1,5 @@
-// Spaces that walls, plates and open ends close, without a way out for air: what they have of gas they keep, however
-// water parts it. They are found from the walls alone, so water does not change which space a place is in.
+// Spaces that walls, plates and open ends close, without a way out for air: they keep their gas, however water parts
+// it. They are found from the walls alone, so water does not change which space a place is in.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ class SealedSpaces {
   /// Finds which spaces have a way out for air: those that an open part of the void reaches, as through an open end
   /// that is not full of water.
   void find_ways_out(const Voids<Dim>& voids);
-  /// Says that the volume of a space may change by more than walls and inflow tell, as through an end with a level.
+  /// Marks a space whose volume may change by more than walls and inflow change it, as through an end with a level.
   void set_yielding(int space) { is_rigid_[space] = 0; }
   bool is_rigid(int space) const { return is_rigid_[space] != 0; }
 

@@ -111,7 +111,7 @@ void show_bad_places(const CaseSpec& spec, const CheckOptions& options, const Fi
   }
 }
 
-/// Of openings that the case does not draw as a rectangle.
+/// Prints the sections of openings that the case does not draw as a rectangle.
 void print_sections(const CaseSpec& spec) {
   for (const Opening<3>& end : make_open_ends<3>(spec)) {
     if (end.outline.corners().empty()) continue;

@@ -5,7 +5,8 @@
 
 namespace tailwater {
 
-/// Throws InputError if what is at `path` is not replaced: a link, a folder, a device, a pipe or another user's file.
+/// Throws InputError if `path` has an obstacle that is not replaced: a link, a folder, a device, a pipe or another
+/// user's file.
 void require_own_regular_file(const std::filesystem::path& path);
 
 /// Whether the file is a picture that `tailwater check` has drawn: it says so at its begin.

@@ -9,8 +9,8 @@
 namespace tailwater {
 namespace {
 
-/// dx; the least sum of the gaps on both sides of a body. Through less, water does not get past it: what the body traps
-/// can neither leave nor be compressed, and its pressure moves the body as it likes. A box that falls into a tank
+/// dx; the least sum of the gaps on both sides of a body. Through less, water does not get past it: trapped water can
+/// neither leave nor be compressed, and its pressure moves the body as it likes. A box that falls into a tank
 /// failed with a sum of up to 2, and with 3 at no spacing.
 constexpr double least_sum = 3.0;
 

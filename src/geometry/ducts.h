@@ -1,6 +1,6 @@
-// Ducts: what an inlet or outlet prescribes is prescribed outside of the case, at the end of a duct with which the
-// walls beside the opening go on along its normal. Water in its first part, the lead, is solved for like that of the
-// case; the last part is the buffer zone (open_ends). An opening into air has none: what has left it falls freely.
+// Ducts: the conditions of an inlet or outlet hold outside of the case, at the end of a duct with which the walls
+// beside the opening go on along its normal. Water in its first part, the lead, is solved for like that of the case;
+// the last part is the buffer zone (open_ends). An opening into air has no duct: water that has left it falls freely.
 #pragma once
 
 #include "case/spec.h"
@@ -8,8 +8,8 @@
 
 namespace tailwater {
 
-/// [dx]; along a duct before its buffer zone, if the walls of the case do not lead to the opening straight for as long: a
-/// flow that turns into a hole contracts there. Free jets are removed so far beyond their opening.
+/// [dx]; along a duct before its buffer zone, if the walls of the case do not lead to the opening straight for as long:
+/// a flow that turns into a hole contracts there. Free jets are removed so far beyond their opening.
 inline constexpr double lead_over_spacing = 6.0;
 
 /// m; of a duct with a lead, a whole number of spacings

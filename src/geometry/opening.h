@@ -34,13 +34,14 @@ struct Opening {
   double beyond(const Vec<Dim>& x) const { return normal.dot(x - corner); }
   /// Whether `x` is straight in front of the opening or behind it.
   bool spans(const Vec<Dim>& x) const;
-  /// How far `x` is aside of what is straight in front of the segment or rectangle and behind it, m; at most 0 within.
+  /// How far `x` is aside of the space straight in front of the segment or rectangle and behind it, m; at most 0
+  /// within.
   double aside(const Vec<Dim>& x) const;
   /// Whether water at `x` has left through it.
   bool is_passed_by(const Vec<Dim>& x) const { return beyond(x) > 0.0 && spans(x); }
   /// The corners of its rim in order.
   std::vector<Vec<Dim>> rim() const;
-  /// The same opening, farther out by a distance [m].
+  /// A copy of the opening, farther out by a distance [m].
   Opening moved_out(double distance) const;
   /// The faces of a wall that would close it, facing the water; they belong to no wall (-1).
   std::vector<WallFace<Dim>> as_faces() const;

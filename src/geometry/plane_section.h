@@ -1,4 +1,4 @@
-// What the walls of a case leave open of a plane: the section of a river on a surveyed bed, of a pipe, of a tank.
+// The open part of a plane between the walls of a case: the section of a river on a surveyed bed, of a pipe, of a tank.
 #pragma once
 
 #include <vector>

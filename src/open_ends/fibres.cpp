@@ -84,7 +84,7 @@ std::vector<double> sum_water_before(const OpenEnd<Dim>& end, const Flow<Dim>& f
   return sums;
 }
 
-/// m/s, out; of a cell of the section where there is no water inside: what the pressure beyond drives into air.
+/// m/s, out; of a cell of the section where there is no water inside: the pressure beyond drives water into air.
 template <int Dim>
 double speed_into_air(const OpenEnd<Dim>& end, const OpenEndState& state, std::size_t column, std::size_t row) {
   const SectionColumn& of = end.columns[column];

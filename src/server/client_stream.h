@@ -24,7 +24,7 @@ class ClientStream final : public httplib::Stream {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// How long the next bytes may take: what is left of the head's time, or for the body a time of their own.
+  /// How long the next bytes may take: the rest of the head's time, or for the body a time of their own.
   std::chrono::milliseconds patience() const;
   /// Fills the empty buffer. Returns what recv returns, or -1 when the time is over.
   ssize_t receive();
@@ -34,7 +34,7 @@ class ClientStream final : public httplib::Stream {
   bool has_head_ = false;
   std::string last_;  ///< up to four bytes, of which the end of the head is made
   std::array<char, 4096> buffer_{};
-  std::size_t begin_ = 0, end_ = 0;  ///< of what the buffer still holds
+  std::size_t begin_ = 0, end_ = 0;  ///< of the bytes that the buffer still holds
 };
 
 }  // namespace tailwater
