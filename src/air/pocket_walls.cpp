@@ -10,7 +10,7 @@ namespace tailwater {
 namespace {
 
 /// Columns of particles that may wait at an opening, or have come early.
-constexpr double columns_that_wait = 2.0;
+constexpr double most_columns_waiting = 2.0;
 
 template <int Dim>
 void subtract_fractions(const Flow<Dim>& flow, std::span<const std::pair<std::size_t, PocketShare>> fractions,
@@ -114,16 +114,16 @@ std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim
 
 namespace {
 
-/// m^Dim; that an end has brought up to the end of the step: what the case says, within the columns of particles that
-/// have come and wait at the opening.
+/// m^Dim; the volume that an end has brought up to the end of the step: the prescribed one, within the columns of
+/// particles that have come and wait at the opening.
 template <int Dim>
 double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state, double spacing) {
   const double passed = state.arrived.volume - state.departed.volume;
-  const double waiting = columns_that_wait * spacing * state.depth * end.width;
+  const double waiting = most_columns_waiting * spacing * state.depth * end.width;
   return std::clamp(state.asked, passed - waiting, passed + waiting);
 }
 
-/// Gives the reference pockets of sealed spaces what they must lose so that pockets lose what comes in.
+/// Gives the reference pockets of sealed spaces the loss that makes pockets lose the volume that comes in.
 template <int Dim>
 void settle_references(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt, std::vector<double>& growth) {
   const std::vector<double> brought = brought_by_ends(flow);

@@ -71,7 +71,8 @@ std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> all_rest = app.remaining(true);  // of commands, too
   const auto option = std::ranges::find_if(all_rest, [](const std::string& word) { return word.starts_with('-'); });
   if (option != all_rest.end()) {
-    const std::string of_command = command.empty() ? "" : command.front()->get_name() + " ";
+    const bool is_before_command = !rest.empty() && *option == rest.front();
+    const std::string of_command = command.empty() || is_before_command ? "" : command.front()->get_name() + " ";
     return fmt::format("unknown option \"{}\"; see: tailwater {}--help", *option, of_command);
   }
   if (!command.empty()) {

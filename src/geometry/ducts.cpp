@@ -78,8 +78,14 @@ class Rim {
  private:
   /// Whether the walls beside the rim come to it straight, from a lead inside: water that leaves does not turn there.
   bool is_led_to() const {
+    std::vector<Vec<Dim>> places = mouth_.rim();
+    if constexpr (Dim == 3) {
+      const std::vector<Vec<3>> corners = places;  // those of a periodic domain are open
+      for (std::size_t k = 0; k < corners.size(); ++k)
+        places[k] = 0.5 * (corners[k] + corners[(k + 1) % corners.size()]);
+    }
     bool is_closed_somewhere = false;
-    for (const Vec<Dim>& x : mouth_.rim()) {
+    for (const Vec<Dim>& x : places) {
       const NearestWall<Dim> beside = wall_at(x, Vec<Dim>::Zero());
       if (beside.face < 0) continue;
       is_closed_somewhere = true;

@@ -16,6 +16,7 @@ namespace {
 /// which water feels the wall particles that stand as near to the end.
 constexpr double plate_reach = 1.5;
 constexpr double screened_reach = plate_reach + 1.0;
+constexpr double least_bend = 0.4;  // sine of the angle between faces that make a corner
 
 /// The front of one piece, without other walls.
 Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int piece) {
@@ -197,10 +198,36 @@ int next_in_chain(const Boundary<2>& boundary, int f, int corner, double toleran
   return -1;
 }
 
+/// How far [m] the screens beside a free end reach along its wall: to a support before a corner around which water
+/// stands, or before an opening, whose duct makes one. Pairs of water around a corner see each other.
+double reach_of_screens(const Boundary<2>& boundary, const WallEnd& end, const Lengths& lengths) {
+  const double whole = screened_reach * lengths.reach;
+  double length = 0.0;
+  for (int f = end.face; length < whole + lengths.reach;) {
+    const WallFace<2>& face = boundary.faces[f];
+    const Vec<2>& corner = face.corners[1 - end.corner];
+    const Vec<2> inwards = corner - face.corners[end.corner];
+    length += inwards.norm();
+    const int next = next_in_chain(boundary, f, 1 - end.corner, lengths.tolerance());
+    if (next < 0) {
+      const bool is_open_there = is_continued(boundary, corner, face.wall, -1, lengths);
+      return is_open_there ? std::clamp(length - lengths.reach, 0.0, whole) : whole;
+    }
+    const Vec<2> further = boundary.faces[next].corners[1 - end.corner] - corner;
+    const double sine = face.normal.dot(further.normalized());
+    if (sine > least_bend) return whole;
+    if (sine < -least_bend) return std::clamp(length - lengths.reach, 0.0, whole);
+    f = next;
+  }
+  return whole;
+}
+
 /// The screens beside a free end: of the faces of its chain from the end inwards.
 std::vector<Screen<2>> screens_beside(const Boundary<2>& boundary, const WallEnd& end, const Lengths& lengths) {
   std::vector<Screen<2>> screens;
-  double left = screened_reach * lengths.reach;
+  const double whole = reach_of_screens(boundary, end, lengths);
+  if (whole == 0.0) return screens;
+  double left = whole;
   for (int f = end.face; f >= 0 && left > 0.0; f = next_in_chain(boundary, f, 1 - end.corner, lengths.tolerance())) {
     const WallFace<2>& face = boundary.faces[f];
     const Vec<2> inwards = face.corners[1 - end.corner] - face.corners[end.corner];
@@ -213,6 +240,7 @@ std::vector<Screen<2>> screens_beside(const Boundary<2>& boundary, const WallEnd
   }
   const Screen<2> last = screens.front();
   fade_out(last.corner, -last.along[0], last, lengths.fade(), screens);
+  screens.back().plate_reach = std::clamp(whole - lengths.reach, 0.0, plate_reach * lengths.reach);
   return screens;
 }
 
@@ -231,7 +259,10 @@ std::vector<Screen<3>> screens_beside(const WallMesh& mesh, const Lengths& lengt
       return box.exteriorDistance(around) < screened_reach * lengths.reach;
     });
   });
-  for (Screen<3>& screen : screens) screen.is_plate = false;
+  for (Screen<3>& screen : screens) {
+    screen.is_plate = false;
+    screen.plate_reach = plate_reach * lengths.reach;
+  }
   return screens;
 }
 
@@ -306,7 +337,7 @@ bool Boundary<Dim>::is_beside_free_end(int wall, const Vec<Dim>& x) const {
   return std::ranges::any_of(screens_near(x, hung_.reach()), [&](int s) {
     const Screen<Dim>& screen = screens[s];
     return screen.wall == wall && screen.is_beyond && !screen.is_plate &&
-           distance_to_rim<Dim>(screen.rim, x) < hung_.reach();
+           distance_to_rim<Dim>(screen.rim, x) < screen.plate_reach;
   });
 }
 

@@ -228,8 +228,11 @@ Opening<Dim> make_opening(OpeningKind kind, std::string name, const Section& sec
     if (!section.through.empty()) {
       const Vec<3> point = to_vec<3>(section.through, opening.label(), "through");
       const Vec<3> outwards = kind == OpeningKind::inlet ? Vec<3>(-direction) : direction;
+      CaseSpec walls_alone = spec;  // whose free ends depend on the openings
+      walls_alone.inlets.clear();
+      walls_alone.outlets.clear();
       const std::vector<Vec<3>> corners =
-          section_around(make_boundary<3>(spec), point, outwards, upright_in_plane(direction, gravity), dx);
+          section_around(make_boundary<3>(walls_alone), point, outwards, upright_in_plane(direction, gravity), dx);
       if (corners.empty()) {
         throw CaseError({"{}: no walls hold water in the plane through {} at right angles to {}", opening.label(),
                          place(point), vector_text(direction)},

@@ -46,6 +46,7 @@ struct Screen {
   std::array<ScreenCut, Dim == 3 ? 2 : 0> cuts{};
   bool is_plate = true;                 ///< else the part beside a free end of a wall with water on one side
   bool is_beyond = false;               ///< beyond the rim, where there is no wall
+  double plate_reach = 0.0;             ///< m; beyond a free end: how far from it the wall is a plate
   double fade = 0.0;                    ///< m
   std::vector<RimPiece<Dim>> rim = {};  ///< the pieces within `fade` of the screen
 

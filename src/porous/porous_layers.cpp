@@ -17,11 +17,13 @@ namespace {
 
 constexpr int lattice_count = 65;
 
-/// Throws CaseError where a layer reaches into the duct of an open end: what enters there fills all of space.
+/// Throws CaseError where a layer reaches into the duct of an open end: what enters there fills all of space. The
+/// border of a layer that ends at the opening is as wide as the kernel's support.
 template <int Dim>
 void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim>& field) {
   const double dx = spec.particles.spacing;
-  const double zone = duct_length(spec);
+  const double border = traits_of(spec).support * dx;
+  const double zone = duct_length(spec) - border;
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) {
     double points = std::ceil(zone / dx);
     for (const Vec<Dim>& edge : opening.edges) points *= std::ceil(edge.norm() / dx);
@@ -33,7 +35,7 @@ void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim
         rest = std::floor(rest / count);
         return share;
       };
-      Vec<Dim> x = opening.corner + next_share(zone) * zone * opening.normal;
+      Vec<Dim> x = opening.corner + (border + next_share(zone) * zone) * opening.normal;
       for (const Vec<Dim>& edge : opening.edges) x += next_share(edge.norm()) * edge;
       if (field.porosity_at(x) == 1.0) continue;
       throw CaseError(

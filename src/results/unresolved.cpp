@@ -15,7 +15,7 @@ namespace {
 /// dx; a surface that moves less is taken to be at rest.
 constexpr double least_motion = 0.25;
 
-/// Probes with a height each, of which the largest is told.
+/// Probes with a height each, of which the largest is reported.
 struct Gauges {
   std::vector<std::string> names;
   double largest = 0.0;  ///< m
@@ -52,9 +52,10 @@ std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFold
     const ColumnDigest surface = connected_surface(probe, spec, folder);
     if (surface.count == 0) continue;
     const double motion = surface.largest - surface.least;
+    const bool crest_has_passed = surface.largest - surface.last > 0.5 * motion;
     if (probe.type == ProbeType::depth && surface.largest > 0.0 && surface.largest < lowest) {
       films.add(probe.name, surface.largest);
-    } else if (has_waves && motion > least_motion * dx && motion < lowest) {
+    } else if (has_waves && crest_has_passed && motion > least_motion * dx && motion < lowest) {
       waves.add(probe.name, motion);
     }
   }

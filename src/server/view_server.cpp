@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <httplib.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,8 +17,8 @@
 #include "results/run_info.h"
 #include "server/answers.h"
 #include "server/bounded_queue.h"
-#include "server/client_stream.h"
 #include "server/guard.h"
+#include "server/http_server.h"
 #include "server/page.h"
 #include "server/run_watch.h"
 
@@ -32,8 +31,7 @@ using httplib::Response;
 
 constexpr std::size_t threads = 48;
 constexpr std::size_t waiting_connections = 64;
-constexpr int most_streams = 24;  // of events; each takes a thread
-constexpr int backlog = 1024;
+constexpr int most_streams = 24;                             // of events; each takes a thread
 constexpr std::size_t largest_case = std::size_t{8} << 20U;  // bytes
 constexpr auto time_between_looks = std::chrono::milliseconds(200);
 constexpr auto time_between_signs_of_life = std::chrono::seconds(10);
@@ -43,23 +41,6 @@ const char* type_of(std::string_view path) {
   if (path.ends_with(".json")) return "application/json";
   return "text/plain; charset=utf-8";
 }
-
-class HttpServer : public httplib::Server {
- public:
-  /// The library lets five connections wait.
-  void let_many_wait() const { ::listen(svr_sock_, backlog); }
-
- private:
-  /// One request for each connection, with streams of our own, whose clients have little time.
-  bool process_and_close_socket(socket_t socket) override {
-    ClientStream stream(socket);
-    bool is_closed = false;
-    const bool is_answered = process_request(stream, true, is_closed, nullptr);
-    ::shutdown(socket, SHUT_RDWR);
-    ::close(socket);
-    return is_answered;
-  }
-};
 
 }  // namespace
 

@@ -109,7 +109,7 @@ TEST(SectionOfAnOpening, FibresOfOneSpeedMoveTheBufferAsOne) {
   state.stretching = 0.1;
   const double behind_border = 0.5 * end.stretch;
   for (const double y : {0.02, 0.31, 0.5, 0.98}) {
-    const Vec<3> x(0.5 * end.stretch, y, 0.49);
+    const Vec<3> x(end.opening.corner[0] + 0.5 * end.stretch, y, 0.49);
     const Vec<3> u = end.velocity_at(state, x);
     EXPECT_NEAR(end.opening.normal.dot(u), 0.3 - 0.1 * behind_border, 1e-12);
     EXPECT_NEAR(u[2], 0.1 * (0.49 - end.columns[end.column_at(x)].bottom), 1e-12);
