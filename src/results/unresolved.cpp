@@ -12,8 +12,8 @@
 namespace tailwater {
 namespace {
 
-/// dx; a surface that moves less is taken to be at rest.
-constexpr double least_motion = 0.25;
+/// dx; a surface that moves less is taken to be at rest: the water's edge on a beach moves by 0.32 dx before any wave.
+constexpr double least_motion = 0.4;
 
 /// Probes with a height each, of which the largest is reported.
 struct Gauges {
@@ -52,10 +52,9 @@ std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFold
     const ColumnDigest surface = connected_surface(probe, spec, folder);
     if (surface.count == 0) continue;
     const double motion = surface.largest - surface.least;
-    const bool crest_has_passed = surface.largest - surface.last > 0.5 * motion;
     if (probe.type == ProbeType::depth && surface.largest > 0.0 && surface.largest < lowest) {
       films.add(probe.name, surface.largest);
-    } else if (has_waves && crest_has_passed && motion > least_motion * dx && motion < lowest) {
+    } else if (has_waves && motion > least_motion * dx && motion < lowest) {
       waves.add(probe.name, motion);
     }
   }
