@@ -25,7 +25,7 @@ def thinned(x, y):
     if len(x) <= 2 * BINS:
         return x, y
     parts = [part for part in np.array_split(np.arange(len(x)), BINS) if np.isfinite(y[part]).any()]
-    kept = np.unique([part[find(y[part])] for part in parts for find in (np.nanargmin, np.nanargmax)])
+    kept = np.unique([part[find(y[part])] for part in parts for find in (np.nanargmin, np.nanargmax)]).astype(int)
     return x[kept], y[kept]
 
 

@@ -41,4 +41,4 @@ def openings(plan):
         "Seven basins and channels without friction, 6 to 20 particles deep, whose ends hold a level, bring a discharge or take it.",
         "Shallow water has no vertical acceleration and sharp bores; both are compared as means over two times sqrt(H/g).",
         tuple(checks), tuple(Plot(words + ".", (runs[name],), draw) for name, (words, _, _) in FLOWS.items()),
-        shown=runs["draining_tank"], moments=(2.0, 6.0))
+        shown=runs["draining_tank"], moments=(2.0, 6.0), has_histories=False)  # the reservoir starts dry
