@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from tailwater_validation import openings
+from tailwater_validation import openings, panels
 from tailwater_validation.open_basin import WALL, Discharge, Level, basin
 from tailwater_validation.shallow_water import stoker_state
 
@@ -61,6 +61,12 @@ class Band(unittest.TestCase):
         inside = (times > 0.5) & (times < 9.5)
         self.assertTrue(((late >= low) & (late <= high))[inside].all())
         self.assertAlmostEqual(float((np.sin(times) + 0.3 - high)[inside].max()), 0.3, places=3)
+
+
+class Histories(unittest.TestCase):
+    def test_of_a_run_that_starts_dry_are_empty(self):
+        times = np.linspace(0.0, 1.0, 5 * panels.BINS)
+        self.assertEqual(panels.curve("dry", times, np.full(times.size, np.nan))["y"], [])
 
 
 if __name__ == "__main__":
