@@ -127,9 +127,10 @@ void add_open_ends(const CaseSpec& spec, std::vector<std::string>& sentences) {
     sentences.push_back(fmt::format("Water comes in at '{}' with {}{}.", inlet.name, listed(parts), source));
   }
   for (const OutletTable& outlet : spec.outlets) {
-    const std::string how = outlet.level          ? "against a tailwater at " + told(*outlet.level, "m")
-                            : outlet.file.empty() ? "as if the channel went on"
-                                                  : "against the tailwater that the file " + outlet.file + " says";
+    const std::string how = outlet.level           ? "against a tailwater at " + told(*outlet.level, "m")
+                            : !outlet.file.empty() ? "against the tailwater that the file " + outlet.file + " says"
+                            : outlet.beyond == Beyond::air ? "as a free jet into air"
+                                                           : "as if the channel went on";
     sentences.push_back(fmt::format("It leaves at '{}', {}.", outlet.name, how));
   }
 }

@@ -47,11 +47,13 @@ TEST(ExplainCase, TellsWhatMovesComesInAndLeaves) {
       "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [0.7, 0.4]\nmax = [0.9, 0.6]\nfluid_side = \"outside\"\n"
       "[[body]]\nname = \"b\"\nwalls = [\"hull\"]\nmass = 20\ncentre = [0.8, 0.5]\nfree = [\"y\"]\n"
       "[[inlet]]\nname = \"in\"\nfrom = [0, 0]\nto = [0, 1]\ndischarge = \"0.1*t\"\n"
-      "[[outlet]]\nname = \"out\"\nfrom = [1, 0]\nto = [1, 1]\nlevel = 0.45\n");
+      "[[outlet]]\nname = \"out\"\nfrom = [1, 0]\nto = [1, 1]\nlevel = 0.45\n"
+      "[[outlet]]\nname = \"hole\"\nfrom = [0.2, 0]\nto = [0.3, 0]\ndirection = [0, -1]\nbeyond = \"air\"\n");
   for (const char* text :
        {"Gate 'g' begins to move at 1 s, at 2 m/s.", "Body 'b' of 20 kg per metre of width floats, free in y.",
         "Water comes in at 'in' with a discharge of 0.1*t in m^3/s per metre of width.",
-        "It leaves at 'out', against a tailwater at 0.45 m.", "Nothing is measured"}) {
+        "It leaves at 'out', against a tailwater at 0.45 m.", "It leaves at 'hole', as a free jet into air.",
+        "Nothing is measured"}) {
     EXPECT_TRUE(tells(sentences, text)) << text;
   }
 }
