@@ -31,11 +31,12 @@ PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
 /// to find out which have room at its border.
 constexpr double cube_over_spacing = 32.0;
 
-/// The walls, with those of ducts, and the rows in this rank's share of space.
+/// The drawn walls, those of ducts, and the rows in this rank's share of space.
 template <int Dim>
-Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks) {
+Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks,
+                      Boundary<Dim> drawn) {
   Walls<Dim> walls;
-  walls.boundary = make_boundary<Dim>(spec);
+  walls.boundary = std::move(drawn);
   const Lattice<Dim> lattice = lattice_behind_meshes<Dim>(spec, walls.boundary);
   append_ducts(spec, walls.boundary);
   walls.boundary.file_faces(search_distance * spec.particles.spacing);
@@ -66,12 +67,13 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   return walls;
 }
 
-/// The water at the start: that of the case file, and in ducts. Collective.
+/// The water at the start: that of the case file, and in ducts. `drawn` are the walls without ducts, if there are
+/// ducts. Collective.
 template <int Dim>
-FluidParticles<Dim> make_fluid(const CaseSpec& spec, const Walls<Dim>& walls, const Communicator& ranks) {
+FluidParticles<Dim> make_fluid(const CaseSpec& spec, const Walls<Dim>& walls, Boundary<Dim>& drawn,
+                               const Communicator& ranks) {
   const auto moving = static_cast<std::int64_t>(walls.moving);
   if (walls.boundary.ducts.empty()) return make_fluid_particles(spec, walls.boundary, ranks, moving);
-  Boundary<Dim> drawn = make_boundary<Dim>(spec);
   drawn.file_faces(walls.boundary.filed_reach());
   FluidParticles<Dim> fluid = make_fluid_particles(spec, drawn, ranks, moving);
   const std::vector<WaterParticle<Dim>> in_ducts = water_in_ducts(walls.boundary.ducts, spec.particles.spacing, fluid);
@@ -129,10 +131,16 @@ bool has_force_probe(const CaseSpec& spec) {
 
 template <int Dim>
 Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks)
-    : walls(make_walls(spec, model, ranks)),
+    : Drawing(spec, model, ranks, make_boundary<Dim>(spec)) {}
+
+/// The drawn walls are kept for the water only where open ends may add ducts to them.
+template <int Dim>
+Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks, Boundary<Dim> drawn)
+    : walls(make_walls(spec, model, ranks,
+                       spec.inlets.empty() && spec.outlets.empty() ? std::move(drawn) : Boundary<Dim>(drawn))),
       shared_rows(ranks, walls),
       wall_motion(spec, walls.boundary, walls.particles),
-      fluid(make_fluid(spec, walls, ranks)) {}
+      fluid(make_fluid(spec, walls, drawn, ranks)) {}
 
 template <int Dim>
 Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, const Communicator& all_ranks,

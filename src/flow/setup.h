@@ -28,6 +28,9 @@ struct Drawing {
   SharedRows<Dim> shared_rows;
   WallMotion<Dim> wall_motion;
   FluidParticles<Dim> fluid;
+
+ private:
+  Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks, Boundary<Dim> drawn);
 };
 
 /// Depth of the water [m] that there may be: at the start, and by what open ends bring. Collective.
