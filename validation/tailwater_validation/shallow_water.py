@@ -114,6 +114,19 @@ def limited(values):
     return 0.5 * slope
 
 
+def half_step(depth, speed, ratio):
+    """States (depth, speed) on the left and on the right side of each cell half a step later, `ratio` = dt/dx: the
+    MUSCL-Hancock method, in depth and discharge."""
+    slope = limited(np.array([depth, speed]))
+    sides = [np.maximum(np.array([depth, speed]) + sign * slope, [[0.0], [-np.inf]]) for sign in (-1, 1)]
+    change = -0.5 * ratio * (fluxes(*sides[1]) - fluxes(*sides[0]))
+    moved = []
+    for h, u in sides:
+        later = np.maximum(h + change[0], 0.0)
+        moved.append((later, np.where(later > DRY, (h * u + change[1]) / np.maximum(later, DRY), 0.0)))
+    return moved
+
+
 def dam_break(ahead, bed, times, back, front, cells=2000):
     """[(x, depth, speed)] at rising `times`: water of depth 1 over -back < x < 0, of depth `ahead` over 0 < x < front,
     both at rest at 0, over the `bed`. Nothing may reach the ends."""
@@ -125,15 +138,7 @@ def dam_break(ahead, bed, times, back, front, cells=2000):
     for time in times:
         while now < time - 1e-12:
             dt = min(0.45 * dx / np.max(np.abs(speed) + np.sqrt(depth)), time - now)
-            slope = limited(np.array([depth, speed]))
-            sides = [np.maximum(np.array([depth, speed]) + sign * slope, [[0.0], [-np.inf]]) for sign in (-1, 1)]
-            # Half a step in time of both sides of a cell, in depth and discharge.
-            change = -0.5 * dt / dx * (fluxes(*sides[1]) - fluxes(*sides[0]))
-            moved = []
-            for h, u in sides:
-                later = np.maximum(h + change[0], 0.0)
-                moved.append((later, np.where(later > DRY, (h * u + change[1]) / np.maximum(later, DRY), 0.0)))
-            (hl, ul), (hr, ur) = moved
+            (hl, ul), (hr, ur) = half_step(depth, speed, dt / dx)
             flux = hll((hr[:-1], ur[:-1]), (hl[1:], ul[1:]))
             carried = flux[0] * np.where(flux[0] > 0, layer[:-1], layer[1:])
             discharge, layers, depth = depth * speed, depth * layer, depth.copy()
