@@ -41,6 +41,26 @@ shape = "polyline"
 points = [[0.0, 3.0], [0.0, 0.0], [3.22, 0.0], [3.22, 3.0]]
 """
 
+def tank_case(title, length, height):
+    """The effective case of a made-up run in an open tank with a spacing of 0.01 m."""
+    return f"""\
+[case]
+dimension = 2
+title = "{title}"
+[physics]
+density = 1000.0
+gravity = [0.0, -9.81]
+[particles]
+spacing = 0.01
+[scheme]
+integrator = "explicit"
+[[wall]]
+name = "tank"
+shape = "polyline"
+points = [[0.0, {height}], [0.0, 0.0], [{length}, 0.0], [{length}, {height}]]
+"""
+
+
 SUMMARY = {
     "status": "done",
     "particles": {"fluid": 3200, "wall": 2000},
@@ -137,6 +157,12 @@ def make_folder(folder, effective_case):
 def write_probe(folder, name, columns):
     np.savetxt(folder / "probes" / f"{name}.csv", np.stack(list(columns.values()), axis=1), delimiter=",",
                header=",".join(columns), comments="")
+
+
+def write_surfaces(folder, rows):
+    """The table of a probe "surface" of several instants, from rows of time, x, bed, connected and highest level each."""
+    names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
+    write_probe(folder, "surface", dict(zip(names, np.concatenate(rows, axis=1))))
 
 
 class CaseTest(unittest.TestCase):

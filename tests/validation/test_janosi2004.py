@@ -16,22 +16,7 @@ DATA = CASE.parent / "data"
 PICTURES = sorted(DATA.glob("janosi2004_*.csv"))
 START, STEP = 0.40, 0.001  # m: nearer to the gate its guides are seen; between the places that are compared
 
-EFFECTIVE_CASE = """\
-[case]
-dimension = 2
-title = "A made-up bore"
-[physics]
-density = 1000.0
-gravity = [0.0, -9.81]
-[particles]
-spacing = 0.01
-[scheme]
-integrator = "explicit"
-[[wall]]
-name = "channel"
-shape = "polyline"
-points = [[0.0, 0.3], [0.0, 0.0], [1.5, 0.0], [1.5, 0.3]]
-"""
+EFFECTIVE_CASE = synthetic_run.tank_case("A made-up bore", 1.5, 0.3)
 
 
 def slope(_run, _instant):
@@ -64,8 +49,7 @@ def write_run(folder, too_high=0.0, late=0.0):
         for shift in janosi2004.SHIFTS:
             level = line + too_high + 0.02 * (abs(shift - late) > 1e-9)
             rows.append(np.stack([np.full_like(x, instant + shift), x, np.zeros_like(x), level, level + 0.001]))
-    names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
-    synthetic_run.write_probe(folder, "surface", dict(zip(names, np.concatenate(rows, axis=1))))
+    synthetic_run.write_surfaces(folder, rows)
     return folder
 
 

@@ -14,22 +14,7 @@ from tailwater_validation.studies import liu1999
 CASE = synthetic_run.CASES / "liu1999" / "case.toml"
 DATA = CASE.parent / "data"
 
-EFFECTIVE_CASE = """\
-[case]
-dimension = 2
-title = "A made-up dam break"
-[physics]
-density = 1000.0
-gravity = [0.0, -9.81]
-[particles]
-spacing = 0.01
-[scheme]
-integrator = "explicit"
-[[wall]]
-name = "tank"
-shape = "polyline"
-points = [[0.0, 0.5], [0.0, 0.0], [0.9, 0.0], [0.9, 0.5]]
-"""
+EFFECTIVE_CASE = synthetic_run.tank_case("A made-up dam break", 0.9, 0.5)
 
 
 def slope(_run, _instant):
@@ -69,8 +54,7 @@ class Scores(synthetic_run.CaseTest):
         (x0, *_, x1), (y0, *_, y1) = slope(None, 0.0)
         level = y0 + (x - x0) / (x1 - x0) * (y1 - y0) + too_high
         rows = [np.stack([np.full_like(x, instant), x, np.zeros_like(x), level, level]) for instant in liu1999.INSTANTS]
-        names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
-        synthetic_run.write_probe(folder, "surface", dict(zip(names, np.concatenate(rows, axis=1))))
+        synthetic_run.write_surfaces(folder, rows)
         with mock.patch.object(liu1999, "laboratory", slope):
             return {metric.name: metric for metric in liu1999.metrics(Run(folder))}
 

@@ -43,8 +43,7 @@ def write_run(folder, factor=1.0, delay=0.0, scheme="farzin2014"):
     for point in ozmen_cagatay2014.read_points(run, "profile"):
         depth = np.maximum(0, factor * point.measured * H0 - bed)
         rows.append(np.stack([np.full_like(x, point.T * SCALE), x, bed, depth, depth]))
-    names = ("time_s", "x_m", "bed_m", "connected_m", "highest_m")
-    synthetic_run.write_probe(folder, "surface", dict(zip(names, np.concatenate(rows, axis=1))))
+    synthetic_run.write_surfaces(folder, rows)
     T = np.arange(0, END, 0.5)
     for point in ozmen_cagatay2014.read_points(run, "gauge"):
         level = factor * (point.measured + 0.01 * (T - point.T - delay))
