@@ -6,6 +6,9 @@ over dx, from what shallow water has at any time within LATE of the period; both
 """
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -33,73 +36,78 @@ def band(times, values, reach):
     return windows.min(axis=1), windows.max(axis=1)
 
 
-def depth_error(run, start, ends, period, since=START):
-    """The number of this module, over dx; `start` (depth (m), speed (m/s)), `ends` of lengths H, `period` in s."""
-    scale, curve = run.parameters["H"], run.curve("depth", "connected_m")
+@dataclass(frozen=True)
+class Theory:
+    """The basin beside a run: lengths in m, times in s; the levels and discharges of its ends are functions of the time."""
+
+    start: tuple  # depth, speed
+    level: Callable  # beyond the right end
+    discharge: Callable | None = None  # into the left end, which else is a wall
+    period: float | None = None  # by default that of the basin
+
+    def depths(self, run, times, place):
+        """Depth (m) at `place` at each of `times`."""
+        depth = run.parameters["H"]
+        unit = math.sqrt(depth / run.gravity)
+        left = WALL
+        if self.discharge:
+            left = Discharge(lambda time: self.discharge(time * unit) * unit / depth**2)
+        right = Level(lambda time: self.level(time * unit) / depth)
+        found, _ = basin(run.parameters["L"] / depth, self.start[0] / depth, self.start[1] * unit / depth, (left, right),
+                         np.asarray(times) / unit, [place / depth])
+        return depth * found[:, 0]
+
+
+def draining_tank(p):
+    return Theory((p["start"], 0.0), lambda t: p["H"])
+
+
+def changing_level(p):
+    return Theory((p["H"], 0.0), lambda t: p["H"] + p["change"] * min(1.0, t / p["within"]))
+
+
+def tide(p):
+    return Theory((p["H"], 0.0), lambda t: p["H"] + p["a"] * math.sin(2 * math.pi * t / p["T"]), period=p["T"])
+
+
+def ending_discharge(p):
+    return Theory((p["H"], p["q"] / p["H"]), lambda t: p["H"], lambda t: p["q"] * max(0.0, 1 - t / 5.0))
+
+
+def rising_sea(p):
+    return Theory((p["H"], p["q"] / p["H"]), lambda t: p["H"] + p["rise"] * min(max(t - 1.0, 0.0), 5.0) / 5.0,
+                  lambda t: p["q"])
+
+
+# By the parameters of the case.
+THEORIES = {"draining-tank": draining_tank, "changing-level": changing_level, "tide": tide,
+            "ending-discharge": ending_discharge, "rising-sea": rising_sea}
+
+
+def depth_at_gauge(run):
+    """(curve of the depth at the gauge, its place)."""
+    return run.curve("depth", "connected_m"), run.case["probe"][0]["at"][0]
+
+
+def compared_with(theory_of, run):
+    """depth_error_dx and the density error."""
+    theory, (curve, gauge) = theory_of(run.parameters), depth_at_gauge(run)
+    scale = run.parameters["H"]
     unit = math.sqrt(scale / run.gravity)
+    period = theory.period or 4 * run.parameters["L"] / math.sqrt(run.gravity * scale)
     times = np.linspace(0.0, curve.time[-1], int(curve.time[-1] / (0.1 * unit)) + 2)
-    gauge = run.case["probe"][0]["at"][0]
-    exact, _ = basin(run.parameters["L"] / scale, start[0] / scale, start[1] * unit / scale, ends, times / unit, [gauge / scale])
     late, found = means(times, np.interp(times, curve.time, curve.value), WINDOW * unit)
-    _, exact = means(times, scale * exact[:, 0], WINDOW * unit)
+    _, exact = means(times, theory.depths(run, times, gauge), WINDOW * unit)
+    if not (late > START * unit).any():
+        raise DataError(f"{run.path}: ends before its basin is shallow, at {START * unit:.3g} s")
     low, high = band(late, exact, LATE * period)
     outside = np.maximum(np.maximum(low - found, found - high), 0.0)
-    if not (late > since * unit).any():
-        raise DataError(f"{run.path}: ends before its basin is shallow, at {since * unit:.3g} s")
-    return float(outside[late > since * unit].max()) / run.spacing
-
-
-def over_depths(run, level):
-    """A level (m) over time (s) as one over H and sqrt(H/g)."""
-    scale = run.parameters["H"]
-    unit = math.sqrt(scale / run.gravity)
-    return Level(lambda time: level(time * unit) / scale)
-
-
-def discharge_over_depths(run, discharge):
-    scale = run.parameters["H"]
-    unit = math.sqrt(scale / run.gravity)
-    return Discharge(lambda time: discharge(time * unit) * unit / scale**2)
+    return {"depth_error_dx": float(outside[late > START * unit].max()) / run.spacing, **density(run)}
 
 
 def density(run):
     """density_error_rms of all water, beside the open ends too."""
     return {"density_error_rms": run.summary["volume"]["density_error_rms"]}
-
-
-def rising_sea(run):
-    p = run.parameters
-    ends = (discharge_over_depths(run, lambda t: p["q"]),
-            over_depths(run, lambda t: p["H"] + p["rise"] * min(max(t - 1.0, 0.0), 5.0) / 5.0))
-    period = 4 * p["L"] / math.sqrt(run.gravity * p["H"])
-    return {"depth_error_dx": depth_error(run, (p["H"], p["q"] / p["H"]), ends, period), **density(run)}
-
-
-def draining_tank(run):
-    p = run.parameters
-    period = 4 * p["L"] / math.sqrt(run.gravity * p["H"])
-    return {"depth_error_dx": depth_error(run, (p["start"], 0.0), (WALL, over_depths(run, lambda t: p["H"])), period),
-            **density(run)}
-
-
-def tide(run):
-    p = run.parameters
-    level = over_depths(run, lambda t: p["H"] + p["a"] * math.sin(2 * math.pi * t / p["T"]))
-    return {"depth_error_dx": depth_error(run, (p["H"], 0.0), (WALL, level), p["T"]), **density(run)}
-
-
-def ending_discharge(run):
-    p = run.parameters
-    ends = (discharge_over_depths(run, lambda t: p["q"] * max(0.0, 1 - t / 5.0)), over_depths(run, lambda t: p["H"]))
-    period = 4 * p["L"] / math.sqrt(run.gravity * p["H"])
-    return {"depth_error_dx": depth_error(run, (p["H"], p["q"] / p["H"]), ends, period), **density(run)}
-
-
-def changing_level(run):
-    p = run.parameters
-    level = over_depths(run, lambda t: p["H"] + p["change"] * min(1.0, t / p["within"]))
-    period = 4 * p["L"] / math.sqrt(run.gravity * p["H"])
-    return {"depth_error_dx": depth_error(run, (p["H"], 0.0), (WALL, level), period), **density(run)}
 
 
 def critical_discharge(head, gravity):
@@ -124,5 +132,5 @@ def sudden_head(run):
             "depth_error": steady_mean(run, "depth", "connected_m") / (scale * float(depths[0, 0])) - 1, **density(run)}
 
 
-FLOWS = {"rising-sea": rising_sea, "draining-tank": draining_tank, "tide": tide, "ending-discharge": ending_discharge,
-         "changing-level": changing_level, "reservoir": reservoir, "sudden-head": sudden_head}
+FLOWS = {**{name: partial(compared_with, theory_of) for name, theory_of in THEORIES.items()},
+         "reservoir": reservoir, "sudden-head": sudden_head}
