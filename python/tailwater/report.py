@@ -158,7 +158,7 @@ def rows_without_intervals(runs):
 
 def question_of(run, row):
     title = run.case["case"]["title"]
-    return (f"{title}: what is the {row['quantity']} at the probe '{row['probe']}'?" if row
+    return (f"{title}: {row['quantity']} at the probe '{row['probe']}'?" if row
             else f"{title}: the run has no result of a probe")
 
 

@@ -11,6 +11,7 @@ import tailwater as tw
 from small import DAM, PackageTest
 from tailwater import case_features, report_command, report_faults
 from tailwater.evidence import load_evidence
+from tailwater.report import references_of
 from tailwater.report_check import check_report, read_report
 
 SOURCES = Path(__file__).resolve().parents[2] / "src"
@@ -198,6 +199,15 @@ class Real(PackageTest):
         content["runs"][0]["outputs"]["steps.csv"] = "0"
         Path("page.json").write_text(json.dumps(content), encoding="utf-8")
         self.assertEqual(report_command.main(["page.json", "--check"]), 1)
+
+
+class References(unittest.TestCase):
+    def test_datum_and_coordinate_system_are_named(self):
+        sentences = references_of({"case": {"datum": "DHHN2016", "crs": "EPSG:25832"}})
+        self.assertEqual(sentences, ["Vertical datum: DHHN2016.", "Coordinate reference system: EPSG:25832."])
+
+    def test_missing_ones_are_reported(self):
+        self.assertTrue(all("names no" in sentence for sentence in references_of({"case": {}})))
 
 
 class Features(unittest.TestCase):
