@@ -117,9 +117,9 @@ namespace {
 /// m^Dim; the volume that an end has brought up to the end of the step: the prescribed one, within the columns of
 /// particles that have come and wait at the opening.
 template <int Dim>
-double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state, double spacing) {
+double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state) {
   const double passed = state.arrived.volume - state.departed.volume;
-  const double waiting = most_columns_waiting * spacing * state.depth * end.width;
+  const double waiting = most_columns_waiting * end.spacing * end.area_below(state.depth);
   return std::clamp(state.asked, passed - waiting, passed + waiting);
 }
 
@@ -147,7 +147,7 @@ std::vector<double> brought_by_ends(const Flow<Dim>& flow) {
   std::vector<double> brought;
   for (std::size_t e = 0; e < ends.ends().size(); ++e) {
     const bool feeds = ends.ends()[e].flow.feeds();
-    brought.push_back(feeds ? brought_by(ends.ends()[e], ends.states()[e], flow.setup.scale.spacing) : 0.0);
+    brought.push_back(feeds ? brought_by(ends.ends()[e], ends.states()[e]) : 0.0);
   }
   return brought;
 }

@@ -235,7 +235,8 @@ double ChannelEnd<Dim>::largest_speed(double time, double spacing) const {
                        : gravity > 0.0 ? critical_depth(time)
                                        : height;
   if (!flow.discharge) return std::sqrt(gravity * depth);
-  return depth > 0.0 ? std::abs(flow.discharge->at(time)) / (width * depth) * flow.largest_in_profile(rows) : 0.0;
+  const double area = area_below(depth);
+  return area > 0.0 ? std::abs(flow.discharge->at(time)) / area * flow.largest_in_profile(rows) : 0.0;
 }
 
 template <int Dim>
