@@ -55,10 +55,10 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
           "spacing of {:.3g} m; the end of the run tells how long. Remedy: a wider or deeper opening, or levels and "
           "discharges that change more slowly",
-          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", spacing_);
+          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", end.spacing);
     }
     const double missing = state.asked - (state.arrived.volume - state.departed.volume);
-    const double columns = columns_that_wait * spacing_ * end.area_below(state.depth);
+    const double columns = columns_that_wait * end.spacing * end.area_below(state.depth);
     const bool falls_short = std::abs(missing) > most_missing * state.asked_total + columns;
     if (end.flow.feeds() && end.circuit < 0 && falls_short && is_first(label + ": discharge")) {
       tailwater::warn("{}", discharge_warning(label, flow.state.time, missing, state.asked));

@@ -68,9 +68,9 @@ WaterAmount OpenEnds<Dim>::arrived() const {
 template <int Dim>
 WaterAmount OpenEnds<Dim>::sump(int circuit) const {
   WaterAmount sump;
-  const double particle = power<Dim>(spacing_);
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     if (ends_[e].circuit != circuit) continue;
+    const double particle = power<Dim>(ends_[e].spacing);
     const std::int64_t reserve = std::lround(ends_[e].reserve / particle);
     sump += {reserve, static_cast<double>(reserve) * particle};
     sump += states_[e].departed;
@@ -156,7 +156,7 @@ template <int Dim>
 StepLimits OpenEnds<Dim>::step_limits(const Flow<Dim>& flow) const {
   StepLimits limits;
   for (const OpenEnd<Dim>& end : ends_) {
-    if (end.is_driven()) limits.speed = std::max(limits.speed, end.largest_speed(flow.state.time, spacing_));
+    if (end.is_driven()) limits.speed = std::max(limits.speed, end.largest_speed(flow.state.time, end.spacing));
   }
   return limits;
 }
@@ -252,7 +252,7 @@ std::unique_ptr<Part<Dim>> make_open_ends_part(const CaseSpec& spec, const Setup
     ends.back().reach = reach_of(ends.back().opening, boundary);
   }
   if (ends.empty()) return nullptr;
-  return std::make_unique<OpenEnds<Dim>>(std::move(ends), setup.scale.spacing);
+  return std::make_unique<OpenEnds<Dim>>(std::move(ends));
 }
 
 template class OpenEnds<2>;

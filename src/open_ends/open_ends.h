@@ -14,8 +14,7 @@ template <int Dim>
 class OpenEnds final : public Part<Dim> {
  public:
   OpenEnds() = default;
-  OpenEnds(std::vector<OpenEnd<Dim>> ends, double spacing)
-      : ends_(std::move(ends)), spacing_(spacing), states_(ends_.size()) {}
+  explicit OpenEnds(std::vector<OpenEnd<Dim>> ends) : ends_(std::move(ends)), states_(ends_.size()) {}
 
   /// One per inlet, then one per outlet.
   const std::vector<OpenEnd<Dim>>& ends() const { return ends_; }
@@ -64,7 +63,6 @@ class OpenEnds final : public Part<Dim> {
   bool is_first(const std::string& warning);
 
   std::vector<OpenEnd<Dim>> ends_;
-  double spacing_ = 0.0;  ///< m
   // Saved in checkpoints.
   std::vector<OpenEndState> states_;
   std::vector<std::string> warnings_;  ///< kinds of those that were given
