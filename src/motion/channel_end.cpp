@@ -14,13 +14,12 @@
 namespace tailwater {
 namespace {
 
-/// A smaller share of gravity along an opening is rounding error.
+/// A smaller fraction of gravity along an opening is rounding error.
 constexpr double least_gravity_share = 1e-9;
 /// Lines along a column of a section, and the steps in which its ends are found.
 constexpr int lines_per_column = 4;
 constexpr double steps_per_spacing = 50.0;
-/// Parts of a tabulated profile. The share of the discharge in a part is its middle's: in a seventh root 1e-4 is
-/// missing in all.
+/// Parts of a tabulated profile. Each part has the discharge of its middle: a seventh root loses 1e-4 of the total.
 constexpr int profile_parts = 1000;
 /// By which the mean of a profile may change with twice as many parts. A profile that grows without bound towards the
 /// bed or the surface has a mean only if it grows slower than 1/s; with s^-0.9 it still changes by 2 %.
@@ -79,8 +78,8 @@ std::optional<TimeFunction> time_function(const std::optional<Varying>& value, c
   return TimeFunction(SmoothCurve(series.time, series.columns[column]));
 }
 
-/// What of a column is within the outline of a section, on average over lines along it; none if that is less than half
-/// a spacing high.
+/// The part of a column within the outline of a section, on average over lines along it; none if it is less than half a
+/// spacing high.
 template <int Dim>
 std::optional<SectionColumn> open_part(const Opening<Dim>& opening, const SectionColumn& column, const Vec<Dim>& low,
                                        const Vec<Dim>& aside, const Vec<Dim>& rise, double spacing) {
@@ -95,7 +94,7 @@ std::optional<SectionColumn> open_part(const Opening<Dim>& opening, const Sectio
     while (bottom < steps && !is_open(bottom)) ++bottom;
     int top = bottom;
     while (top < steps && is_open(top)) ++top;
-    // A line without an open part closes its share of the column.
+    // A line without an open part closes its part of the column.
     const double closed = 0.5 * column.top;
     open.bottom += (bottom < steps ? bottom * step : closed) / lines_per_column;
     open.top += (bottom < steps ? top * step : closed) / lines_per_column;

@@ -1,4 +1,4 @@
-// An open end as the cross-section of a channel, and what the case says about the water in it.
+// An open end as the cross-section of a channel, and the levels and discharges that the case prescribes there.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace tailwater {
 
-/// What is prescribed at an open end. Without any of these the channel goes on beyond it.
+/// The prescribed flow at an open end. Without any of these the channel goes on beyond it.
 struct EndFlow {
   std::optional<TimeFunction> discharge;  ///< m^3/s, in 2D per metre of width; into the case
   std::optional<TimeFunction> velocity;   ///< m/s; mean over the section, into the case
   std::optional<TimeFunction> level;      ///< m; of the surface, along `up`
   double absorbing = 0.0;                 ///< 0: the level is held; 1: waves leave
-  /// Share of the discharge below heights that divide the depth into equal parts, from the bed to the surface; empty:
-  /// the velocity is uniform.
+  /// Fraction of the discharge below heights that divide the depth into equal parts, from the bed to the surface;
+  /// empty: the velocity is uniform.
   std::vector<double> profile;
 
   bool feeds() const { return discharge || velocity; }
-  /// The velocity of a row of particles over that of all rows, `row` high at a share of the depth, both as shares from
-  /// 0 to 1: the mean of the profile over it, so that rows which fill the depth bring the discharge whatever the
-  /// profile.
+  /// The velocity of a row of particles over that of all rows: the mean of the profile over the row, so that rows which
+  /// fill the depth bring the discharge for any profile. Height of the row and of its middle are fractions of the
+  /// depth.
   double profile_of_row(double share, double row) const;
   /// The largest of them for rows that divide the depth into equal parts.
   double largest_in_profile(int rows) const;
@@ -47,7 +47,7 @@ struct ChannelEnd {
 
   Opening<Dim> mouth;    ///< where the case ends
   double duct;           ///< m; length of the duct outside of it
-  Opening<Dim> opening;  ///< at the end of the duct: what is beyond it has left
+  Opening<Dim> opening;  ///< at the end of the duct: water beyond it has left
   EndFlow flow;
   double gravity;                      ///< m/s^2; the part of gravity along the opening's plane
   Vec<Dim> up;                         ///< opposite to that part; 0 if there is none
@@ -60,7 +60,7 @@ struct ChannelEnd {
   std::vector<SectionColumn> columns;  ///< that make up the section, `aside` ascending; one in 2D
   int circuit = -1;      ///< where water circulates: the index of the outlet whose sump it draws from and fills
   double far_out = 0.0;  ///< m; into air: from the mouth, along its normal or aside, to where free jets are removed
-  double reserve = 0.0;  ///< m^Dim; what this end has put into the sump at the start
+  double reserve = 0.0;  ///< m^Dim; initial water of this end in the sump
 
   /// Whether beyond is air, into which water falls.
   bool air() const { return mouth.meets_air; }
@@ -82,13 +82,13 @@ struct ChannelEnd {
   /// Height above the floor at which a level [m] stands, at most that of the opening; the whole opening without gravity
   /// along it, where there is no level.
   double depth_at_level(double level) const;
-  /// The same over the width [m^2/s].
+  /// Discharge over the width [m^2/s].
   double discharge_per_width(double time, double depth) const { return discharge(time, depth) / width; }
   /// Depth [m] at which the prescribed flow is critical: no deeper flow is supercritical. 0 without gravity.
   double critical_depth(double time) const;
   /// The largest speed [m/s] with which particles of a spacing [m] enter where nothing resists.
   double largest_speed(double time, double spacing) const;
-  /// The largest depth [m], up to a time, that follows from what is prescribed alone.
+  /// The largest depth [m], up to a time, that follows from the prescribed flow alone.
   double largest_depth(double end_time) const;
 };
 

@@ -1,4 +1,4 @@
-// The conditions at open ends in a step, from the flow before them and from what the case prescribes.
+// The conditions at open ends in a step, from the flow before them and from the prescribed levels and discharges.
 #include <algorithm>
 #include <cmath>
 
@@ -10,23 +10,23 @@
 namespace tailwater {
 namespace {
 
-/// Water shallower than this share of dx gives no reliable level.
+/// [dx]; shallower water gives no reliable level.
 constexpr double least_depth_over_spacing = 0.1;
 /// Time over which the invariant is averaged where the channel goes on, in travel times of a long wave from the gauge
-/// into the buffer. It is long compared with the waves that must leave, because whatever the mean follows is let back
-/// in (docs/theory/open_ends.md).
+/// into the buffer. It is long compared with the waves that must leave, because waves that the mean follows are
+/// reflected (docs/theory/open_ends.md).
 constexpr double memory = 100.0;
-/// The same where a level is prescribed and lets waves out, in passes of a long wave through the case; one pass where
-/// the level is held.
+/// Averaging time where a level is prescribed and lets waves out, in passes of a long wave through the case; one pass
+/// where the level is held.
 constexpr double passes_of_waves = 4.0;
-/// Share of its depth by which the level may follow a wave.
+/// Fraction of the depth by which the level may follow a wave.
 constexpr double most_absorbed = 0.5;
-/// Depths that a long wave goes while the error of a prescribed level is averaged, and so many of these times the level
-/// may be missed by more than dx before it is told.
+/// Averaging time of the error of a prescribed level, in depths that a long wave travels. A level that is off by more
+/// than dx for this many averaging times is reported.
 constexpr double depths_of_watch = 5.0;
 constexpr double windows_until_told = 2.0;
-/// [dx]; rows of the entering lattice are one more or one less when they have become that much too high or too low
-/// together. Half of it would do; the rest keeps a level that trembles from changing them again and again.
+/// [dx]; the entering lattice gets a row more or less when the depth has left its rows by this much. 0.5 is the least;
+/// more keeps a level that oscillates slightly from changing the rows again and again.
 constexpr double most_row_error = 0.75;
 
 /// Sums over the water before the buffer, over all ranks, weighted by a tent that counts a lattice exactly wherever it
@@ -65,7 +65,7 @@ struct WaterInside {
   double rise = 0.0;    ///< m; above that bottom, by its pressure
 };
 
-/// A section as broad as its water's surface has the bottom, in the mean, that is returned: m above the floor.
+/// m above the floor; bottom of the rectangle that is as broad as the water's surface and has the area of the section.
 template <int Dim>
 double mean_bottom(const OpenEnd<Dim>& end, double depth) {
   const double breadth = end.breadth_at(depth);
@@ -149,7 +149,7 @@ Inflow hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const WaterIns
     return {};
   }
   if (state.is_wet) {
-    // In a wave that leaves, u - 2 sqrt(g h) is what it is beyond.
+    // A wave that leaves carries the u - 2 sqrt(g h) of the water beyond.
     const double depth = std::max(head, end.spacing);
     const double change = std::max(state.speed - state.mean_speed, -2.0 * std::sqrt(g * depth));
     const double wave = (std::sqrt(g * depth) + 0.25 * change) * change / g;

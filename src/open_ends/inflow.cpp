@@ -1,4 +1,4 @@
-// What comes in at open ends: particles on the rows of a lattice at the opening, each as soon as it has room.
+// Inflow at open ends: particles enter on the rows of a lattice at the opening, each as soon as there is free space.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,8 +18,8 @@ constexpr double first_entry = 0.5;
 /// very plane would leave and enter again with every tremble of water at rest.
 constexpr double least_entry = 0.25;
 
-/// [dx] from other water, at which a particle that comes in stands at least; and the least free volume of its row, over
-/// its own. A row of an even lattice that has just room has half of it free.
+/// [dx]; least distance of a particle that enters from other water. And the least free volume of its row, over its own
+/// volume: a row of an even lattice that can just take a particle has half of it free.
 constexpr double closest_entry = 0.7;
 constexpr double least_free_volume = 0.25;
 
@@ -71,7 +71,7 @@ class EntryLattice {
       }
     }
   }
-  /// Calls with the two cells between whose middles a place is, and with the share of each in it.
+  /// Calls with the two cells between whose middles a place is, and with the weight of each.
   template <class Body>
   void for_rows_around(const Vec<Dim>& x, Body&& body) const {
     const std::size_t c = rows_.empty() ? 0 : end_.column_at(x);
@@ -109,7 +109,7 @@ std::vector<double> free_lengths(const OpenEnd<Dim>& end, const EntryLattice<Dim
   return length;
 }
 
-/// How much less water than its volume [m^Dim] each row of the buffer holds, over all ranks, weighted by a share that
+/// How much less water than its volume [m^Dim] each row of the buffer holds, over all ranks, weighted by a factor that
 /// falls from 1 at the opening to 0 where the buffer begins. In a lattice whose first column stands one spacing behind
 /// the opening half a particle is missing.
 template <int Dim>
@@ -150,8 +150,8 @@ void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, c
   }
 }
 
-/// The particles of a `volume` [m^Dim], or as large as a cell of the lattice one spacing long, that have room to enter
-/// now: each stands the length of its cell before the next in its row. All ranks find the same.
+/// The particles that can enter now, of a `volume` [m^Dim], or as large as a cell of the lattice one spacing long. Each
+/// stands the length of its cell before the next in its row. All ranks get the same.
 template <int Dim>
 std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow,
                                         const std::optional<double>& volume) {
@@ -178,8 +178,8 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   return entrants;
 }
 
-/// What enters where water circulates: as many as wait in the `sump`, of their mean volume, so that number and volume
-/// are kept. Those that have waited longest come first.
+/// The particles that enter where water circulates: at most as many as wait in the `sump`, of their mean volume, so
+/// that number and volume are conserved. Those that have waited longest enter first.
 template <int Dim>
 std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow,
                                          const WaterAmount& sump) {

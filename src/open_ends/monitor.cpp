@@ -1,4 +1,4 @@
-// Warns of open ends that do not do what the case prescribes.
+// Warnings of open ends that miss their prescribed level or discharge.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 namespace tailwater {
 namespace {
 
-/// An inlet is short of water when more than this share of what is prescribed is missing, and more than so many columns
-/// of particles: some always wait for room.
+/// An inlet is reported when its volume is off by more than this fraction of the prescribed one and this many columns
+/// of particles: some always wait for free space.
 constexpr double most_missing = 0.02;
 constexpr double columns_that_wait = 3.0;
 
@@ -53,8 +53,7 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
     if (state.miss.since >= 0.0 && is_first(label + ": level")) {
       tailwater::warn(
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
-          "spacing of {:.3g} m; the end of the run tells how long. Remedy: a wider or deeper opening, or levels and "
-          "discharges that change more slowly",
+          "spacing of {:.3g} m; remedy: make the opening wider or deeper, or change levels and discharges more slowly",
           label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", end.spacing);
     }
     const double missing = state.asked - (state.arrived.volume - state.departed.volume);

@@ -75,8 +75,8 @@ Vec<Dim> OpenEnd<Dim>::velocity_at(const OpenEndState& state, const Vec<Dim>& x)
          state.stretching * above_bottom * this->rise;
 }
 
-/// The water may become deeper or shallower. Then it is stretched along `rise`, and what it gains or loses along the
-/// channel makes up for it: the field has no divergence, and the discharge at the opening is the prescribed one.
+/// The water may become deeper or shallower. Then it is stretched along `rise` and compressed along the channel by
+/// as much: the field has no divergence, and the discharge at the opening is the prescribed one.
 template <int Dim>
 Vec<Dim> OpenEnd<Dim>::inflow_at(const OpenEndState& state, const Vec<Dim>& x) const {
   const std::size_t column = column_at(x);

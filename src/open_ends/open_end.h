@@ -1,10 +1,10 @@
-// What happens at inlets and outlets (motion/channel_end.h): docs/theory/open_ends.md.
+// Inlets and outlets (motion/channel_end.h) in a step: docs/theory/open_ends.md.
 //
 // The stretch of the channel at the end, one dx longer than the kernel's support, is the buffer zone. For their
 // neighbours its particles are part of the flow, but they are not solved for: their pressure and their velocity follow
-// from what is prescribed and from the water inside. So water inside has full support and no free surface or wall where
-// the case ends. Particles that have passed the opening outwards are removed; where the buffer moves inwards, new ones
-// stand in the rows of a lattice at the opening. Both are counted.
+// from the prescribed level or discharge and from the water inside. So water inside has full support and no free
+// surface or wall where the case ends. Particles that have passed the opening outwards are removed; where the buffer
+// moves inwards, new ones stand in the rows of a lattice at the opening. Both are counted.
 //
 // The section of the opening is divided into cells of about dx x dx. The line of water before and behind a cell, along
 // the opening's normal, is its fibre. Where no discharge is prescribed, each fibre has a velocity of its own, that of
@@ -21,14 +21,14 @@ namespace tailwater {
 
 /// How well a prescribed level is held.
 struct LevelError {
-  double mean = 0.0;    ///< m; of the water before the buffer, above what the level asks for
+  double mean = 0.0;    ///< m; of the water before the buffer, above the height that the level prescribes
   double lasts = 0.0;   ///< s; for which that has been more than a spacing
   double since = -1.0;  ///< s; when it began, the first time that it lasted long; below 0: it never did
   double total = 0.0;   ///< s; of all times that lasted long
   double most = 0.0;    ///< m; the largest mean in them
 };
 
-/// The flow before the buffer, and what is assumed or prescribed beyond.
+/// The flow before the buffer, and the assumed or prescribed flow beyond.
 struct OpenEndState {
   // The water before the buffer.
   bool is_wet = false;
@@ -46,10 +46,10 @@ struct OpenEndState {
   std::vector<double> fibre_speeds;  ///< m/s; out; elsewhere
   double stretching = 0.0;           ///< 1/s; rate at which the water there becomes deeper; elsewhere
   std::vector<std::int64_t> rows;    ///< of the lattice on which particles enter, in each column
-  // What has passed.
+  // Water that has passed.
   LevelError miss;
-  double asked = 0.0;        ///< m^Dim; what should have come in less what should have left; where that is prescribed
-  double asked_total = 0.0;  ///< m^Dim; what should have passed, in either direction
+  double asked = 0.0;        ///< m^Dim; prescribed volume, in less out; where a discharge is prescribed
+  double asked_total = 0.0;  ///< m^Dim; prescribed volume in both directions together
   WaterAmount departed;
   WaterAmount arrived;
   std::int64_t short_steps = 0;  ///< steps in which more would have entered than waited to circulate

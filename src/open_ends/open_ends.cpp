@@ -220,8 +220,8 @@ void OpenEnds<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& /
                 });
 }
 
-/// Work [J] of the prescribed water in a buffer on the water that is solved for, as of a wall, and what is done
-/// on itself.
+/// Work [J] of the prescribed water in a buffer on the water that is solved for, as of a wall, and the work done on the
+/// prescribed water itself.
 template <int Dim>
 double OpenEnds<Dim>::work_of_driven_particle(const Flow<Dim>& flow, std::size_t i, double dt) const {
   const Particles<Dim>& particles = flow.state.particles;

@@ -28,7 +28,7 @@ class OpenEnds final : public Part<Dim> {
   /// The water that waits to enter through the ends of a circuit (ChannelEnd::circuit): its reserve and what has left
   /// through them, less what came. Its energy is not counted.
   WaterAmount sump(int circuit) const;
-  /// What has passed each inlet, or each outlet, for the summary; `density` in kg/m^3.
+  /// The water that has passed each inlet, or each outlet, for the summary; `density` in kg/m^3.
   Json balance(OpeningKind kind, double density) const;
   /// From `time` [s] on the inlet brings the discharge [m^3/s]. Throws InputError if there is no inlet of that name or
   /// the case gives it no discharge.
@@ -47,9 +47,9 @@ class OpenEnds final : public Part<Dim> {
   void write_rows(Flow<Dim>& flow) override;
   void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
   void add_passed_water(WaterAmount& departed, WaterAmount& arrived) const override;
-  /// Of levels that are not held (LevelError) and of inlets that pass more or less than prescribed.
+  /// Warns of levels that are not held (LevelError) and of inlets that pass more or less than prescribed.
   void warn(const Flow<Dim>& flow) override;
-  /// Again of levels that were not held: for how long, and whether they are now.
+  /// Warns again of levels that were not held: for how long, and whether they are now.
   void warn_at_end(const Flow<Dim>& flow) const override;
 
  private:
@@ -68,7 +68,7 @@ class OpenEnds final : public Part<Dim> {
   std::vector<std::string> warnings_;  ///< kinds of those that were given
   // In one step.
   std::vector<std::int16_t> end_of_;  ///< the end whose buffer holds each owned particle, or -1
-  double driven_change_ = 0.0;        ///< J; of this rank's kinetic energy by what is prescribed
+  double driven_change_ = 0.0;        ///< J; change of this rank's kinetic energy by the prescribed velocities
 };
 
 template <int Dim>
