@@ -6,9 +6,10 @@ Usage: benchmarks/beside.py [--case zhou|box]... [--dx SPACING] [--end SECONDS] 
 
 Cases: zhou, in 2D, at 0.015 m to 1.4 s (cases/zhou1999); box, in 3D, SPHERIC's benchmark 2, at 0.02 m to 1 s
 (benchmarks/dam_break_3d.toml). Walls are free in all codes. Of the others those run that are there:
-  SISPH  PySPH (apt-get install python3-pysph), zhou only; set as in PySPH's own example. Its first run compiles its
-         loops, which takes minutes and is not counted.
-  DFSPH  SPlisHSPlasH, built by its users: SPHSimulator in PATH, or --dfsph FILE; set as in its own scenes (dfsph.py).
+  SISPH, WCSPH  PySPH (apt-get install python3-pysph), zhou only; set as in PySPH's own example (pysph_zhou.py). The first
+                run compiles its loops, which takes minutes and is not counted.
+  interFoam     OpenFOAM's volume of fluid (apt-get install openfoam), zhou only; set by us (interfoam.py).
+  DFSPH         SPlisHSPlasH, built by its users: SPHSimulator in PATH, or --dfsph FILE; set as in its own scenes (dfsph.py).
 
 Prints CPU seconds per simulated second, Tailwater's over theirs, and two numbers of the pressure on a wall, 0.12 m
 above the floor where Zhou's water arrives, or 0.06 m above it in the middle of the box: its noise, the RMS about its
@@ -37,6 +38,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import dfsph
+import interfoam
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
@@ -98,7 +100,7 @@ class Code:
 
 @dataclass
 class Done:
-    """Cost and wall pressure of a finished run."""
+    """Cost, wall pressure and, of zhou, the length of water at the gauge H1 of a finished run."""
 
     cpu: float  # s
     simulated: float  # s
@@ -106,6 +108,7 @@ class Done:
     steps: int
     times: np.ndarray  # s
     pressure: np.ndarray  # Pa; on the wall
+    level: np.ndarray | None = None  # m
 
     @property
     def price(self):
@@ -125,18 +128,21 @@ def tailwater(program, name, case, settings, folder):
         command += ["--set", setting]
     subprocess.run(command, check=True)
     summary = json.loads((folder / "run/summary.json").read_text())
-    lines = (folder / f"run/probes/{probe}.csv").read_text().splitlines()
-    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    times, pressure = (np.array([float(row[name]) for row in rows]) for name in ("time_s", "pressure_Pa"))
+    times, pressure = column(folder, probe, "time_s"), column(folder, probe, "pressure_Pa")
+    level = column(folder, "H1", "wet_m") if name == "zhou" else None
     return Done(summary["cost"]["cpu_s"], summary["time_s"]["reached"], summary["particles"]["fluid"],
-                summary["steps"]["count"], times, pressure)
+                summary["steps"]["count"], times, pressure, level)
 
 
-def sisph(dx, end, folder):
-    command = ["/usr/bin/python3", "-B", ROOT / "benchmarks/sisph_zhou.py", str(dx), str(end), f"{folder}/sisph"]
+def column(folder, probe, name):
+    lines = (folder / f"run/probes/{probe}.csv").read_text().splitlines()
+    return np.array([float(row[name]) for row in csv.DictReader(line for line in lines if not line.startswith("#"))])
+
+
+def pysph(scheme, dx, end, folder):
+    command = ["/usr/bin/python3", "-B", ROOT / "benchmarks/pysph_zhou.py", scheme, str(dx), str(end), f"{folder}/{scheme}"]
     told = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()[-1])
-    times, pressure = np.array(told["pressure"]).T
-    return Done(told["cpu_s"], told["simulated_s"], told["fluid"], told["steps"], times, pressure)
+    return Done(told["cpu_s"], told["simulated_s"], told["fluid"], told["steps"], *np.array(told["readings"]).T)
 
 
 def noise(run, case):
@@ -171,10 +177,15 @@ def available_codes(name, case, options, folder):
     codes = {"Tailwater": Code(f"defaults, wall.tank.slip=free{words}", "Tailwater", f"tailwater run, dx = {case.dx:g} m",
                                lambda: tailwater(options.program, name, case, options.set, folder))}
     if name == "zhou" and importlib.util.find_spec("pysph"):
-        sisph(0.1, 1e-3, folder)  # compiles
-        codes["SISPH"] = Code("scheme, step and kernel of PySPH's own example of a dam break; free walls", "authors of PySPH",
-                              f"benchmarks/sisph_zhou.py {case.dx:g} {case.end:g} FOLDER",
-                              lambda: sisph(case.dx, case.end, folder))
+        for scheme, but in (("sisph", ""), ("wcsph", ", with a fixed smoothing length")):
+            pysph(scheme, 0.1, 1e-3, folder)  # compiles
+            codes[scheme.upper()] = Code(f"scheme, step and kernel of PySPH's own example of a dam break{but}; free walls",
+                                         "authors of PySPH", f"benchmarks/pysph_zhou.py {scheme} {case.dx:g} {case.end:g} FOLDER",
+                                         lambda scheme=scheme: pysph(scheme, case.dx, case.end, folder))
+    if name == "zhou" and shutil.which("interFoam"):
+        codes["interFoam"] = Code("Courant number 0.4, vanLeer, linearUpwind, PISO of 3 corrections; water and air; free walls",
+                                  "Tailwater", f"benchmarks/interfoam.py zhou1999 FOLDER --dx {case.dx:g} --end {case.end:g}",
+                                  lambda: Done(*interfoam.run_zhou(case.dx, case.end, tempfile.mkdtemp(dir=folder))))
     if options.dfsph:
         scene = pathlib.Path(tempfile.mkdtemp(dir=folder))
         codes["DFSPH"] = Code("viscosity, tolerances and steps of SPlisHSPlasH's own scenes; free walls",
@@ -238,8 +249,8 @@ def main():
     if options.dfsph and not os.access(options.dfsph, os.X_OK):
         print(f"error: {options.dfsph} is no program; remedy: --dfsph with the path of SPHSimulator", file=sys.stderr)
         return 2
-    if not options.dfsph and not importlib.util.find_spec("pysph"):
-        print("error: there is no other code; remedy: apt-get install python3-pysph, or --dfsph FILE", file=sys.stderr)
+    if not options.dfsph and not importlib.util.find_spec("pysph") and not shutil.which("interFoam"):
+        print("error: there is no other code; remedy: apt-get install python3-pysph openfoam, or --dfsph FILE", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory() as folder:
         cases = [compare(name, CASES[name](options.dx, options.end), options, pathlib.Path(folder))

@@ -263,6 +263,20 @@ def cpu_seconds(log):
     return float(re.findall(r"ExecutionTime = ([\d.]+) s", log.read_text())[-1])
 
 
+def run_zhou(dx, end, folder):
+    """Zhou's dam break for beside.py, with free walls: CPU seconds, simulated seconds, cells of water, steps, and, sampled
+    SAMPLES times, times, pressure on the wall (Pa) and length of water at the gauge H1 (m)."""
+    case = Zhou(argparse.Namespace(case="zhou1999", out=pathlib.Path(folder) / "interfoam", dx=dx, turbulence="none",
+                                   air_density=1.2, surface_tension=0.0, walls="slip"))
+    case.end = end
+    case.run()
+    log = case.folder / "log.interFoam"
+    pressure, level = case.curve(zhou1999.READ_AT, "pressure_Pa"), case.curve("H1", "wet_m")
+    water = round(case.column[0] * case.column[1] / case.spacing**2)
+    steps = len(re.findall(r"^Time = ", log.read_text(), re.MULTILINE))
+    return cpu_seconds(log), end, water, steps, pressure.time, pressure.value, level.value
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=CASES)
