@@ -24,11 +24,11 @@ class OutParser(Parser):
 class RunsParser(OutParser):
     """Options of commands whose runs are made once, several at a time, and kept."""
 
-    def __init__(self, prog, what, out, jobs):
+    def __init__(self, prog, what, out, jobs, jobs_text=None):
         super().__init__(prog, what, out)
         self.epilog = "Finished runs are not repeated. Missed targets do not change the exit code."
         self.set_defaults(ranks=1, settings=[])
-        self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at the same time ({jobs})")
+        self.add_argument("--jobs", type=int, default=jobs, metavar="N", help=f"runs at the same time ({jobs_text or jobs})")
         self.add_argument("--list", action="store_true", help="list the runs with estimated times, and exit")
 
 

@@ -167,7 +167,7 @@ def score(chosen, program, options):
 
 def main(arguments=None):
     parser = command.RunsParser("tailwater validate", "Run the validation cases, compare them with measurements and theory, and "
-                                "write a report.", "validation", max(1, os.cpu_count() or 1))
+                                "write a report.", "validation", max(1, os.cpu_count() or 1), "one per core")
     parser.epilog += " Examples: tailwater validate --list; tailwater validate zhou1999 drop --level paper --out my_validation"
     parser.add_argument("cases", nargs="*", metavar="CASE", help="cases to run (default: all; see --list)")
     parser.add_argument("--level", choices=LEVELS, default="quick",
