@@ -6,8 +6,8 @@ Usage: scripts/evidence.py           makes the file from docs/validation.json, t
        scripts/evidence.py --keys    prints the keys with their values
 
 A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where `WHAT` is `all`, names of studies, keys
-in quotes after `keys`, as in `keys "zhou1999.noise"`, or `counts`, a sentence. `short` before `WHAT` leaves only quantity,
-value, target, result and spacing. A figure in a sentence stands between
+in quotes after `keys`, as in `keys "zhou1999.noise"`, `counts`, a sentence, or `work`, the cost of errors beside other
+codes. `short` before `WHAT` leaves only quantity, value, target, result and spacing. A figure in a sentence stands between
 `<!-- figure: KEY -->` and `<!-- figure: end -->`. docs/validation.json is what `tailwater validate` wrote.
 """
 import json
@@ -19,6 +19,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 from tailwater_validation.evidence import NO_TARGET, NOT_RUN, evidence_of, read_targets  # noqa: E402
+from tailwater_validation.peers import work_table  # noqa: E402
 
 SOURCE, KEPT = ROOT / "docs" / "validation.json", ROOT / "python" / "tailwater" / "evidence.json"
 TABLE = re.compile(r"<!-- evidence: (?!end -->)(?P<what>.+?) -->\n.*?<!-- evidence: end -->", re.DOTALL)
@@ -73,6 +74,8 @@ def table(evidence, what):
     lines = [f"<!-- evidence: {what} -->"]
     if what == "counts":
         return "\n".join([*lines, sentence(evidence), "<!-- evidence: end -->"])
+    if what == "work":
+        return "\n".join([*lines, *work_table(), "<!-- evidence: end -->"])
     words = what.removeprefix("short ")
     columns = HEAD if words == what else SHORT
     lines += [origin(evidence, what == "all"), ""]
