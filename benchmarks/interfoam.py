@@ -3,7 +3,7 @@
 
 It shows the error of a computation without air, turbulence and surface tension, since each can be switched here.
 
-Usage: benchmarks/interfoam.py zhou1999|martin_moyce1952 OUT --dx METRES [--turbulence none|kOmegaSST]
+Usage: benchmarks/interfoam.py zhou1999|martin_moyce1952|janosi2004 OUT --dx METRES [--turbulence none|kOmegaSST]
                                [--air-density 1.2] [--surface-tension 0] [--walls slip|no-slip] [--n2 1] [--end SECONDS]
 OUT is made anew: the case that interFoam ran, and scores.json. Needs Debian's package openfoam.
 """
@@ -23,11 +23,12 @@ sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 import numpy  # noqa: E402
 from tailwater.curves import Curve  # noqa: E402
 from tailwater_validation.metric import Metric  # noqa: E402
-from tailwater_validation.studies import martin_moyce1952, zhou1999  # noqa: E402
+from tailwater_validation.profiles import differences_at, rms  # noqa: E402
+from tailwater_validation.studies import janosi2004, martin_moyce1952, zhou1999  # noqa: E402
 
 OPENFOAM = "/usr/share/openfoam"  # where Debian has what its programs read
 THICKNESS = 0.1  # m, of the one layer of cells that OpenFOAM needs in two dimensions
-WALLS = ("left", "right", "bottom")
+WALLS = ("left", "right", "bottom", "gate")  # interFoam ignores those that a case lacks
 SAMPLES = 1000  # of every probe over a run
 
 
@@ -36,11 +37,12 @@ def header(kind, name):
 
 
 class Case:
-    """The parts of a case that all dam breaks share. A subclass has `size` and `column` (length, height, m), `end` (s),
-    `gauges` (names of probes: field and places), and what `scores` needs of a run: `curve` and `spacing`. `measured_in`:
-    other files of the laboratory than our case names."""
+    """The parts of a case that all dam breaks share; `cost` (CPU s) is that of its run. A subclass has `size` and `column`
+    (length, height, m), `end` (s), `gauges` (names of probes: field and places), and what `scores` needs of a run: `curve`
+    and `spacing`. `measured_in`: other files of the laboratory than our case names."""
 
     measured_in = {}
+    cost = None
 
     def __init__(self, options):
         self.options = options
@@ -154,7 +156,7 @@ relaxationFactors { equations { ".*" 1; } }
         functions = "".join(probes(name, *gauge) for name, gauge in self.gauges().items())
         self.write("system/controlDict", f"""
 application interFoam;
-startFrom startTime; startTime 0; stopAt endTime; endTime {self.end:.6g};
+startFrom startTime; startTime 0; stopAt endTime; endTime {self.end:.8g};
 deltaT 1e-4; adjustTimeStep yes; maxCo 0.4; maxAlphaCo 0.4; maxDeltaT {self.end / SAMPLES:.6g};
 writeControl adjustableRunTime; writeInterval {self.end / 16:.6g};
 writeFormat binary; writePrecision 8; timePrecision 8; runTimeModifiable no;
@@ -169,11 +171,14 @@ regions (boxToCell {{ box (-1 -1 -1) ({self.column[0]} 1 {self.column[1]});
     def run(self):
         for part in (self.mesh, self.fields, self.properties, self.schemes, self.control):
             part()
-        environment = {"WM_PROJECT_DIR": OPENFOAM} | os.environ
         for program in ("blockMesh", "setFields", "interFoam"):
-            with (self.folder / f"log.{program}").open("w") as log:
-                subprocess.run([program], cwd=self.folder, env=environment, check=True, stdout=log,
-                               stderr=subprocess.STDOUT)
+            self.call(program)
+        self.cost = cpu_seconds(self.folder / "log.interFoam")
+
+    def call(self, program):
+        with (self.folder / f"log.{program}").open("w") as log:
+            subprocess.run([program], cwd=self.folder, env={"WM_PROJECT_DIR": OPENFOAM} | os.environ, check=True, stdout=log,
+                           stderr=subprocess.STDOUT)
 
     def table(self, name, field):
         """Times, and one row of values for each."""
@@ -256,7 +261,157 @@ class MartinMoyce(Case):
         yield from martin_moyce1952.of_laboratory(self)
 
 
-CASES = {"zhou1999": Zhou, "martin_moyce1952": MartinMoyce}
+class Janosi(Case):
+    """A gate as thin as a face of the mesh, which rises by one cell at a time: for each height of its lip the mesh is made
+    anew with a wall there, and the run goes on from the fields of the one before."""
+
+    lock, ahead, depth, speed = 0.38, janosi2004.DEPTH, 0.15, 1.5  # m, m, m, m/s
+    size = 1.5, 0.3
+    column = lock, depth
+    end = 0.63
+    every = 0.005  # s, between the surfaces that are compared
+
+    def __init__(self, options):
+        super().__init__(options)
+        self.in_lock = round(self.lock / self.spacing)
+        self.height = self.size[1] / self.cells[1]
+        self.surfaces = {}
+
+    def gauges(self):
+        return {}
+
+    def blocks(self, lip):
+        """Columns and rows of cells of the blocks below and above the lip, left and right of the gate, as blockMesh orders
+        them."""
+        along, up = self.cells
+        rows = [(low, high) for low, high in ((0, lip), (lip, up)) if low < high]
+        return [(columns, block) for block in rows for columns in ((0, self.in_lock), (self.in_lock, along))]
+
+    def mesh(self, lip):
+        """A wall between the columns of cells at the gate, above `lip` rows of cells: the blocks there share no corners."""
+        corners, blocks, walls = [], [], {name: [] for name in ("left", "right", "bottom", "top", "gate", "sides")}
+
+        def corner(x, z, side):
+            """Its two numbers, front and back. Along the gate each side has corners of its own."""
+            is_shared = x != self.in_lock or z < lip or 0 < z == lip
+            pair = [(x, y, z, "" if is_shared else side) for y in (0, THICKNESS)]
+            corners.extend(one for one in pair if one not in corners)
+            return [corners.index(one) for one in pair]
+
+        _, up = self.cells
+        for (first, last), (low, high) in self.blocks(lip):
+            is_left = first == 0
+            (a, d), (b, c), (e, h), (f, g) = (corner(x, z, "left" if is_left else "right")
+                                              for z in (low, high) for x in (first, last))
+            blocks.append(f"hex ({a} {b} {c} {d} {e} {f} {g} {h}) ({last - first} 1 {high - low}) simpleGrading (1 1 1)")
+            walls["sides"] += [(a, b, f, e), (d, h, g, c)]
+            walls["left" if is_left else "right"].append((a, e, h, d) if is_left else (b, c, g, f))
+            if low >= lip:
+                walls["gate"].append((b, c, g, f) if is_left else (a, e, h, d))
+            if low == 0:
+                walls["bottom"].append((a, d, c, b))
+            if high == up:
+                walls["top"].append((e, f, g, h))
+        kinds = {"top": "patch", "sides": "empty"}
+        points = "\n".join(f"({x * self.spacing} {y} {z * self.height})" for x, y, z, _ in corners)
+        faces = {name: " ".join(f"({a} {b} {c} {d})" for a, b, c, d in quads) for name, quads in walls.items()}
+        patches = "\n".join(f"{name} {{ type {kinds.get(name, 'wall')}; faces ({faces[name]}); }}" for name in walls)
+        self.write("system/blockMeshDict", f"vertices ({points});\nblocks ({' '.join(blocks)});\nboundary ({patches});\n")
+
+    def start_field(self):
+        """Fraction of water at the start, by row and column of cells."""
+        filled = numpy.zeros((self.cells[1], self.cells[0]))
+        for depth, columns in ((self.depth, slice(0, self.in_lock)), (self.ahead, slice(self.in_lock, None))):
+            filled[:, columns] = numpy.clip(depth / self.height - numpy.arange(self.cells[1]), 0, 1)[:, None]
+        return filled
+
+    def write_inside(self, name, time, values, lip):
+        """Replaces the inside of a field file by values of all cells (rows, columns, components)."""
+        parts = [values[low:high, first:last].reshape(-1, values.shape[2])
+                 for (first, last), (low, high) in self.blocks(lip)]
+        texts = [" ".join(f"{x:.9g}" for x in cell) for cell in numpy.concatenate(parts)]
+        is_vector = values.shape[2] == 3
+        lines = "\n".join(f"({text})" for text in texts) if is_vector else "\n".join(texts)
+        file = self.folder / "0" / name
+        text = file.read_text()
+        kind = "vector" if is_vector else "scalar"
+        text = re.sub(r"internalField uniform [^;]*;", f"internalField nonuniform List<{kind}> {len(texts)}\n(\n{lines}\n);", text)
+        (self.folder / time).mkdir(exist_ok=True)
+        (self.folder / time / name).write_text(text)
+
+    def read_inside(self, name, time, lip):
+        """All cells of a field file (rows, columns, components)."""
+        text = (self.folder / time / name).read_text()
+        found = re.search(r"internalField\s+nonuniform List<\w+>\s*(\d+)\s*\((.*?)\n\)\s*;", text, re.DOTALL)
+        cells = numpy.array(found[2].replace("(", " ").replace(")", " ").split(), float).reshape(int(found[1]), -1)
+        values, begin = numpy.zeros((self.cells[1], self.cells[0], cells.shape[1])), 0
+        for (first, last), (low, high) in self.blocks(lip):
+            count = (last - first) * (high - low)
+            values[low:high, first:last] = cells[begin:begin + count].reshape(high - low, last - first, -1)
+            begin += count
+        return values
+
+    def stage(self, start, end, lip, values):
+        """Runs from the fields `values` {name: cells} at one time, named as its folder, to another; returns those at the end
+        and the name of its folder."""
+        self.mesh(lip)
+        self.end = end
+        self.control()
+        control = self.folder / "system/controlDict"
+        text = control.read_text().replace("startFrom startTime; startTime 0", f"startFrom startTime; startTime {start}")
+        text = re.sub(r"writeInterval [^;]*; writeFormat|writeInterval [^;]*;\nwriteFormat",
+                      f"writeInterval {min(self.every, end - float(start)):.8g};\nwriteFormat", text).replace("binary", "ascii")
+        control.write_text(text)
+        if start != "0":  # Fluxes there are those of the mesh before.
+            shutil.rmtree(self.folder / start)
+        for name, cells in values.items():
+            self.write_inside(name, start, cells, lip)
+        self.call("blockMesh")
+        self.call("interFoam")
+        self.cost += cpu_seconds(self.folder / "log.interFoam")
+        times = sorted((float(path.name), path.name) for path in self.folder.iterdir() if re.fullmatch(r"[\d.]+", path.name))
+        for time, name in times:
+            if float(start) < time <= end + 1e-9 and (self.folder / name / "U").exists():
+                self.surfaces[time] = self.level(self.read_inside("alpha.water", name, lip)[:, :, 0])
+        last = times[-1][1]
+        return {name: self.read_inside(name, last, lip) for name in values}, last
+
+    def level(self, filled):
+        """Height of the water that is joined with the bed, by column."""
+        is_joined = numpy.cumprod(filled > 0.5, axis=0)
+        above = numpy.minimum(is_joined.sum(axis=0), len(filled) - 1)
+        rest = numpy.take_along_axis(filled, above[None], axis=0)[0]
+        return ((filled * is_joined).sum(axis=0) + rest) * self.height
+
+    def run(self):
+        for part in (self.fields, self.properties, self.schemes):
+            part()
+        self.cost = 0.0
+        shape = (self.cells[1], self.cells[0])
+        values = {"alpha.water": self.start_field()[:, :, None], "U": numpy.zeros((*shape, 3)), "p_rgh": numpy.zeros((*shape, 1))}
+        time, lip, end = "0", 0, self.end
+        while float(time) < end - 1e-6:
+            is_out = lip * self.height > self.depth + 2 * self.height
+            until = end if is_out else (lip + 0.5) * self.height / self.speed
+            values, time = self.stage(time, until, self.cells[1] if is_out else lip, values)
+            lip += 1
+
+    def scores(self):
+        times = numpy.array(sorted(self.surfaces))
+        levels = numpy.array([self.surfaces[time] for time in times])
+
+        def distance(instant, shift=0.0):
+            level = [numpy.interp(instant + shift, times, column) for column in levels.T]
+            return rms(1000 * differences_at(*janosi2004.laboratory(self, instant), self.centres(0), numpy.array(level)))
+
+        instants = [instant for instant in janosi2004.INSTANTS if instant >= janosi2004.TARGET_FROM]
+        best = min(janosi2004.SHIFTS, key=lambda shift: sum(distance(instant, shift) ** 2 for instant in instants))
+        for instant in janosi2004.INSTANTS:
+            yield Metric(f"rms {instant:g}", f"RMS distance of the surface, t = {instant:g} s", "mm", "far water at 38 mm",
+                         value=distance(instant), shifted_value=distance(instant, best), shift=best)
+
+
+CASES = {"zhou1999": Zhou, "martin_moyce1952": MartinMoyce, "janosi2004": Janosi}
 
 
 def cpu_seconds(log):
@@ -305,9 +460,8 @@ def main():
         value = metric.note if metric.value is None else f"{metric.value:.3f} {metric.unit}"
         shifted = "" if metric.shifted_value is None else f" (at the best shift {metric.shifted_value:.3f})"
         print(f"{metric.what}, for {metric.against}: {value}{shifted}")
-    cost = {"cpu_s": cpu_seconds(options.out / "log.interFoam")}
     (options.out / "scores.json").write_text(
-        json.dumps(cost | {metric.name: metric.value for metric in metrics}, indent=2) + "\n")
+        json.dumps({"cpu_s": case.cost} | {metric.name: metric.value for metric in metrics}, indent=2) + "\n")
     return 0
 
 
