@@ -1,4 +1,4 @@
-// Fields of a flow as numpy arrays that share its memory.
+// numpy arrays over the memory of a flow's fields.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -9,8 +9,8 @@
 
 namespace tailwater {
 
-/// Lends one field. A view copies nothing. One that is kept beyond its step stays as it was: the flow
-/// then goes on with a copy of the field, and the view keeps the memory.
+/// Lends one field as numpy views without a copy. A view that Python keeps beyond its step keeps its values: `settle`
+/// then gives the flow a copy of the field, and the view keeps the old memory.
 template <class T>
 class Lender {
  public:
@@ -19,7 +19,7 @@ class Lender {
   Lender& operator=(const Lender&) = delete;
   ~Lender() { settle(); }
 
-  /// The first `count` entries, each of so many numbers: (count, components), or (count) for single numbers.
+  /// The first `count` entries as an array of shape (count, components), or (count) where `components` is 1.
   template <class Number>
   pybind11::array view(std::size_t count, std::size_t components, bool is_writable = false) {
     if (!memory_) memory_ = std::make_shared<std::vector<T>>();
@@ -37,7 +37,7 @@ class Lender {
     return view;
   }
 
-  /// Call before the field changes, or goes.
+  /// Call before the field changes or is destroyed.
   void settle() {
     if (memory_.use_count() > 1) {
       std::vector<T> copy = field_;
@@ -49,7 +49,7 @@ class Lender {
 
  private:
   std::vector<T>& field_;
-  std::shared_ptr<std::vector<T>> memory_;  ///< empty while the field is the flow's
+  std::shared_ptr<std::vector<T>> memory_;  ///< empty as long as the flow owns the memory of the field
 };
 
 }  // namespace tailwater

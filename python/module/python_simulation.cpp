@@ -17,10 +17,10 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; from where a wall is to where a path of a script begins: round-off, and no more.
+/// [dx]; largest distance between a wall and the start of a script's path: only round-off is allowed.
 constexpr double largest_jump = 1e-6;
 
-/// Throws InputError for what is no place of a wall.
+/// Throws InputError if `given` is not a position of a wall.
 template <int Dim>
 Placement<Dim> placement_of(const std::vector<double>& given, const std::string& label, double time) {
   const bool is_finite = std::ranges::all_of(given, [](double value) { return std::isfinite(value); });
@@ -36,7 +36,7 @@ Placement<Dim> placement_of(const std::vector<double>& given, const std::string&
   return placement;
 }
 
-/// Throws InputError, on all ranks, if a script has given a force that is not finite. Collective.
+/// Throws InputError, on all ranks, if a script has set a force that is not finite. Collective.
 template <int Dim>
 void require_finite_loads(Flow<Dim>& flow) {
   const ScriptLoads<Dim>& loads = script_loads(flow);
@@ -203,7 +203,7 @@ void PythonSimulation<Dim>::steer(const std::string& name, std::function<std::ve
   }
 }
 
-/// So that nobody takes the results for those of the case alone.
+/// Warns that the results depend on a script, so that they are not taken for results of the case file alone.
 template <int Dim>
 void PythonSimulation<Dim>::tell_of_script() {
   if (script_is_told_) return;

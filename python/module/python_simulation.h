@@ -1,4 +1,4 @@
-// A simulation as Python drives it: python/tailwater/simulation.py.
+// A simulation that Python controls: python/tailwater/simulation.py.
 #pragma once
 
 #include <functional>
@@ -14,24 +14,24 @@
 
 namespace tailwater {
 
-/// All ranks of the program. Starts MPI and PETSc the first time.
+/// All ranks of the program. The first call starts MPI and PETSc.
 const Communicator& ranks_of_process();
 
-/// Functions are collective. After `finish` there is no flow any more, whoever still refers to this object, and what
-/// asks for it throws a std::logic_error.
+/// All functions are collective. `finish` destroys the flow, even if Python still holds this object: every later access
+/// to the flow throws a std::logic_error.
 template <int Dim>
 class PythonSimulation {
  public:
-  /// Checks the case as `run` does. Writes a folder only if there are options.
+  /// Checks the case as `run` does. Writes a run folder only if `options` are given.
   PythonSimulation(CaseSpec spec, std::optional<RunOptions> options);
 
-  /// Finds the pressure at the start, with the loads of then.
+  /// Computes the initial pressure, with the loads that the script has set for the start.
   void start();
-  /// Makes the next step ready; false at the end of the case.
+  /// Prepares the next step; returns false at the end of the case.
   bool prepare();
   void step();
-  /// Ends the output, if there is any: "done" at the end of the case, else "interrupted", with a checkpoint. After an
-  /// error in a step its message.
+  /// Ends the output, if there is any. The status is "done" at the end of the case, otherwise "interrupted" with a
+  /// checkpoint. If a step failed, `failure` is its message, and the status is "failed".
   void finish(const std::string& failure);
 
   const CaseSpec& spec() const { return spec_; }
@@ -46,19 +46,20 @@ class PythonSimulation {
   pybind11::array id() { return lend().id.template view<std::int64_t>(owned(), 1); }
   pybind11::array kind() { return lend().kind.template view<std::uint8_t>(owned(), 1); }
 
-  /// m/s^2, of each particle in the coming step; to be written into. Zero at first.
+  /// Acceleration [m/s^2] of each particle in the next step, writable; initially zero.
   pybind11::array acceleration();
 
   const std::vector<FloatingBody<Dim>>& bodies() const { return bodies_of(flow()).bodies; }
   const BodyState<Dim>& body(std::size_t b) const { return state().motion.bodies.each.at(b); }
-  /// Adds a force and a moment about the centre of mass in the coming step.
+  /// Adds a force, and a moment about the centre of mass, for the next step.
   void push(std::size_t b, const Twist<Dim>& push);
 
-  /// From now on, in place of what the case says. Throws InputError for an inlet without a discharge.
+  /// Replaces the discharge of the case from now on. Throws InputError for an inlet without a discharge.
   void set_discharge(const std::string& inlet, double discharge);
-  /// From now on a wall that moves is where `path` says at a time [s]: its displacement [m] from where it is drawn, and
-  /// after it, if given, its angle [rad]. Throws InputError for a wall that does not move, or that the water moves too,
-  /// and for a path that begins elsewhere. Collective.
+  /// Replaces the motion of a moving wall from now on. `path` maps a time [s] to the displacement [m] of the wall from
+  /// its position in the case, followed by its angle [rad] if it rotates. Throws InputError for a wall that does not
+  /// move or that also reacts to the water, and for a path that begins away from the present position of the wall.
+  /// Collective.
   void steer(const std::string& wall, std::function<std::vector<double>(double)> path);
 
  private:
@@ -88,7 +89,7 @@ class PythonSimulation {
   double dt_ = 0.0;
   StepReport report_;
   bool script_is_told_ = false;
-  std::optional<Lenders> lend_;  ///< goes before the simulation, whose memory it lends
+  std::optional<Lenders> lend_;  ///< destroyed before the simulation, whose memory it lends
 };
 
 }  // namespace tailwater

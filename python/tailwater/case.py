@@ -1,4 +1,4 @@
-"""Cases: a case file as a dict that knows its keys."""
+"""Cases: a case file as a dict that checks its keys."""
 
 import filecmp
 import html
@@ -20,26 +20,26 @@ from .whole_file import write_whole, write_whole_text
 
 __all__ = ["Case", "Check"]
 
-LARGEST = 32 << 18  # bytes; of an effective case, as the program has it
+LARGEST = 32 << 18  # bytes; limit for an effective case, as in the program
 
 
 @lru_cache(maxsize=None)
 def known_tables() -> dict:
-    """{table: (whether its keys are free, {key: its default})} of the program."""
+    """{table: (has_free_keys, {key: default})} of the program."""
     tables = json.loads(call("run", "--help-case=json"))["tables"]
     return {table["name"]: (table["has_free_keys"], {key["name"]: key.get("default") for key in table["keys"]})
             for table in tables}
 
 
 def folder_name(out):
-    """The name of a folder that a caller has given. Throws InputError for what is none."""
+    """Returns the folder name that a caller gives. Throws InputError if it is not a name."""
     if isinstance(out, (str, os.PathLike)) and os.fspath(out):
         return out
     raise InputError(f"out = {out!r}: give the name of a folder, as in case.run(\"my_run\")")
 
 
 class TemporaryFolder:
-    """A folder that goes when nobody refers to this object any more."""
+    """A folder that is deleted when this object is no longer referenced."""
 
     def __init__(self):
         self.path = Path(tempfile.mkdtemp(prefix="tailwater-"))
@@ -47,11 +47,11 @@ class TemporaryFolder:
 
 
 class Check:
-    """What `check` finds in a case; true if a run may begin.
+    """The findings of `check` for a case; true if a run may begin.
 
-    `findings` is a list of dicts with "severity" ("error" or "warning"), "line" and "column" (0: none), "message", "places"
-    (lists of coordinates, m) and, where they are known, "table", "index", "key", "value", "unit" and "remedy";
-    `particles` (of fluid) and `memory` (bytes) are None where they cannot be known."""
+    `findings` is a list of dicts with "severity" ("error" or "warning"), "line" and "column" (0: none), "message" and
+    "places" (lists of coordinates, m). They have "table", "index", "key", "value", "unit" and "remedy" where these are
+    known. `particles` (of fluid) and `memory` (bytes) are None where they cannot be computed."""
 
     def __init__(self, case: "Case"):
         self.case = case
@@ -65,13 +65,13 @@ class Check:
 
     @property
     def drawing(self) -> str:
-        """The preview as SVG text, with places marked that are wrong; "" if nothing can be drawn."""
+        """The preview as SVG text, with marks at faulty places; "" if nothing can be drawn."""
         with tempfile.TemporaryDirectory() as folder:
             preview = Path(folder) / "preview.svg"
             try:
                 call("check", *self.case.words(), "--preview", preview)
             except Error:
-                pass  # of what is wrong the findings tell
+                pass  # the findings report these errors
             return preview.read_text(encoding="utf-8") if preview.exists() else ""
 
     def __repr__(self) -> str:
@@ -88,24 +88,24 @@ class Check:
 
 
 class Case:
-    """A case. Keys are as on the command line, "particles.spacing", "fluid[0].max" or "probe.NAME.interval"; values as
-    in the file: numbers, texts (expressions, too), true and false, and lists of them.
+    """A case. Keys are as on the command line: "particles.spacing", "fluid[0].max" or "probe.NAME.interval". Values are
+    as in the file: numbers, texts (also expressions), true and false, and lists of them.
 
         case = Case.template("weir")
         case["parameters.q"] = 0.06
-        case["parameters.q"]          # 0.06; of a key that the case does not give, the default, None if there is none
-        del case["probe.downstream"]  # a table that has a name or a number, or all of "probe"
+        case["parameters.q"]          # 0.06; for a key that the case does not give: its default, or None
+        del case["probe.downstream"]  # a table with a name or a number; "probe" deletes all probes
         run = case.run("out")
 
-    Throws InputError for a key that no case has, for a parameter or a table that this one has not; whether values are good
-    is for `check` and `run` to say."""
+    Throws InputError for a key that no case has, and for a parameter or a table that this case does not have. `check`
+    and `run` check the values."""
 
     def __init__(self, file):
-        """The case in a file. Throws IoError if it cannot be read, InputError if it is not TOML."""
+        """Reads a case file. Throws IoError if it cannot be read, InputError if it is not TOML."""
         self.file = Path(file)
-        self.changes = {}  # what the command line is told
-        self._edits = []  # what the text of the case is told: (key, value), or (key, None) of a table that is deleted
-        self._folder = None  # of a template; kept as long as a case refers to it
+        self.changes = {}  # {key: value}, passed to the program on its command line
+        self._edits = []  # changes of the text of the case: (key, value), or (key, None) for a deleted table
+        self._folder = None  # the folder of a template, kept as long as a case refers to it
         try:
             text = read_bytes(self.file, LARGEST)
         except DataError as error:
@@ -118,13 +118,13 @@ class Case:
 
     @classmethod
     def load(cls, file) -> "Case":
-        """The case in a file."""
+        """Reads a case file."""
         return cls(file)
 
     @classmethod
     def template(cls, name: str) -> "Case":
-        """A case of `tailwater new`, as "weir"; until it is saved in a folder of its own, with the files that it reads.
-        Throws InputError, which lists the names, for another."""
+        """A template of `tailwater new`, such as "weir", in a temporary folder with the files that it reads; `save`
+        copies all of them. Throws InputError, which lists the names, for an unknown name."""
         folder = TemporaryFolder()
         file = folder.path / f"{name}.toml"
         call("new", name, file)
@@ -134,11 +134,11 @@ class Case:
 
     @property
     def title(self) -> str:
-        """case.title"""
+        """The title of the case, `case.title`."""
         return self["case.title"]
 
     def copy(self) -> "Case":
-        """Another with the same values, whose changes are its own."""
+        """A copy with the same values; later changes affect only the copy."""
         other = object.__new__(Case)
         other.__dict__ = {**self.__dict__, "changes": dict(self.changes), "_edits": [*self._edits]}
         return other
@@ -152,7 +152,7 @@ class Case:
             return known_tables()[steps[0]][1].get(steps[-1])
 
     def __contains__(self, key: str) -> bool:
-        """Whether the case itself says it, and not only a default."""
+        """Whether the case gives the key a value, other than a default."""
         try:
             case_text.find(self._data, case_text.steps_of(key))
         except (KeyError, IndexError, TypeError):
@@ -167,7 +167,7 @@ class Case:
             self._data = case_text.put(self._data, steps, value)
         except (KeyError, IndexError, TypeError) as error:
             raise InputError(f"{key}: the case has no {error}") from error
-        self.changes.pop(key, None)  # the last change is told last
+        self.changes.pop(key, None)  # moved to the end, so that the program applies it last
         self.changes[key] = value
         self._edits.append((key, value))
 
@@ -177,20 +177,20 @@ class Case:
             self._data = case_text.without(self._data, steps)
         except (KeyError, IndexError, TypeError) as error:
             raise InputError(f"{key}: the case has no {error}") from error
-        # A command line can only give all tables of a name anew.
+        # On the command line, a change can only replace all tables of one name.
         table = steps[0]
         self.changes = {other: value for other, value in self.changes.items() if case_text.table_of(other) != table}
         self.changes[table] = self._data[table]
         self._edits.append((key, None))
 
     def update(self, values: dict) -> "Case":
-        """Sets each of the keys; returns the case."""
+        """Sets several keys; returns the case."""
         for key, value in values.items():
             self[key] = value
         return self
 
     def _require_known(self, key, steps):
-        """Of a key that no case has, or a parameter that this one has not, the program says what is wrong."""
+        """Lets the program report the error for an unknown key, or for a parameter that this case does not have."""
         tables = known_tables()
         if steps[0] in tables:
             has_free_keys, keys = tables[steps[0]]
@@ -199,18 +199,18 @@ class Case:
                 return
         try:
             call("check", *self.words(), "--set", f"{key}=0")
-        except InputError as error:  # in words of a script, not of a command line
+        except InputError as error:  # the message for a script, without the command-line option
             told = str(error).removeprefix(f"--set {key}=0: ").replace(f"{key} = 0:", f"{key}:")
             raise InputError(told) from error
 
     def words(self, without=()) -> list:
-        """The case as words of a command line: its file and its changes, but of keys `without` change."""
+        """The case as command-line words: its file and its changes, except changes of the keys `without`."""
         changes = [f"{key}={case_text.inline(value)}" for key, value in self.changes.items() if key not in without]
         return [str(self.file), *(word for change in changes for word in ("--set", change))]
 
     def save(self, file) -> "Case":
-        """Writes the case with its changes, its comments kept, and beside it the files that it reads, if it goes to
-        another folder. Returns the saved case. Throws InputError where a file would take the place of another."""
+        """Writes the case with its changes and keeps its comments. In another folder it also writes the files that the
+        case reads. Returns the saved case. Throws InputError where a file would replace a different file."""
         file, text = Path(file), self._text
         for key, value in self._edits:
             text = case_text.text_without(text, key) if value is None else case_text.changed_text(text, key, value)
@@ -230,7 +230,7 @@ class Case:
         return Case(file)
 
     def _files_read(self):
-        """Those that stand beside the case file, or in folders there; what stands elsewhere is named by its path."""
+        """The files that the case reads from the folder of the case file or below; paths elsewhere stay valid."""
         def texts(node):
             if isinstance(node, str):
                 yield node
@@ -244,17 +244,17 @@ class Case:
                 and name != self.file.name and os.path.isfile(folder / name)]
 
     def check(self) -> Check:
-        """Looks for what is wrong, without running. Never throws for what is wrong in the case."""
+        """Checks the case without running it. Never throws for errors in the case."""
         return Check(self)
 
     def explain(self) -> str:
-        """The case in sentences, with what it takes. Throws InputError."""
+        """A summary of the case in sentences, with its cost. Throws InputError."""
         return call("explain", *self.words()).rstrip("\n")
 
     def run(self, out, *, ranks: int = 1, force: bool = False, progress: bool = False) -> Run:
-        """Runs the case in the folder `out`, which is made; `force` replaces an earlier run. Ctrl-C ends the run in
-        order. Throws InputError and IoError before anything is written, SolverError if a step fails; what the run warns
-        of becomes a RunWarning."""
+        """Runs the case in the folder `out`, which is created; `force` replaces an earlier run. Ctrl-C stops the run
+        with a checkpoint. Throws InputError and IoError before anything is written, SolverError if a step fails.
+        Warnings of the run become RunWarnings."""
         words = ["run", *self.words(), "--out", folder_name(out), "-n", ranks, *(["--force"] if force else []),
                  *([] if progress else ["--quiet"])]
         call(*words, progress=progress)
@@ -264,8 +264,9 @@ class Case:
         return run
 
     def simulation(self, out=None, *, hook=None, force: bool = False):
-        """The run in this process, for a `with` (tailwater.simulation). Only with `out` it writes a run's folder."""
-        from .simulation import Simulation  # the compiled part, which starts MPI
+        """The run in this process, for a `with` statement (tailwater.simulation). Writes a run folder only if `out` is
+        given."""
+        from .simulation import Simulation  # compiled; starts MPI
 
         return Simulation(self, out, hook=hook, force=force)
 

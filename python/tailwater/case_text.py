@@ -1,5 +1,5 @@
-"""Keys of a case: finding them in what tomllib reads, writing values as TOML, and changing the text of a case file with
-its comments kept."""
+"""Keys of a case: look them up in the tables of tomllib, write values as TOML, and change the text of a case file
+without losing its comments."""
 
 import copy
 import json
@@ -15,7 +15,7 @@ STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 
 def steps_of(key: str) -> list:
-    """"fluid[0].max" as ["fluid", 0, "max"]. Throws InputError for what is no key."""
+    """Splits a key: "fluid[0].max" becomes ["fluid", 0, "max"]. Throws InputError if `key` is not a key."""
     if not re.fullmatch(r"[^.\[\]]+(\[\d+\])*(\.[^.\[\]]+(\[\d+\])*)+", key):
         raise InputError(f'"{key}" is not a key of a case; write it as in "particles.spacing", "fluid[0].max" or '
                          '"probe.NAME.interval"')
@@ -23,27 +23,27 @@ def steps_of(key: str) -> list:
 
 
 def steps_of_table(key: str) -> list:
-    """"probe.upstream" as ["probe", "upstream"], "probe[0]" as ["probe", 0], "probe" as ["probe"]. Throws InputError for
-    what is no table."""
+    """Splits the name of a table: "probe.upstream" becomes ["probe", "upstream"], "probe[0]" becomes ["probe", 0],
+    "probe" becomes ["probe"]. Throws InputError if `key` is not a table."""
     if not re.fullmatch(r"[^.\[\]]+(\[\d+\]|\.[^.\[\]]+)?", key):
         raise InputError(f'"{key}" is no table that can be deleted; write it as in "probe.NAME", "probe[0]" or "probe"')
     return [int(index) if index else name for name, index in STEP.findall(key)]
 
 
 def table_of(key: str) -> str:
-    """Of both kinds of keys, the name of the table."""
+    """The name of the table of a key, or of a key of a table."""
     return STEP.match(key)[0]
 
 
 def plain(value):
-    """Of numpy's and Python's, what TOML knows."""
+    """Converts numpy scalars, arrays and tuples to values that TOML can hold."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     return [plain(each) for each in value] if isinstance(value, (list, tuple)) else value
 
 
 def toml_value(value) -> str:
-    """As it stands in a case file: a number, a text (an expression, too), true or false, or a list of these."""
+    """The value as TOML text: a number, a text (also an expression), true or false, or a list of these."""
     value = plain(value)
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -57,7 +57,7 @@ def toml_value(value) -> str:
 
 
 def inline(value) -> str:
-    """The same, also of tables and lists of tables."""
+    """The value as TOML text on one line, also for tables and lists of tables."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key} = {inline(each)}" for key, each in value.items()) + "}"
     if isinstance(value, list):
@@ -66,7 +66,8 @@ def inline(value) -> str:
 
 
 def child(node, step, above):
-    """One step down. Of a list of tables one is asked for by its number or its name, "fluid1" by default."""
+    """Descends one step. A list of tables is indexed by number or by name; the default name is "fluid1" for the first
+    fluid."""
     if isinstance(node, list) and isinstance(step, str):
         for number, table in enumerate(node, 1):
             if isinstance(table, dict) and table.get("name", f"{above}{number}") == step:
@@ -76,7 +77,7 @@ def child(node, step, above):
 
 
 def find(data: dict, steps: list):
-    """The value that a case gives to a key. Throws KeyError or IndexError if it gives none."""
+    """The value that a case gives to a key. Throws KeyError or IndexError if the case does not give it."""
     node, above = data, ""
     for step in steps:
         node = child(node, step, above)
@@ -85,7 +86,7 @@ def find(data: dict, steps: list):
 
 
 def put(data: dict, steps: list, value) -> dict:
-    """The case with this value. Throws KeyError or IndexError where no key can be."""
+    """A copy of the case with a new value. Throws KeyError or IndexError where the key cannot exist."""
     changed = copy.deepcopy(data)
     node, above = changed, ""
     for step in steps[:-1]:
@@ -98,8 +99,8 @@ def put(data: dict, steps: list, value) -> dict:
 
 
 def without(data: dict, steps: list) -> dict:
-    """The case without a table, or without all of a name. Throws KeyError or IndexError if there is none, TypeError where
-    tables have neither numbers nor names."""
+    """The case without one table, or without all tables of a name. Throws KeyError or IndexError if the table does not
+    exist, TypeError if the entry is not a list of tables."""
     tables = data[steps[0]]
     if not isinstance(tables, list):
         raise TypeError(f'list of tables "{steps[0]}"')
@@ -108,7 +109,7 @@ def without(data: dict, steps: list) -> dict:
 
 
 def text_without(text: str, key: str) -> str:
-    """The text of a case file without a table, and the comment above it. Throws InputError as changed_text does."""
+    """The text of a case file without a table and the comment above it. Throws InputError as changed_text does."""
     steps = steps_of_table(key)
     data = tomllib.loads(text)
     wanted = without(data, steps)
@@ -123,14 +124,15 @@ def text_without(text: str, key: str) -> str:
 
 
 def comments_begin(lines, k):
-    """The first of the lines of comments that end above line k; k if there is none."""
+    """The index of the first comment line of the block that ends above line k; k if there is no comment."""
     while k > 0 and lines[k - 1].lstrip().startswith("#"):
         k -= 1
     return k
 
 
 def checked_text(key, changed, wanted):
-    """The changed text, if it has what is wanted: it may not where a value or table does not stand in lines of its own."""
+    """Returns the changed text if it parses to `wanted`. This fails where a value or table does not have lines of its
+    own. Throws InputError then."""
     try:
         if tomllib.loads(changed) == wanted:
             return changed
@@ -140,12 +142,12 @@ def checked_text(key, changed, wanted):
 
 
 def changed_text(text: str, key: str, value) -> str:
-    """The text of a case file with a value put in the place of another, or in a line of its own. Throws InputError
-    where the text is written so that this would change more."""
+    """The text of a case file with a replaced or added value. Throws InputError where the change would affect other
+    values."""
     steps = steps_of(key)
     data = tomllib.loads(text)
     wanted = put(data, steps, value)
-    # The line that changes has the whole value: of "fluid[0].max[1]" that of "fluid[0].max".
+    # The line to change holds the whole value: for "fluid[0].max[1]" the line of "fluid[0].max".
     while isinstance(steps[-1], int):
         steps = steps[:-1]
     written = toml_value(find(wanted, steps))
@@ -168,7 +170,8 @@ def with_line(text, data, steps, written):
 
 
 def lines_of_table(lines, data, steps):
-    """Of the table, without its heading, as (first, one after the last); (None, None) if the text has none."""
+    """The lines of a table without its heading, as (first, one after the last); (None, None) if the text has no such
+    table."""
     name = steps[0]
     number = 0
     if len(steps) > 1:
@@ -195,7 +198,7 @@ def end_of_value(lines, k, begin):
 
 
 def comment_after(line, match):
-    """The comment behind a value of one line, with the blanks before it and the line's end."""
+    """The comment behind a value of one line, with the blanks before it and the line ending."""
     end = "\n" if line.endswith("\n") else ""
     for mark in re.finditer(r"\s*#", line) if match else ():
         try:

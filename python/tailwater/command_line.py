@@ -1,4 +1,4 @@
-"""What the package's commands share: options, and errors that read like those of the program."""
+"""Command-line options and error messages, common to the package's commands and in the style of the program."""
 
 import argparse
 import math
@@ -12,8 +12,8 @@ __all__ = ["Parser", "complain", "exit_code_of", "number"]
 
 
 class Parser(argparse.ArgumentParser):
-    """Of a command that the program hands over, telling by `--program` where it is. Wrong options end it with exit code
-    2."""
+    """Argument parser of a command that the program starts; the program passes its own path by `--program`. Wrong
+    options end the command with exit code 2."""
 
     def __init__(self, prog: str, needs_program: bool = False, **words):
         super().__init__(prog=prog, allow_abbrev=False, **words)
@@ -25,7 +25,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def number(text: str) -> float:
-    """A finite number, for an option."""
+    """Converts an option to a finite number."""
     value = float(text)
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"{text}: not a finite number")
@@ -33,13 +33,13 @@ def number(text: str) -> float:
 
 
 def complain(what, code: int) -> int:
-    """Tells an error; returns its exit code."""
+    """Prints an error; returns its exit code."""
     print(f"error: {what}", file=sys.stderr)
     return code
 
 
 def exit_code_of(work: Callable[[], object]) -> int:
-    """Does a command's work and tells what goes wrong: 0, 2 for wrong input, 4 for a file."""
+    """Runs a command and prints its error. Returns the exit code: 0, 2 for wrong input, 4 for a file."""
     try:
         work()
     except DataError as error:

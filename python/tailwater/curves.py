@@ -1,4 +1,4 @@
-"""Curves: a quantity at strictly increasing times, in the units that their owner gave them."""
+"""Curves: a quantity at strictly increasing times, in the units of its source."""
 
 from dataclasses import dataclass
 
@@ -19,8 +19,8 @@ class Curve:
 
     @classmethod
     def from_samples(cls, time, value, name="curve") -> "Curve":
-        """Sorts by time; samples at the same time become their mean (digitised curves step back and repeat). Throws
-        DataError, with the name, where there are no finite numbers."""
+        """Sorts by time and averages samples at the same time, because digitised curves step back and repeat times.
+        Throws DataError with the name `name` where there are no samples or a number is not finite."""
         time, value = np.asarray(time, dtype=float), np.asarray(value, dtype=float)
         if time.size == 0:
             raise DataError(f"{name}: has no samples")
@@ -30,11 +30,11 @@ class Curve:
         return cls(unique, np.bincount(owner, weights=value) / np.bincount(owner))
 
     def scaled(self, time=1.0, value=1.0) -> "Curve":
-        """The same curve in other units: times and values are multiplied by these."""
+        """The curve in other units: times and values are multiplied by these factors."""
         return Curve(self.time * time, self.value * value)
 
     def shifted(self, delay) -> "Curve":
-        """The same curve, `delay` later."""
+        """The curve, later by `delay`."""
         return Curve(self.time + delay, self.value)
 
     def window(self, start, end) -> "Curve":
@@ -44,8 +44,8 @@ class Curve:
 
 
 def read_curve(path, value_column, time_column="time_s") -> Curve:
-    """One column of a CSV over its time column. The defaults fit a run's probes; laboratory files name both columns.
-    Throws DataError."""
+    """One column of a CSV file over its time column. The default time column is that of probes; for laboratory files,
+    name both columns. Throws DataError."""
     table = read_table(path)
     for column in (time_column, value_column):
         if column not in table:

@@ -1,24 +1,25 @@
-"""What can go wrong, as exceptions. The program tells the same by its exit code and message."""
+"""Exceptions of the package. The program reports the same errors by exit code and message."""
 
 import re
 
 __all__ = ["DataError", "Error", "InputError", "IoError", "RunWarning", "SolverError", "error_of"]
 
-# "FILE:12:5: ", or of a change "--set KEY=VALUE: ", before what is wrong.
+# The place before the message of an error: "FILE:12:5: ", or "--set KEY=VALUE: " for a change.
 PLACE = re.compile(r"(?P<file>[^\n]+?):(?P<line>\d+):(?P<column>\d+): ")
 CHANGE = re.compile(r"--set (?P<key>[^=\s]+)=")
 KEY = re.compile(r"(?P<key>[A-Za-z_][\w.\[\]]*)(?: = | is missing|: unknown key)")
 
 
 class Error(Exception):
-    """Base of all errors of this package that are not Python's own."""
+    """Base of all errors of this package."""
 
 
 class InputError(Error):
     """The case, an argument or the geometry is wrong. The message names the place, the value and the remedy.
 
-    `file`, `line` and `column` (from 1) say where in the case file, `key` which key; each is None where it does not
-    apply. With several problems they are those of the first; the message has a line for each."""
+    `file`, `line` and `column` (from 1) give the place in the case file, `key` the key; each is None where it does not
+    apply. If there are several problems, these attributes describe the first one; the message has a line for each
+    problem."""
 
     def __init__(self, message: str):
         super().__init__(message)
@@ -32,7 +33,7 @@ class InputError(Error):
 
 
 class SolverError(Error):
-    """A linear solve did not converge, or a step gave a value that is not finite."""
+    """A linear solve did not converge, or a step computed a value that is not finite."""
 
 
 class IoError(Error):
@@ -40,18 +41,18 @@ class IoError(Error):
 
 
 class DataError(Error):
-    """What a run or a laboratory has left cannot be read, or is not enough for what is asked."""
+    """Data of a run or a laboratory cannot be read, or are insufficient for the request."""
 
 
 class RunWarning(UserWarning):
-    """What a run warns of; its summary keeps it too."""
+    """A warning of a run; the summary of the run holds it too."""
 
 
 KINDS = {2: InputError, 3: SolverError, 4: IoError}
 
 
 def error_of(exit_code: int, told: str) -> Error:
-    """The error that the program has ended with; `told` is what it wrote on standard error."""
+    """The exception for an exit code of the program; `told` is the text of its standard error."""
     lines = told.splitlines()
     errors = [line.removeprefix("error: ") for line in lines if line.startswith("error: ")] or lines[-1:]
     message = "\n".join(errors) or f"the program ended with exit code {exit_code}"

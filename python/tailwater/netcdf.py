@@ -1,8 +1,8 @@
-"""The probes of a run as a NetCDF file after the conventions CF-1.8, for xarray, MATLAB and the like.
+"""The probes of a run as a NetCDF file by the CF-1.8 conventions, for xarray, MATLAB and similar programs.
 
-Each probe that reads numbers over time is a station (CF: featureType timeSeries), each column of the tables a variable
-over station and time, with the name that it has in the table. Where a probe has no such column there is NaN. If all
-read at the same times there is one axis of time, else each station has its own (CF, H.2.1 and H.2.2)."""
+Each probe with a time series of numbers is a station (CF featureType timeSeries). Each column of the tables is a
+variable over station and time, with its name in the table; it is NaN for probes without this column. Probes with the
+same times share one time axis; otherwise each station has its own (CF, H.2.1 and H.2.2)."""
 
 import datetime
 
@@ -16,13 +16,13 @@ from .whole_file import write_whole
 __all__ = ["EPOCH", "write_netcdf"]
 
 EPOCH = datetime.datetime(1970, 1, 1)
-UNITS = {"": "1", "deg": "degree", "bytes": "byte"}  # where UDUNITS has another word
+UNITS = {"": "1", "deg": "degree", "bytes": "byte"}  # names of units that differ in UDUNITS
 AXES = "XYZ"
-NOTHING = np.float64(np.nan)  # of the type of the variables
+NOTHING = np.float64(np.nan)  # a double, like the variables
 
 
 def series_of(run) -> dict:
-    """Tables by probe, of those with one line for each time. Throws DataError where there is none."""
+    """The tables by probe, for probes with one line per time. Throws DataError if there is none."""
     found = {}
     for probe in run.case.get("probe", []):
         path = run.path / "probes" / f"{probe['name']}.csv"
@@ -37,7 +37,7 @@ def series_of(run) -> dict:
 
 
 def place_of(probe, dimension) -> np.ndarray:
-    """Where a probe is, in m; of a line its middle, of what has no place NaN."""
+    """The position of a probe [m]: the middle of a line, NaN for a probe without a position."""
     if "at" in probe:
         place = probe["at"]
     elif "from" in probe and "to" in probe:
@@ -48,13 +48,13 @@ def place_of(probe, dimension) -> np.ndarray:
 
 
 def describe(node, **attributes):
-    """Of a file or a variable; texts in UTF-8."""
+    """Sets attributes of a file or a variable; texts are UTF-8."""
     for key, value in attributes.items():
         setattr(node, key, value.encode() if isinstance(value, str) else value)
 
 
 class Writer:
-    """What all variables of a file share."""
+    """Writes variables of one file."""
 
     def __init__(self, file):
         self.file = file
@@ -65,7 +65,7 @@ class Writer:
         made[:] = values
 
     def texts(self, name, words, **attributes):
-        """One for each station."""
+        """Writes a variable with one text per station."""
         encoded = np.array([word.encode() for word in words])
         length = f"{name}_length"
         self.file.createDimension(length, encoded.dtype.itemsize)
@@ -73,7 +73,7 @@ class Writer:
 
 
 def write_stations(writer, run, names):
-    """Their names, kinds and places. Returns the names of the variables."""
+    """Writes the names, kinds and positions of the stations. Returns the names of these variables."""
     probes = {probe["name"]: probe for probe in run.case.get("probe", [])}
     writer.file.createDimension("station", len(names))
     writer.texts("station_name", names, cf_role="timeseries_id", long_name="name of the probe")
@@ -110,14 +110,14 @@ def write_series(file, run, series, start):
 
 
 def source_of(run) -> str:
-    """The program that made a run that has ended; else the one that is here."""
+    """The version of the program that made a finished run; otherwise the installed version."""
     summary = run.summary
     return f"tailwater {summary['version']} (commit {summary['commit']})" if summary else version()
 
 
 def write_netcdf(run, path, start):
-    """`start` is a datetime, or a text of one (ISO 8601, without a zone): when the run's time is 0. Throws DataError,
-    ValueError if `start` is no time, IoError."""
+    """`start` is the date and time at which the run's time is 0: a datetime, or an ISO 8601 text without a time zone.
+    Throws DataError, IoError, and ValueError if `start` is not a date and time."""
     from scipy.io import netcdf_file  # slow to import
 
     if isinstance(start, str):

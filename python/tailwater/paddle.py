@@ -1,7 +1,7 @@
 """Compute wave maker motion from a recorded surface elevation or from a wave spectrum.
 
 Writes the motion of a wall (`[[wall]] motion`, docs/theory/moving_walls.md), by linear theory (docs/theory/waves.md). A
-motion of a plate that was itself recorded needs none of this: it is such a file already.
+recorded motion of a plate already is such a file and needs no conversion.
 
 Exit codes: 0 done; 2 bad input, 4 a file cannot be written.
 """
@@ -23,18 +23,19 @@ from .whole_file import write_whole_text
 UNITS = {"t": {"s": 1, "ms": 1e-3, "min": 60}, "f": {"Hz": 1, "1/s": 1},
          "eta": {"m": 1, "cm": 1e-2, "mm": 1e-3},
          "S": {"m^2/Hz": 1, "m^2 s": 1, "cm^2/Hz": 1e-4, "cm^2 s": 1e-4, "mm^2/Hz": 1e-6, "mm^2 s": 1e-6}}
-BAND = (0.3, 3.0)  # of the peak's frequency, outside of which nothing is made
-LINES_PER_PERIOD = 20  # of the shortest wave made: the spline between them is then exact to 0.02 %
+BAND = (0.3, 3.0)  # over the peak frequency; no waves are generated outside this band
+LINES_PER_PERIOD = 20  # of the shortest generated wave; the spline between lines is then exact to 0.02 %
 GRAVITY = 9.81  # m/s^2
-LARGEST_LOSS = 0.5  # share of the energy that may lie outside of the band
+LARGEST_LOSS = 0.5  # fraction of the energy that may lie outside the band
 BREAKING = 0.78  # height over depth
-DEEP = 300.0  # k h, from which on the water has no end for a plate, and beyond which sinh overflows
-MOST_SAMPLES = 1 << 24  # of a record with even steps, or of a motion
-LARGEST = 1e9  # of numbers in a file, in SI units
+DEEP = 300.0  # kh, above which the plate acts as in infinitely deep water, and far above which sinh overflows
+MOST_SAMPLES = 1 << 24  # of a record with a constant step, or of a motion
+LARGEST = 1e9  # limit for numbers in a file, in SI units
 
 
 def read_columns(path):
-    """{name: values in SI} of a CSV file with a line of names and units, as in "t [s], eta [mm]". Throws DataError."""
+    """Reads a CSV file whose first line has names and units, such as "t [s], eta [mm]". Returns {name: values in SI
+    units}. Throws DataError."""
     text = read_text(path, LARGEST_TABLE)
     lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.partition("#")[0].strip()]
     if not lines:
@@ -69,7 +70,7 @@ def read_columns(path):
 
 
 def wave_over_stroke(k, depth, is_flap):
-    """The amplitude of the wave over that of the plate at the still water's level, far from it.
+    """Amplitude of the wave, far from the plate, over the amplitude of the plate at the still-water level.
 
     R.G. Dean, R.A. Dalrymple (1991) *Water wave mechanics for engineers and scientists*, ch. 6."""
     y = np.minimum(k * depth, DEEP)
@@ -78,13 +79,14 @@ def wave_over_stroke(k, depth, is_flap):
 
 
 class Waves:
-    """Amplitudes (m, complex) of waves of even frequencies (Hz) that repeat after `duration` (s), as from irfft / n."""
+    """Complex amplitudes (m) of waves at evenly spaced frequencies (Hz). The waves repeat after `duration` (s). `lost`
+    is the fraction of the energy that was removed."""
 
     def __init__(self, frequency, amplitude, duration, lost):
         self.frequency, self.amplitude, self.duration, self.lost = frequency, amplitude, duration, lost
 
     def limited(self, band):
-        """The part in a band (Hz); what share of the energy that leaves out is `lost`. Throws DataError."""
+        """The waves within a band (Hz), with the fraction of energy outside it as `lost`. Throws DataError."""
         energy = np.abs(self.amplitude) ** 2
         inside = (self.frequency >= band[0]) & (self.frequency <= band[1])
         lost = 1 - energy[inside].sum() / energy.sum() if energy.any() else 1.0
@@ -95,7 +97,7 @@ class Waves:
 
     @property
     def peak(self):
-        """Hz. Throws DataError where there are no waves."""
+        """Peak frequency, Hz. Throws DataError if there are no waves."""
         largest = np.abs(self.amplitude).max(initial=0.0)
         if not largest > 0:
             raise DataError("the file has no waves: its values are all the same")
@@ -104,19 +106,19 @@ class Waves:
 
     @property
     def height(self):
-        """Hm0, m"""
+        """Significant wave height Hm0, m."""
         return float(4 * np.sqrt((np.abs(self.amplitude) ** 2).sum() / 2))
 
 
 def require_few(samples, what):
-    """Throws DataError before there is memory for more samples than anything needs."""
+    """Throws DataError for a number of samples that would exhaust the memory."""
     if not samples <= MOST_SAMPLES:
         raise DataError(f"{what} would have {samples:.3g} samples, and at most {MOST_SAMPLES} are possible; remedy: a shorter "
                         "time, or a coarser step or band")
 
 
 def even_series(columns):
-    """A record with even steps, its mean taken out."""
+    """Resamples a record with a constant step and subtracts its mean."""
     time, elevation = columns["t"], columns["eta"]
     step = np.diff(time).min()
     require_few((time[-1] - time[0]) / step, "the record, with even steps as its shortest,")
@@ -125,7 +127,7 @@ def even_series(columns):
 
 
 def recorded(time, elevation, lead):
-    """The surface over time, after `lead` (s) of still water."""
+    """The waves of a record, after `lead` (s) of still water."""
     step = time[1] - time[0]
     require_few(lead / step, "the still water before the record")
     still = np.zeros(round(lead / step))
@@ -135,7 +137,7 @@ def recorded(time, elevation, lead):
 
 
 def chosen(frequency, density, duration, seed):
-    """Waves of a spectrum (m^2/Hz) with phases by chance, which repeat after `duration` (s)."""
+    """Waves of a spectrum (m^2/Hz) with random phases; they repeat after `duration` (s)."""
     require_few(frequency[-1] * duration, "the spectrum over this duration")
     even = np.arange(1, int(frequency[-1] * duration) + 1) / duration
     energy = np.maximum(np.interp(even, frequency, density, left=0, right=0), 0)
@@ -144,9 +146,9 @@ def chosen(frequency, density, duration, seed):
 
 
 def motion(waves, depth, distance, is_flap):
-    """Times (s) and strokes (m) of a plate that makes the waves at a distance (m) in front of it.
+    """Times (s) and strokes (m) of a plate that generates the waves at a distance (m) in front of it.
 
-    A stroke X sin wt makes c X cos(wt - kx)."""
+    With c the amplitude of the wave over that of the plate, a stroke X sin wt generates the wave c X cos(wt - kx)."""
     require_few(waves.duration * LINES_PER_PERIOD * waves.frequency[-1], "the motion")
     k = wave_numbers(waves.frequency, depth, GRAVITY)
     stroke = waves.amplitude * np.exp(1j * k * distance) / (1j * wave_over_stroke(k, depth, is_flap))
@@ -158,13 +160,14 @@ def motion(waves, depth, distance, is_flap):
 
 
 def lead_of(distance, depth, highest):
-    """The time (s) in which the slowest waves, of `highest` Hz, come a distance (m) far."""
+    """Time (s) in which the slowest waves, of frequency `highest` (Hz), travel a distance (m) at their group
+    velocity."""
     k = wave_numbers([0.999 * highest, 1.001 * highest], depth, GRAVITY)
     return distance * (k[1] - k[0]) / (2 * np.pi * 0.002 * highest)
 
 
 def waves_of(columns, options):
-    """Those that the plate is to make, and the time (s) of the run at which the record begins."""
+    """The waves that the plate generates, and the time (s) of the run at which the record begins."""
     lead = 0.0
     if "f" in columns:
         if options.duration is None:
@@ -185,7 +188,8 @@ def waves_of(columns, options):
 
 
 def write_motion(path, time, stroke, depth, is_flap):
-    """The water lies on the side of larger x: a flap that leans towards it turns clockwise."""
+    """Writes a motion file. The water lies at larger x than the plate: a flap that leans towards the water turns
+    clockwise."""
     values, heading = (-np.arctan(stroke / depth), "t [s], angle [rad]") if is_flap else (stroke, "t [s], x [m]")
     text = "".join(f"{t:.5f}, {value:.7f}\n" for t, value in zip(time, values))
     write_whole_text(path, f"{heading}\n{text}")
@@ -217,7 +221,7 @@ def options_of(arguments):
 
 
 def make_motion(options):
-    """Writes the file and tells what is in it. Throws DataError, IoError."""
+    """Writes the motion file and prints a summary of it. Throws DataError, IoError."""
     waves, lead = waves_of(read_columns(options.file), options)
     time, stroke = motion(waves, options.depth, options.distance, options.flap)
     write_motion(options.to, time, stroke, options.depth, options.flap)

@@ -1,7 +1,7 @@
-"""A Python state for ParaView that shows a run at once: its water coloured by pressure, its walls, its time.
+"""A Python state for ParaView that shows a run: its water coloured by pressure, its walls, its time.
 
-It reads the field files themselves, so it needs no export, also shows a run that goes on, and works from ParaView 5.9
-on."""
+The state reads the field files themselves. It therefore needs no export, shows also a run that is still running, and
+works with ParaView 5.9 or newer."""
 
 from pathlib import Path
 
@@ -13,8 +13,8 @@ from .whole_file import write_whole_text
 
 __all__ = ["write_paraview"]
 
-COLOURED_SHARE = 99  # percent of the particles whose pressure the colours cover
-FRAMES = 5  # looked at for the range of the colours
+COLOURED_SHARE = 99  # percent of the particles whose pressure lies within the colour scale
+FRAMES = 5  # whose pressures determine the colour scale
 
 STATE = '''\
 # {title}
@@ -68,14 +68,15 @@ ResetCamera(view)'''
 
 
 def highest_pressure(frames) -> float:
-    """Of nearly all particles, at the middle one of some times: an impact must not darken all others. Pa; more than 0."""
+    """Highest pressure (Pa, above 0) of nearly all particles, as the median over some times: an impact must not darken
+    the pictures of all other times."""
     chosen = np.linspace(0, len(frames) - 1, min(FRAMES, len(frames))).round().astype(int)
     highest = np.median([np.percentile(read_frame(*frames[k])["pressure"], COLOURED_SHARE) for k in chosen])
     return float(f"{highest:.3g}") if highest > 0 else 1.0
 
 
 def write_paraview(run, path):
-    """Throws DataError where there are no fields; IoError."""
+    """Writes a state file. Throws DataError where there are no fields; IoError."""
     frames = list_frames(run.path)
     if not frames:
         raise DataError(f"{run.path}: the run wrote no field files")
@@ -85,7 +86,7 @@ def write_paraview(run, path):
         walls = WALLS.format(opacity=1.0 if is_flat else 0.2)
     elif is_flat:
         walls = WALL_LINES.format(lines=run.walls)
-    title = " ".join(run.title.split())  # of one line, also where the text has several
+    title = " ".join(run.title.split())  # one line, also where the title of the case has several
     text = STATE.format(title=title, name=path.name, folder=str((run.path / "fields").resolve()), radius=run.spacing / 2,
                         highest=highest_pressure(frames), walls=walls, camera=FLAT if is_flat else SOLID)
     write_whole_text(path, text)

@@ -1,4 +1,4 @@
-"""Pictures in perspective of runs in 3D, and the surface of their water as meshes, by VTK."""
+"""Perspective pictures of runs in 3D, and meshes of their water surface, made with VTK."""
 
 import matplotlib
 import numpy as np
@@ -15,7 +15,7 @@ from .whole_file import write_whole, write_whole_text
 def write_polydata(path, data):
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
-    writer.SetDataModeToBinary()  # inline: ParaView of Debian 12 cannot read what VTK appends
+    writer.SetDataModeToBinary()  # inline: ParaView of Debian 12 cannot read VTK's appended data
     writer.SetIdTypeToInt32()
 
     def write(part):
@@ -27,7 +27,7 @@ def write_polydata(path, data):
 
 
 def write_surfaces(run, frames):
-    """A mesh for each field file that has none, and the list of all."""
+    """Writes a surface mesh for each field file that has no current one, and the list of all meshes."""
     folder = run.path / "fields"
     entries = []
     for number, (time, fields) in enumerate(frames):
@@ -41,13 +41,13 @@ def write_surfaces(run, frames):
 
 
 def walls_at(run, time):
-    """The faces of all walls at a time (s); none if the run wrote none."""
+    """The faces of all walls at a time (s); None if the run wrote no walls."""
     series = [entry for entry in list_frames(run.path, "walls") if entry[0] <= time + 1e-9]
     return read_polydata(series[-1][1]) if series else None
 
 
 def bounds_of(frames, walls):
-    """Of what the pictures show: the walls wherever they are at the times of the frames, and without any the water."""
+    """Bounds of the pictures: those of the walls at all times of the frames, or of the water if there are no walls."""
     boxes = [faces.GetBounds() for faces in walls if faces is not None and faces.GetNumberOfPoints()]
     if boxes:
         boxes = np.array(boxes)
@@ -58,7 +58,8 @@ def bounds_of(frames, walls):
 
 
 def show_image(image, title, mappable=None):
-    """A figure that shows an image pixel by pixel, with room for its title and a colour bar; and its axes."""
+    """A figure with an image at its native resolution, with space for a title and a colour scale; and the axes of the
+    figure."""
     rows, columns, _ = image.shape
     figure = plots.new_figure(columns / plots.DPI + (1.0 if mappable is not None else 0.2), rows / plots.DPI + 0.6)
     axes = figure.subplots()

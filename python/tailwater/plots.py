@@ -1,7 +1,7 @@
-"""What the pictures of all cases share.
+"""Settings and functions common to all pictures.
 
-Curves have Okabe and Ito's colours, fields viridis: both read well with any colour vision and in grey. Figures are drawn
-under STYLE; sizes are in inches of a page that is WIDTH wide.
+Curves have Okabe and Ito's colours, fields viridis: both are distinguishable with any colour vision and in grey.
+Figures are drawn with STYLE; sizes are in inches for a page of width WIDTH.
 """
 
 import math
@@ -18,11 +18,11 @@ BLUE, ORANGE, SKY, BLACK, GREY = "#0072B2", "#D55E00", "#56B4E9", "#000000", "#7
 STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fontsize": 8, "axes.linewidth": 0.8,
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
 WIDTH = 11.5
-LOOK_FROM = (1.0, -1.6, 0.9)  # towards the middle of the walls, in 3D
-MOST_STRETCHED = 2  # exaggeration of heights up to which particles are drawn as discs
-FLATTEST = 0.11  # height over width of a particle picture, below which its heights are exaggerated
-SHOWN_SHARE = 99.7  # percent of the particles that a picture must show; the rest is spray
-COLOURED_SHARE = 99.5  # percent of the particles whose speed the colours cover
+LOOK_FROM = (1.0, -1.6, 0.9)  # direction from the middle of the walls to the camera, in 3D
+MOST_STRETCHED = 2  # highest exaggeration of heights at which particles are drawn as discs
+FLATTEST = 0.11  # lowest height over width of a particle picture; flatter pictures have exaggerated heights
+SHOWN_SHARE = 99.7  # percent of the particles that a picture must show; the others are spray
+COLOURED_SHARE = 99.5  # percent of the particles whose speed lies within the colour scale
 COLOURS = "viridis"
 DPI = 100
 
@@ -32,15 +32,15 @@ def new_figure(width=WIDTH, height=3.0):
 
 
 class View:
-    """What part of the plane the pictures of some frames show, and by how much heights are exaggerated. Of a channel that
-    goes on in front of the water, with `crop`, only a part."""
+    """The visible part of the plane in the pictures of some frames, and the exaggeration of heights. With `crop`, the
+    view ends shortly downstream of the water, even if the channel continues."""
 
     def __init__(self, run, frames, crop=False, margin=0.02):
         water = np.concatenate([frame.position[:, :2] for frame in frames])
         walls = [line for frame in frames for line in wall_lines(run, frame.time)]
         corners = np.array([point for line in walls for point in line] or water)
         low, high = np.minimum(corners.min(0), water.min(0)), np.maximum(corners.max(0), water.max(0))
-        if walls:  # they are higher than the water goes
+        if walls:  # walls extend higher than the water
             high[1] = min(high[1], low[1] + 1.12 * (np.percentile(water[:, 1], SHOWN_SHARE) - low[1]))
         if crop:
             high[0] = min(high[0], water[:, 0].max() + 0.1 * np.ptp(water[:, 0]))
@@ -52,7 +52,7 @@ class View:
 
     @property
     def ratio(self):
-        """Height over width, as drawn."""
+        """Height over width as drawn."""
         return self.exaggeration * (self.y[1] - self.y[0]) / (self.x[1] - self.x[0])
 
     def label_of_heights(self):
@@ -65,11 +65,11 @@ class View:
 
 
 def draw_particles(axes, position, spacing, exaggeration=1, **style):
-    """Each particle a disc that covers its share of the water. Where heights are exaggerated discs would be spikes: there
-    each is a piece about dx high."""
+    """Draws each particle as a disc that covers the area of its water. With exaggerated heights, where discs would be
+    spikes, each particle is a rectangle about dx high."""
     x, y, share = position[:, 0], position[:, 1], 2**0.5
     if exaggeration > MOST_STRETCHED:
-        wide, high = share, 1.1  # without cracks
+        wide, high = share, 1.1  # without gaps
         half = 0.5 * spacing * np.array([[-wide, -high], [wide, -high], [wide, high], [-wide, high]])
         dots = PolyCollection(np.stack([x, y], axis=1)[:, None, :] + half, linewidths=0, rasterized=True, zorder=2, **style)
     else:
@@ -81,14 +81,15 @@ def draw_particles(axes, position, spacing, exaggeration=1, **style):
 
 
 def wall_lines(run, time):
-    """2D: of a run with walls that move, all walls where they are at a time (s), as it left them with its fields; else those
-    that stay where they are drawn."""
+    """Wall lines in 2D at a time (s). If the run wrote moving walls with its fields, these are all walls at that time;
+    otherwise they are the walls that do not move."""
     if not (run.path / "fields" / "walls.pvd").is_file():
         return run.walls_at(time)
     *_, (_, path) = (entry for entry in list_frames(run.path, "walls") if entry[0] <= time + 1e-9)
     lines = read_points(path)[0][:, :2].reshape(-1, 2, 2)
     for axis, name in enumerate(("periodic_x", "periodic_y")):
-        if period := run.case.get("domain", {}).get(name):  # what has gone round is in it again
+        # points that crossed a periodic boundary return to the domain
+        if period := run.case.get("domain", {}).get(name):
             low, high = period
             lines[:, :, axis] -= ((high - low) * np.floor((lines[:, :, axis].mean(1) - low) / (high - low)))[:, None]
     return lines
@@ -99,7 +100,7 @@ def draw_walls(axes, run, time):
 
 
 def highest_speed(frames):
-    """Of nearly all particles, m/s; 0 if a field file has no velocity."""
+    """Speed (m/s) below which nearly all particles are; 0 if a field file has no velocity."""
     def of(frame):
         velocity = frame.fields.get("velocity")
         return 0.0 if velocity is None else np.percentile(np.linalg.norm(velocity, axis=1), COLOURED_SHARE)
@@ -108,12 +109,12 @@ def highest_speed(frames):
 
 
 def plain(text):
-    """A text of a user, in which $ begins no formula."""
+    """A user's text, with $ escaped so that it does not begin a formula."""
     return text.replace("$", r"\$")
 
 
 def save(figure, axes, run, time, mappable, path):
-    """A picture of the water at a time (s), with its title and, if colours tell the speed, their scale."""
+    """Saves a picture of the water at a time (s), with its title and, if colours show the speed, a colour scale."""
     axes.set_title(f"{plain(run.title)}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
     if mappable is not None:
         bar = figure.colorbar(mappable, ax=axes, fraction=0.025, pad=0.01, extend="max")

@@ -1,4 +1,4 @@
-"""The program `tailwater`: where it is, and calling it."""
+"""Finds and calls the program `tailwater`."""
 
 import os
 import shutil
@@ -18,9 +18,10 @@ INTERRUPTED = 130
 
 @lru_cache(maxsize=None)
 def program() -> Path:
-    """$TAILWATER, else PREFIX/bin/tailwater of the installation or build that has this package, else that in PATH.
+    """The path of the program: $TAILWATER, otherwise PREFIX/bin/tailwater of the installation or build that contains
+    this package, otherwise the program in PATH.
 
-    Throws IoError where there is none."""
+    Throws IoError if none of these exists."""
     named = os.environ.get("TAILWATER")
     beside = Path(__file__).absolute().parents[4] / "bin" / "tailwater"
     found = named or (beside if beside.is_file() else shutil.which("tailwater"))
@@ -32,19 +33,21 @@ def program() -> Path:
 
 @lru_cache(maxsize=None)
 def version() -> str:
-    """"tailwater 1.0.0 (commit ...)"."""
+    """The version line of the program, "tailwater 1.0.0 (commit ...)"."""
     return call("--version").strip()
 
 
 def environment():
-    """What a program starts with. It is no rank of an mpirun that this process is a rank of."""
+    """The environment for the program. Under mpirun it omits the variables of MPI, so that the program does not become
+    a rank of that run."""
     if "PMIX_RANK" not in os.environ and "PMI_RANK" not in os.environ:
         return None
     return {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
 
 
 def start(*words, folder=None) -> subprocess.Popen:
-    """The program, whose outputs are pipes; in a session of its own, which Ctrl-C does not reach. Throws IoError."""
+    """Starts the program with pipes for its outputs, in its own session, which Ctrl-C does not reach. Throws
+    IoError."""
     command = [str(program()), *map(str, words)]
     try:
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
@@ -54,10 +57,10 @@ def start(*words, folder=None) -> subprocess.Popen:
 
 
 def call(*words, progress: bool = False, folder=None) -> str:
-    """What the program says on standard output. Its warnings become Python's (RunWarning).
+    """The standard output of the program. Its warnings become Python warnings (RunWarning).
 
-    With `progress`, what it tells on standard error is shown. Throws InputError, SolverError or IoError as the program
-    ends; KeyboardInterrupt ends it in order first."""
+    With `progress`, its standard error is shown. Throws InputError, SolverError or IoError by the exit code of the
+    program. KeyboardInterrupt first interrupts the program and waits for its end."""
     child = start(*words, folder=folder)
     try:
         said, told = follow(child) if progress else child.communicate()
@@ -76,8 +79,8 @@ def call(*words, progress: bool = False, folder=None) -> str:
 
 
 def follow(child) -> tuple:
-    """Shows what the child tells, but not its error, which the caller gets; for commands that say little on standard
-    output."""
+    """Shows the standard error of a child process, except its error message, which the caller receives. Only for
+    commands with little standard output, which is read at the end."""
     told = []
     for line in child.stderr:
         told.append(line)

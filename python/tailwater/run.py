@@ -1,4 +1,4 @@
-"""What a run left in its folder."""
+"""Results of a run, read from its folder."""
 
 import json
 import tomllib
@@ -24,8 +24,8 @@ __all__ = ["Probes", "Run"]
 
 
 class Probes(Mapping):
-    """The tables of a run's probes by name, each read when it is asked for: a pandas.DataFrame over `time_s`, with the
-    unit of each column in `attrs["units"]`."""
+    """The tables of a run's probes by name, each read on first access: a pandas.DataFrame over `time_s`, with the unit
+    of each column in `attrs["units"]`."""
 
     def __init__(self, run: "Run"):
         self._run = run
@@ -50,9 +50,9 @@ class Probes(Mapping):
 
 
 class Run:
-    """The folder of a run that goes on or has ended. Throws DataError if it is none.
+    """The folder of a run that is running or has ended. Throws DataError if it is not the folder of a run.
 
-    `path` is the folder; `case` the effective case, as tomllib reads it, with all values."""
+    `path` is the folder; `case` is the effective case with all values, as tomllib reads it."""
 
     def __init__(self, path):
         self.path = Path(path)
@@ -67,7 +67,7 @@ class Run:
 
     @property
     def summary(self) -> dict:
-        """summary.json of a run that has ended; empty when it goes on or was killed."""
+        """summary.json of a run that has ended; empty if the run is still running or was killed."""
         path = self.path / "summary.json"
         try:
             if not path.exists():
@@ -79,12 +79,12 @@ class Run:
 
     @property
     def status(self) -> str:
-        """"done", "interrupted" or "failed"; "running" while it goes on, and of one that was killed."""
+        """"done", "interrupted" or "failed"; "running" if the run is still running or was killed."""
         return self.summary.get("status", "running")
 
     def resume(self, changes=(), *, ranks=None, progress: bool = False) -> "Run":
-        """Goes on from the newest checkpoint, in as many ranks as the run had unless told. `changes` may set what changes
-        no result, as in {"time.end": 20}. Returns the run as it is then. Throws as `Case.run` does."""
+        """Resumes from the newest checkpoint, by default with as many ranks as before. `changes` may set keys that
+        change no result, as in {"time.end": 20}. Returns the run as it is then. Throws as `Case.run` does."""
         words = [word for key, value in dict(changes).items() for word in ("--set", f"{key}={case_text.toml_value(value)}")]
         call("resume", self.path, *words, *(["-n", ranks] if ranks else []), *([] if progress else ["--quiet"]),
              progress=progress)
@@ -95,14 +95,14 @@ class Run:
 
     @property
     def results(self) -> dict:
-        """What the probes have found, by the probe's name (docs/theory/probes.md); empty until the run has ended."""
+        """The results of the probes by the probe's name (docs/theory/probes.md); empty until the run has ended."""
         return self.summary.get("results", {})
 
     @property
     def measurements(self):
-        """How far the probes are from what laboratories measured, a line for each [[measurement]] of the case, as a
-        pandas.DataFrame over probe and column: `rms`, `bias` (computed less measured), `best_shift_s` (how late the
-        computed curve is, within what the case allows), `shifted_rms`, `scatter`, `is_inside`; in `unit`
+        """The differences between probes and laboratory data, one line for each [[measurement]] of the case. A
+        pandas.DataFrame over probe and column: `rms`, `bias` (computed less measured), `best_shift_s` (delay of the
+        computed curve, within the limits of the case), `shifted_rms`, `scatter`, `is_inside`. `unit` is their unit
         (docs/theory/probes.md)."""
         import pandas
 
@@ -117,7 +117,7 @@ class Run:
 
     @cached_property
     def probes(self) -> Probes:
-        """Of each probe its table, by name."""
+        """The tables of the probes by name."""
         return Probes(self)
 
     @property
@@ -126,7 +126,7 @@ class Run:
         return tables.frame(self.path / "steps.csv")
 
     def curve(self, probe: str, column: str) -> Curve:
-        """A column of a probe over time, as `curve("gauge", "highest_m")`; without pandas. Throws DataError."""
+        """A column of a probe over time, as in `curve("gauge", "highest_m")`; needs no pandas. Throws DataError."""
         file = self.path / "probes" / f"{probe}.csv"
         if not file.exists():
             there = ", ".join(sorted(other.stem for other in file.parent.glob("*.csv")))
@@ -139,36 +139,38 @@ class Run:
 
     @property
     def times(self) -> list:
-        """s; of the field files."""
+        """Times of the field files, s."""
         return [time for time, _ in list_frames(self.path)]
 
     def at(self, time: float) -> Frame:
-        """The fields nearest to a time [s]."""
+        """The fields at the available time nearest to `time` [s]."""
         return nearest_frames(self.path, [time])[0]
 
     def last(self) -> Frame:
-        """The last fields: `position` (n, 3) in m, and by name as in `last()["velocity"]`."""
+        """The last fields: `position` (n, 3) in m, and others by name as in `last()["velocity"]`."""
         return self.at(max(self.times, default=0.0))
 
     def view(self) -> View:
-        """The run in a page of the browser, or of a notebook."""
+        """Opens the viewer of the run, in the browser or in a notebook."""
         return View(self.path)
 
     def to_netcdf(self, path, start=EPOCH):
-        """The probes over time as a NetCDF file (CF-1.8, featureType timeSeries). `start` is a datetime, or a text as in
-        "2026-03-01T12:00": when the run's time is 0. Throws DataError if no probe read numbers over time."""
+        """Writes the probes over time as a NetCDF file (CF-1.8, featureType timeSeries). `start` is the date and time
+        at which the run's time is 0: a datetime, or a text such as "2026-03-01T12:00". Throws DataError if no probe
+        recorded numbers over time."""
         write_netcdf(self, Path(path), start)
 
     def to_vtkhdf(self, path):
-        """The water with all its fields and times as one VTKHDF file, for ParaView 5.12 or newer; by h5py. Throws DataError."""
+        """Writes the water with all its fields and times as one VTKHDF file, for ParaView 5.12 or newer; needs h5py.
+        Throws DataError."""
         write_vtkhdf(self, Path(path))
 
     def to_paraview(self, path):
-        """A Python state for ParaView that shows the run, its water coloured by pressure. Throws DataError."""
+        """Writes a Python state for ParaView that shows the run, its water coloured by pressure. Throws DataError."""
         write_paraview(self, Path(path))
 
     def _value(self, table: str, key: str, kind):
-        """Of the effective case. Throws DataError where that has none of this kind."""
+        """A value of the effective case. Throws DataError where it is missing or has another type."""
         found = self.case.get(table)
         value = found.get(key) if isinstance(found, dict) else None
         if not isinstance(value, kind):
@@ -177,12 +179,12 @@ class Run:
 
     @property
     def title(self) -> str:
-        """case.title"""
+        """The title of the case, `case.title`."""
         return self._value("case", "title", str)
 
     @property
     def spacing(self) -> float:
-        """m"""
+        """Particle spacing, m."""
         return self._value("particles", "spacing", (int, float))
 
     @property
@@ -192,19 +194,19 @@ class Run:
 
     @property
     def integrator(self) -> str:
-        """"two-step" for the scheme that knows no other."""
+        """"explicit" or "two-step"; "two-step" for a scheme without a choice of integrators."""
         return self.case["scheme"].get("integrator", "two-step")
 
     @property
     def fluid_particles(self) -> int:
-        """How many there are at the end. Throws DataError if the run has not ended."""
+        """Number of fluid particles at the end. Throws DataError if the run has not ended."""
         if "particles" not in self.summary:
             raise DataError(f"{self.path}: the run has not ended")
         return self.summary["particles"]["fluid"]
 
     @property
     def density(self) -> float:
-        """kg/m^3"""
+        """Density of the water, kg/m^3."""
         return self._value("physics", "density", (int, float))
 
     @property
@@ -214,17 +216,17 @@ class Run:
 
     @property
     def parameters(self) -> dict:
-        """The named numbers of the case."""
+        """The [parameters] of the case."""
         return self.case.get("parameters", {})
 
     @property
     def walls(self):
-        """2D: chains of points (m) of the walls that stay where they are drawn, closed ones with their first point again at
-        the end."""
+        """In 2D, the walls that do not move, as chains of points (m). The first point of a closed wall is repeated at
+        its end."""
         return [wall_chain(wall) for wall in self.case.get("wall", []) if not is_moving(wall)]
 
     def walls_at(self, time: float):
-        """The same at a time (s): hulls of floating bodies are where a probe of their motion has them."""
+        """The walls at a time (s), with hulls of floating bodies at the positions that a motion probe recorded."""
         found = {probe["body"]: probe["name"] for probe in self.case.get("probe", []) if probe["type"] == "motion"}
         placed = {hull: place_of(self, body, found[body["name"]], time) for body in self.case.get("body", [])
                   if body["name"] in found for hull in body["walls"]}
@@ -238,7 +240,7 @@ class Run:
 
 
 def require_tables(path: Path, case: dict):
-    """Throws DataError where tables of an effective case have not what every run writes there."""
+    """Throws DataError if a table of an effective case lacks a key that every run writes."""
     for table, names in {"probe": ("name", "type"), "wall": ("shape",)}.items():
         tables = case.get(table, [])
         if not isinstance(tables, list) or not all(name in one for one in tables for name in names):
@@ -255,7 +257,8 @@ def is_moving(wall):
 
 
 def place_of(run, body, probe, time):
-    """Of points of a body (2D) as they are drawn, where they are at a time (s) as the probe of its motion tells."""
+    """Returns a function that moves points (2D) of a body from their drawn positions to those at a time (s), by its
+    motion probe."""
     curves = [run.curve(probe, column) for column in ("displacement_x_m", "displacement_y_m", "angle_rad")]
     x, y, angle = (np.interp(time, curve.time, curve.value) for curve in curves)
     centre, turn = np.array(body["centre"]), np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])

@@ -1,7 +1,7 @@
-"""Pictures in perspective of water and walls, drawn by VTK without a screen.
+"""Perspective pictures of water and walls, drawn by VTK without a screen.
 
-VTK of Debian 12 draws through an X server only and ends the whole process without one. Xvfb is a small one that draws into
-memory; it is started here, and it ends with this process.
+VTK of Debian 12 draws only through an X server and ends the whole process if there is none. Xvfb is a small X server
+that draws into memory. It is started here and ends with this process.
 """
 
 import os
@@ -9,7 +9,7 @@ import shutil
 
 import numpy as np
 import vtkmodules.vtkInteractionStyle  # noqa: F401
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the renderer
+import vtkmodules.vtkRenderingOpenGL2  # registers the renderer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkPolyDataNormals, vtkStaticCleanPolyData
@@ -21,16 +21,16 @@ from .errors import DataError
 from .plots import LOOK_FROM
 
 WATER, WALL, EDGE, MARK = (0.22, 0.52, 0.80), (0.86, 0.84, 0.80), (0.35, 0.35, 0.35), (0.84, 0.10, 0.10)
-SHARP = 30  # degrees; an edge between faces that turn more than this is drawn
-FINER = 2  # pixels drawn for each one shown, along each side: smooth edges on any renderer
-MARGIN = 0.02  # of the picture, around what it shows
+SHARP = 30  # degrees; an edge is drawn between faces whose normals differ by a larger angle
+FINER = 2  # drawn pixels per shown pixel along each side: smooth edges with any renderer
+MARGIN = 0.02  # over the width of the picture, around its contents
 MARK_SIZE = 0.012  # radius of a mark over the diagonal of the scene
 
 _has_display = False
 
 
 def start_display():
-    """Gives this process an X server of its own. Throws DataError if Xvfb is not there or does not start."""
+    """Starts an X server for this process. Throws DataError if Xvfb is missing or does not start."""
     global _has_display
     if _has_display:
         return
@@ -40,7 +40,8 @@ def start_display():
     read, write = os.pipe()
     os.set_inheritable(write, True)
     quiet = [(os.POSIX_SPAWN_OPEN, stream, os.devnull, os.O_WRONLY, 0) for stream in (1, 2)]
-    # It chooses a free number and tells it when it is ready. The system ends it when this process ends, however it does.
+    # Xvfb chooses a free display number and writes it when it is ready. The system ends Xvfb whenever this process
+    # ends.
     os.posix_spawn("/usr/bin/setpriv", ["setpriv", "--pdeathsig", "TERM", program, "-displayfd", str(write), "-screen", "0",
                                         "64x64x24", "-nolisten", "tcp", "-noreset"], os.environ, file_actions=quiet)
     os.close(write)
@@ -63,7 +64,7 @@ def actor_of(data, colour):
 
 
 def lookup_table(colours):
-    """Of a matplotlib colour map."""
+    """A VTK lookup table with the colours of a matplotlib colour map."""
     table = vtkLookupTable()
     table.SetNumberOfTableValues(256)
     for k in range(256):
@@ -72,14 +73,15 @@ def lookup_table(colours):
 
 
 def wall_actors(walls):
-    """Faces of walls (vtkPolyData) as the water sees them: from behind, as the near side of a tank, they are not drawn, but
-    for their edges."""
+    """Faces of walls (vtkPolyData), drawn on the side of the water only. The back, such as the near side of a tank,
+    shows only its edges."""
     clean = vtkStaticCleanPolyData()  # faster than vtkCleanPolyData, by a factor that grows with the mesh
     clean.SetInputData(walls)
     normals = vtkPolyDataNormals()
     normals.SetInputConnection(clean.GetOutputPort())
     normals.SetFeatureAngle(SHARP)
-    normals.ConsistencyOff()  # a face looks into the water, which its neighbour need not do
+    # the front of a face is the side of the water, which may differ from that of its neighbours
+    normals.ConsistencyOff()
     normals.Update()
     faces = actor_of(normals.GetOutput(), WALL)
     faces.GetProperty().BackfaceCullingOn()
@@ -98,7 +100,7 @@ def wall_actors(walls):
 
 
 class Scene:
-    """One window for a series of pictures that look from the same place at the same part of space."""
+    """A window for a series of pictures with the same camera and bounds."""
 
     def __init__(self, bounds, look_from=LOOK_FROM, up=(0, 0, 1), width=1100):
         """`bounds` are xmin, xmax, ymin, ymax, zmin, zmax in m."""
@@ -125,7 +127,7 @@ class Scene:
         self.box = self.box_on_screen()
 
     def box_on_screen(self):
-        """(left, right, low, high) in drawn pixels of what must be shown."""
+        """(left, right, low, high) of the bounds on the screen, in drawn pixels."""
         corners = np.array(self.bounds).reshape(3, 2)
         seen = []
         for corner in np.ndindex(2, 2, 2):
@@ -139,8 +141,9 @@ class Scene:
                 *(np.array([seen[:, 1].min(), seen[:, 1].max()]) + (-margin, margin)))
 
     def draw(self, water=None, walls=None, marks=(), colours=None, field=None, limits=(0, 1)):
-        """An image (rows, columns, 3) of 8 bits: the water's surface (vtkPolyData), coloured by the size of its `field` in a
-        matplotlib colour map if both are given, walls, and places marked on top of all."""
+        """Returns an image (rows, columns, 3) of 8 bits: the surface of the water (vtkPolyData), walls, and marks in
+        front of all. If `field` and `colours`, a matplotlib colour map, are given, the magnitude of the field colours
+        the water."""
         self.renderer.RemoveAllViewProps()
         self.overlay.RemoveAllViewProps()
         if water is not None:

@@ -4,7 +4,7 @@
         for step in simulation:
             step.body_force[:, 0] = 0.1 * numpy.sin(step.time)
 
-The body of the loop sees the moment before each step, the first at t = 0."""
+The body of the loop runs before each time step, the first time at t = 0."""
 
 import atexit
 import sys
@@ -26,7 +26,7 @@ except ImportError as error:
 __all__ = ["Body", "Simulation", "Step"]
 
 open_simulations = weakref.WeakSet()
-warned = 0  # of the warnings of this process: how many are Python's; each simulation that opens begins them anew
+warned = 0  # number of warnings already issued as Python warnings; reset when a simulation opens
 
 
 def warn_of_new():
@@ -38,44 +38,45 @@ def warn_of_new():
 
 
 class Body:
-    """A floating body in a step, by its `name`. Vectors have 2 or 3 components; angles and moments are single numbers in 2D. In 2D
-    forces, masses and moments are those of a metre of width."""
+    """A floating body in a step, by its `name`. Vectors have 2 or 3 components; angles and moments are single numbers
+    in 2D. In 2D forces, masses and moments are those of a metre of width."""
 
     def __init__(self, flow, number, name):
         self._flow, self._number, self.name = flow, number, name
 
     @property
     def centre(self) -> np.ndarray:
-        """m; the centre of mass."""
+        """The centre of mass, m."""
         return self._flow.body_centre(self._number)
 
     @property
     def velocity(self) -> np.ndarray:
-        """m/s; of the centre of mass."""
+        """Velocity of the centre of mass, m/s."""
         return self._flow.body_velocity(self._number)[:self._flow.dimension]
 
     @property
     def angular_velocity(self):
-        """rad/s; a number in 2D, else about each axis."""
+        """rad/s; a number in 2D, a vector in 3D."""
         turns = self._flow.body_velocity(self._number)[self._flow.dimension:]
         return turns if turns.size > 1 else float(turns[0])
 
     @property
     def rotation(self) -> np.ndarray:
-        """The matrix that turns the body from where it is drawn."""
+        """The rotation matrix from the position in the case to the present position."""
         return self._flow.body_turn(self._number)
 
     def place(self, point) -> np.ndarray:
-        """m; where a point of the body is now that is drawn at `point` (m)."""
+        """The present position (m) of the point of the body that is at `point` (m) in the case."""
         return self.rotation @ np.asarray(point, dtype=float) + self._flow.body_shift(self._number)
 
     def velocity_at(self, place) -> np.ndarray:
-        """m/s; of the body at a place (m)."""
+        """Velocity (m/s) of the body at a position (m)."""
         arm, turn = np.asarray(place, dtype=float) - self.centre, self.angular_velocity
         return self.velocity + (np.cross(turn, arm) if arm.size == 3 else turn * np.array([-arm[1], arm[0]]))
 
     def push(self, force, at=None, moment=0.0):
-        """Adds in the coming step a force (N) at a place (m), by default the centre of mass, and a moment (N m)."""
+        """Adds a force (N) at a position (m), by default the centre of mass, and a moment (N m), both for the next
+        step."""
         force = np.asarray(force, dtype=float)
         if force.shape != (self._flow.dimension,):
             raise InputError(f"a force on body '{self.name}' has {self._flow.dimension} components, not {force.shape}")
@@ -91,11 +92,11 @@ class Bodies(dict):
 
 
 class Step:
-    """The moment before a step: `time` (s), `dt` (s) of the step, `number` of those taken.
+    """The state before a step: `time` (s), the size `dt` (s) of the step, and the number `number` of completed steps.
 
-    Arrays share the memory of the flow and are read-only. Those that are kept stay what they were at their moment; a
-    step that is over gives no more. They are of the particles of this rank, also those of walls near the water, and
-    particle i of one step may be another in the next: `id` stays."""
+    Arrays share the memory of the flow and are read-only. An array that a script keeps does not change in later steps;
+    a step that has ended gives no new arrays. Arrays hold the particles of this rank, including wall particles near the
+    water. The order of particles may change from step to step; `id` identifies them."""
 
     def __init__(self, simulation):
         self._flow = simulation._flow
@@ -131,18 +132,18 @@ class Step:
 
     @property
     def id(self) -> np.ndarray:
-        """(n); given once and never to another."""
+        """(n); unique for the whole run."""
         return self._now().id
 
     @property
     def is_water(self) -> np.ndarray:
-        """(n) booleans; False: of a wall. A copy."""
+        """(n) booleans; False for wall particles. A copy."""
         return self._now().kind == 0
 
     @property
     def body_force(self) -> np.ndarray:
-        """m/s^2, (n, 2) or (n, 3): force per mass on each particle of water in this step, to be written into; zero at
-        first. The size of the step does not follow it: keep it below some times gravity."""
+        """m/s^2, (n, 2) or (n, 3): force per mass on each fluid particle in this step, writable, initially zero. The
+        time step does not take this force into account: keep it below a few times gravity."""
         return self._now().acceleration
 
     @body_force.setter
@@ -155,31 +156,33 @@ class Step:
         return Bodies({name: Body(self._now(), k, name) for k, name in enumerate(self._now().bodies)})
 
     def set_discharge(self, inlet: str, discharge: float):
-        """m^3/s, in 2D per metre of width; from this step on, in place of what the case says of an inlet that has a
-        discharge. Throws InputError for another."""
+        """Sets the discharge of an inlet from this step on, m^3/s, in 2D per metre of width. Throws InputError for an
+        inlet that has no discharge in the case."""
         self._now().set_discharge(inlet, float(discharge))
 
     def steer(self, wall: str, path):
-        """From this step on a wave maker, a gate or another wall that moves in the case goes along `path`, a function of
-        the time (s) that returns its displacement (m) from where it is drawn, 2 or 3 numbers, and after them, if it
-        turns about its pivot, its angle (rad). It is asked at times of the coming steps, some more than once. Throws
-        InputError for a path that begins elsewhere than where the wall is."""
+        """Moves a wave maker, a gate or another moving wall of the case along `path` from this step on. `path` is a
+        function of the time (s). It returns the displacement (m) from the position in the case, 2 or 3 numbers,
+        followed by the angle (rad) if the wall rotates about its pivot. It is called for times of the next steps, for
+        some more than once. Throws InputError for a path that begins away from the present position of the wall."""
         self._now().steer(wall, lambda time: np.atleast_1d(path(time)).tolist())
         self.dt = self._flow.dt
 
 
 class Simulation:
-    """The run of a case in this process, for a `with`. Going through it takes the steps, to the end of the case.
+    """The run of a case in this process, for a `with` statement. Iteration takes the steps, to the end of the case.
 
-    `hook(step)` is called before each step, and once more at the start, where the pressure is found and `dt` is 0: a
-    force that acts from the start on belongs there.
+    `hook(step)` is called before each step, and once more at the start, where the initial pressure is computed and `dt`
+    is 0. Set a force there that acts from the start on.
 
-    `dimension`, `spacing` (m), `density` (kg/m^3) and `end` (s) are the case's.
+    `dimension`, `spacing` (m), `density` (kg/m^3) and `end` (s) are those of the case.
 
-    With `out` it also writes a run's folder, as `tailwater run` does. Throws InputError, IoError and SolverError;
-    Ctrl-C is Python's, between two steps. Under mpirun all ranks do the same in step; each has the particles of its part
-    of space. Ending a run is work of all ranks too, so an error of the script on any of them ends all at once, without
-    a checkpoint; of a SolverError all know."""
+    With `out` it also writes a run folder, as `tailwater run` does. Throws InputError, IoError and SolverError. Ctrl-C
+    raises KeyboardInterrupt between two steps.
+
+    Under mpirun all ranks must make the same calls; each rank has the particles of its part of space. Ending a run
+    needs all ranks, so an error of the script on any rank ends all ranks at once, without a checkpoint. A SolverError
+    is raised on all ranks."""
 
     def __init__(self, case, out=None, *, hook=None, force: bool = False):
         global warned
@@ -196,7 +199,7 @@ class Simulation:
             warn_of_new()
         self.dimension, self.end = self._flow.dimension, self._flow.end
         self.spacing, self.density = self._flow.spacing, self._flow.density
-        self._hook, self._hooked = hook, -1  # the last step that the hook has seen
+        self._hook, self._hooked = hook, -1  # the last step for which the hook was called
         open_simulations.add(self)
         if self.ranks > 1:
             sys.excepthook = end_all_ranks
@@ -211,12 +214,12 @@ class Simulation:
 
     @property
     def rank(self) -> int:
-        """Of this process, from 0."""
+        """Rank of this process, from 0."""
         return _simulation.rank()
 
     @property
     def ranks(self) -> int:
-        """How many processes the run has."""
+        """Number of processes of the run."""
         return _simulation.ranks()
 
     def _attempt(self, work):
@@ -227,7 +230,7 @@ class Simulation:
         except Error as error:
             self._failure = str(error)
             raise
-        except BaseException as error:  # of a path of the script, within a step
+        except BaseException as error:  # raised within a step by a path of the script
             self._end_others(error)
             self._failure = repr(error)
             raise
@@ -244,7 +247,7 @@ class Simulation:
             self._attempt(self._flow.step)
 
     def run(self, until: float = float("inf")):
-        """Goes on to the end, or to the first step at or after `until` (s)."""
+        """Runs to the end, or to the first step at or after `until` (s)."""
         for step in self:
             if step.time >= until:
                 return
@@ -256,26 +259,27 @@ class Simulation:
 
     @property
     def iterations(self) -> int:
-        """Of the pressure solver in the last step."""
+        """Iterations of the pressure solver in the last step."""
         return self._flow.iterations
 
     def now(self) -> Step:
-        """The present moment, for reading: after the loop that of the end."""
+        """The present state, for reading; after the loop, the final state."""
         return Step(self)
 
     def result(self) -> Run:
-        """The run's folder. Throws InputError if nothing is written."""
+        """The run in the written folder. Throws InputError if the simulation writes no folder."""
         if self._out is None:
             raise InputError("this simulation writes no folder; remedy: case.simulation(out=DIR)")
         return Run(self._out)
 
     def _end_others(self, error):
-        """They would wait for ever for this rank in `close`, or it for them."""
+        """Ends all ranks after an error of this rank: otherwise they would wait for each other in `close` for ever."""
         if error is not None and not self._failure and self.ranks > 1:
             end_all_ranks(type(error), error, error.__traceback__)
 
     def close(self):
-        """Ends the run, and its folder if there is one: with a checkpoint if the end of the case is not reached."""
+        """Ends the run and completes its folder, if there is one; writes a checkpoint if the end of the case is not
+        reached."""
         if self in open_simulations:
             open_simulations.discard(self)
             try:

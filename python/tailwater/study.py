@@ -1,7 +1,8 @@
-"""Studies: what a case's numbers come to when its particles get smaller, and how well they are known.
+"""Studies: the results of a case at decreasing particle spacings, with intervals for them.
 
-A study runs a case at several spacings, one of them also from other starts and with half of the time step, and tells
-for each result of each probe its value with an interval (`uncertainty`, docs/theory/uncertainty.md)."""
+A study runs a case at several spacings. At one of them it also runs other initial displacements of the particles and
+half of the time step. It gives each result of each probe with an interval (`uncertainty`,
+docs/theory/uncertainty.md)."""
 
 import csv
 import io
@@ -21,21 +22,22 @@ from .whole_file import write_whole_text
 
 __all__ = ["Study", "study"]
 
-COARSEST = 2.0  # times the spacing of the case, or of the finest run
+COARSEST = 2.0  # over the spacing of the case, or of the finest run
 SPACINGS = 7
 STARTS = 3
-JITTER = 0.01  # of dx: enough for what is chance to take another course
-FITS = 0.001  # of the water: what a start may have more or less than another spacing gives
-MISFIT = 0.01  # of the water: from here on it is told
-LEAST_RANGE = 1.5  # the least that the finest run must be finer than the coarsest one
-# A run's cost grows with 1/spacing: particles to the power of the dimension, steps, and a little for the solver.
+JITTER = 0.01  # of dx: large enough that the random part of a result differs from run to run
+FITS = 0.001  # fraction of the water; a spacing may fit it worse than the best one by this much
+MISFIT = 0.01  # fraction of the water, above which the summary mentions the misfit
+LEAST_RANGE = 1.5  # smallest ratio of the coarsest to the finest spacing
+# The cost of a run grows with 1/spacing: the particles by the power of the dimension, the steps by 1, the iterations of
+# the solver a little.
 COST_POWER = 1.3
 COLUMNS = ("probe", "quantity", "unit", "value", "low", "high", "limit", "order", "uncertainty", "discretisation",
            "chance", "step", "eca_hoekstra", "notes")
 
 
 def quantities_of(run) -> dict:
-    """{(probe, quantity): (value, unit)}: what a run tells of its probes, and of its measurements."""
+    """{(probe, quantity): (value, unit)}: the results of the probes and the measurements of a run."""
     found = {}
     for probe, result in run.results.items():
         for quantity in result["quantities"]:
@@ -54,7 +56,7 @@ def quantities_of(run) -> dict:
 
 
 def cell(value) -> str:
-    """Of a CSV file; empty where there is no value."""
+    """The value for a CSV file; empty where there is no value."""
     if isinstance(value, float):
         return "" if math.isnan(value) else f"{value:.9g}"
     return "" if value is None else value
@@ -65,12 +67,12 @@ def number(value, digits=4) -> str:
 
 
 class Study:
-    """What a study has found. `rows` is a list of dicts with the columns of `table()`; `spacings` [m] are those that
-    were run, the finest first; `runs`, `starts` and `step` are the runs."""
+    """Results of a study. `rows` is a list of dicts with the columns of `table()`; `spacings` [m] are those of the
+    runs, the finest first; `runs`, `starts` and `step` are the runs."""
 
     def __init__(self, runs, starts=(), step=None, quantities=quantities_of):
-        """`runs` at three spacings or more; `starts` at one of them; `step`: the run of that spacing with half of its
-        time step. `quantities(run)` returns {(probe, quantity): (value, unit)}, by default what the run tells of its
+        """`runs` are at three spacings or more, `starts` at one of them; `step` is the run at that spacing with half of
+        its time step. `quantities(run)` returns {(probe, quantity): (value, unit)}, by default the results of the
         probes. Throws DataError if a run has not ended."""
         for run in [*runs, *starts, *([step] if step else [])]:
             if run.summary.get("status") != "done":
@@ -87,7 +89,7 @@ class Study:
 
     @classmethod
     def load(cls, folder, quantities=quantities_of) -> "Study":
-        """The study in a folder, from its runs. Throws DataError if it is none."""
+        """The study in a folder, from its runs. Throws DataError if the folder holds no study."""
         path = Path(folder) / "study.json"
         try:
             told = json.loads(read_text(path))
@@ -104,7 +106,7 @@ class Study:
         rows = []
         for key, (_, unit) in of_runs[0].items():
             if not all(key in found for found in [*of_runs, *of_starts, *([of_step] if self.step else [])]):
-                continue  # of a probe that has no reading in one of the runs there is nothing to compare
+                continue  # a probe has no reading in one of the runs, so that there is nothing to compare
             values = [found[key][0] for found in of_runs]
             starts = {self._base.spacing: [found[key][0] for found in of_starts]} if of_starts else {}
             found = uncertainty.estimate(self.spacings, values, starts=starts,
@@ -115,17 +117,18 @@ class Study:
         return rows
 
     def table(self):
-        """A pandas.DataFrame over probe and quantity: `value` (that of the finest run); `limit`, which is between `low`
-        and `high` 95 times of 100; `order`; of the interval's half width, `uncertainty`, what `discretisation` and
-        `chance` are of it; what half of the time `step` changes; `eca_hoekstra`, the uncertainty of the value by the
-        method of Eca & Hoekstra; `notes` on what narrows the interval."""
+        """A pandas.DataFrame over probe and quantity. `value` is that of the finest run. `limit` is the extrapolated
+        value; it lies between `low` and `high` with a probability of 95 %. `order` is the observed order. `uncertainty`
+        is the half width of the interval, with the parts `discretisation` and `chance`. `step` is the change by half of
+        the time step. `eca_hoekstra` is the uncertainty of the value by the method of Eca & Hoekstra. `notes` say which
+        runs narrow the interval."""
         import pandas
 
         return pandas.DataFrame([{name: row[name] for name in COLUMNS} for row in self.rows],
                                 columns=COLUMNS).set_index(["probe", "quantity"])
 
     def text(self) -> str:
-        """The table in words, two or three lines for each number."""
+        """The table as text, two or three lines for each number."""
         told = f"spacings {', '.join(f'{spacing:.4g}' for spacing in self.spacings)} m"
         if self.starts:
             told += f"; {len(self.starts)} other starts"
@@ -148,7 +151,8 @@ class Study:
         return "\n".join(lines) + "\n"
 
     def write(self, folder):
-        """study.csv, study.json and study.txt, in which runs are named from the folder on; `tailwater view` shows them."""
+        """Writes study.csv, study.json and study.txt, with paths of runs relative to the folder; `tailwater view` shows
+        them."""
         folder = Path(folder)
         lines = io.StringIO()
         table = csv.writer(lines, lineterminator="\n")
@@ -174,15 +178,16 @@ class Study:
 
 
 def ladder(coarsest, finest, count=SPACINGS):
-    """Spacings from one to the other, each finer than the one before by the same factor, in four digits."""
+    """Spacings from `coarsest`, which is left out, to `finest` in a geometric series, rounded to four digits."""
     ratio = (finest / coarsest) ** (1 / (count - 1))
     return [float(f"{coarsest * ratio**k:.4g}") for k in range(1, count)]
 
 
 def lengths_of_water(case):
-    """Of the blocks that a run starts with, in m: their edges, and the depths of what is filled up to a level. `case` is
-    that of a run. A block has whole rows of particles, each with the volume of a cell: if the rows do not fit, the run
-    has more or less water than the case says. None where water comes and goes: there the ends say how much there is."""
+    """Lengths [m] of the initial blocks of water: edges of boxes, and depths of regions filled to a level. `case` is
+    the effective case of a run. A block has whole rows of particles, each with the volume of a cell: if the rows do not
+    fit, the run has more or less water than the case. Empty with inlets or outlets, since these determine the amount of
+    water."""
     if case.get("inlet") or case.get("outlet"):
         return np.zeros(0)
     heights = [point[-1] for wall in case.get("wall", []) for point in wall.get("points", [])]
@@ -196,14 +201,15 @@ def lengths_of_water(case):
 
 
 def misfit(spacing, lengths):
-    """By how much of itself the water is too long, or too short, in the worst direction of the worst block."""
+    """Largest relative error of the water's length, over all directions of all blocks, due to whole rows of
+    particles."""
     rows = lengths / spacing
     return float(np.abs(np.round(rows) / rows - 1).max(initial=0.0))
 
 
 def fitting(spacing, lengths, within):
-    """The spacing nearest to this one, and not further from it than the share `within`, that fits the water as well as
-    any there, to 0.1 %."""
+    """The spacing nearest to `spacing`, within the relative distance `within`, whose misfit exceeds the smallest one
+    there by 0.1 % at most."""
     rows = range(1, math.ceil(lengths.max(initial=0.0) / (spacing * (1 - within))) + 1)
     near = [spacing, *(length / n for length in lengths for n in rows if abs(length / n / spacing - 1) <= within)]
     least = min(misfit(one, lengths) for one in near)
@@ -211,8 +217,8 @@ def fitting(spacing, lengths, within):
 
 
 def fitted_ladder(coarsest, finest, case, keeps_finest):
-    """The ladder below `coarsest`, whose spacings, but the last if it is to be kept, give way to ones that fit the water of
-    `case`."""
+    """The ladder below `coarsest`, with spacings replaced by near ones that fit the water of `case`; the finest one
+    stays if `keeps_finest`."""
     below = ladder(coarsest, finest)
     lengths, within = lengths_of_water(case), 0.35 * (coarsest / below[0] - 1)
     fitted = [float(f"{fitting(spacing, lengths, within):.6g}") for spacing in below]
@@ -220,7 +226,8 @@ def fitted_ladder(coarsest, finest, case, keeps_finest):
 
 
 def finest_within(coarsest, seconds, budget, dimension, extra):
-    """The finest spacing with which the whole study, of which the coarsest run took `seconds`, takes `budget`."""
+    """The finest spacing for which the whole study takes the time `budget`. The coarsest run took `seconds`; `extra`
+    runs are at the second coarsest spacing."""
     def cost(finest):
         each = [(coarsest / spacing) ** (dimension + COST_POWER) for spacing in (coarsest, *ladder(coarsest, finest))]
         return seconds * (sum(each) + extra * each[1])
@@ -237,7 +244,7 @@ def finest_within(coarsest, seconds, budget, dimension, extra):
 
 
 def done(members, what):
-    """The runs of a sweep. Throws DataError, with the first message, if one is not done."""
+    """The runs of a sweep. Throws DataError with the first message if a run has failed or was interrupted."""
     for member, row in members.table().iterrows():
         if row["status"] != "done":
             message = row["message"] if isinstance(row["message"], str) else ""
@@ -247,7 +254,8 @@ def done(members, what):
 
 
 def require_folder_for_study(out: Path):
-    """Throws InputError for a folder that holds something else than a study, IoError for what is no folder."""
+    """Throws InputError for a folder that holds other results than those of a study, IoError if `out` is not a
+    folder."""
     if out.exists() and not out.is_dir():
         raise IoError(f"{out}: is no folder; remedy: choose another name")
     for file, what in (("case.effective.toml", "a run"), ("sweep.csv", "a sweep")):
@@ -257,14 +265,14 @@ def require_folder_for_study(out: Path):
 
 def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, step: bool = True, jobs: int = 1,
           ranks: int = 1, progress: bool = False, quantities=quantities_of) -> Study:
-    """Runs a case at several spacings and says how well its numbers are known. `out` is the folder, by default
-    NAME_study; called again it goes on with what is not done.
+    """Runs a case at several spacings and estimates intervals for its results. `out` is the folder, by default
+    NAME_study; a further call completes a study that was interrupted.
 
-    `spacings`: three or more, in m. Without them they are seven, from twice the case's own down to that; with a `budget`
-    in seconds of computing time (of one process), down to what fits it. Those between are such that whole rows of
-    particles fit the water, where that is near. `starts` runs with other random displacements
-    of the particles at the start, and one with half of the time step if `step`, are of the second coarsest spacing.
-    `quantities(run)` are numbers of your own, as {(name, quantity): (value, unit)}, in place of what probes have found.
+    `spacings`: three or more, in m. By default they are seven, from twice the spacing of the case down to that spacing;
+    with a `budget` in seconds of CPU time, down to the finest spacing within it. Intermediate spacings are adjusted so
+    that whole rows of particles fit the water, where such spacings are near. At the second coarsest spacing, `starts`
+    runs have other random initial displacements of the particles, and one run has half of the time step if `step`.
+    `quantities(run)` returns your own numbers instead of the probes' results, as {(name, quantity): (value, unit)}.
     Throws InputError before anything is run; DataError if a run fails."""
     out = Path(out or f"{case.file.stem}_study")
     require_folder_for_study(out)

@@ -1,4 +1,4 @@
-"""Sweeps: a case once for each value of some keys."""
+"""Sweeps: runs of one case for several values of some keys."""
 
 import csv
 from pathlib import Path
@@ -12,14 +12,14 @@ __all__ = ["Sweep", "sweep"]
 
 
 class Sweep:
-    """The folder of a sweep. Throws DataError if it is none."""
+    """The folder of a sweep. Throws DataError if the folder holds no sweep."""
 
     def __init__(self, path):
         self.path = Path(path)
         self.table()
 
     def table(self):
-        """sweep.csv as a pandas.DataFrame: of each member its values, how it ended, its cost and errors."""
+        """sweep.csv as a pandas.DataFrame: the values, status, cost and errors of each member."""
         import pandas
 
         path = self.path / "sweep.csv"
@@ -45,9 +45,10 @@ class Sweep:
 
 
 def sweep(case, values: dict, *, out=None, jobs: int = 1, ranks: int = 1, progress: bool = False) -> Sweep:
-    """Runs a case for each value of each key, several keys as a product, `jobs` at a time. `out` is the folder, by
-    default NAME_sweep of the case file's name; called again it goes on with what is not done. A member that fails does
-    not end the others: the table says how each ended. Throws InputError before anything is run."""
+    """Runs a case for each value of each key, for several keys all combinations, `jobs` runs at a time. `out` is the
+    folder, by default NAME_sweep with the name of the case file; a further call completes a sweep that was interrupted.
+    A member that fails does not end the others: the table holds the status of each. Throws InputError before anything
+    is run."""
     out = Path(out or f"{case.file.stem}_sweep")
     if not values:
         raise InputError("values: give keys, each with a list of its values")
@@ -55,7 +56,7 @@ def sweep(case, values: dict, *, out=None, jobs: int = 1, ranks: int = 1, progre
     for key, each in values.items():
         if isinstance(each, (str, int, float)):
             raise InputError(f"{key} = {each}: give a list of values")
-        case[key]  # throws for a key that it cannot have
+        case[key]  # throws for a key that the case cannot have
         words += ["--sweep", f"{key}={','.join(map(case_text.toml_value, each))}"]
     table = out / "sweep.csv"
     before = table.stat().st_mtime_ns if table.exists() else None

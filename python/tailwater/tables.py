@@ -1,4 +1,4 @@
-"""Tables: CSV files with a line of names, which carry their units ("time_s", "discharge_m3_per_s")."""
+"""Tables: CSV files with a header line of names that include units ("time_s", "discharge_m3_per_s")."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from .input_file import LARGEST_TABLE, read_text
 
 __all__ = ["frame", "read_table", "unit_of", "without_unit"]
 
-# Endings of names that are units, the longest first, so that "m3_per_s" is not taken for "s".
+# Suffixes of names and their units. The longest suffix is tried first, so that "m3_per_s" is not read as "s".
 UNITS = {"m3_per_s": "m^3/s", "m_per_s": "m/s", "m_s": "m/s", "rad_per_s": "rad/s", "kg_per_m3": "kg/m^3",
          "N_m_per_m": "N m/m", "N_per_m": "N/m", "Pa_s": "Pa s", "per_s": "1/s", "N_m": "N m", "m3": "m^3",
          "m2": "m^2", "Pa": "Pa", "kg": "kg", "Hz": "Hz", "rad": "rad", "deg": "deg", "bytes": "bytes", "m": "m",
@@ -22,18 +22,18 @@ def ending_of(name: str) -> str:
 
 
 def unit_of(name: str) -> str:
-    """Of a column by its name: "m" of "highest_m", "" of a number without a unit."""
+    """The unit of a column, from its name: "m" for "highest_m", "" for a number without a unit."""
     return UNITS.get(ending_of(name), "")
 
 
 def without_unit(name: str) -> str:
-    """"highest" of "highest_m"."""
+    """The name of a column without its unit: "highest" for "highest_m"."""
     return name.removesuffix("_" + ending_of(name)) if ending_of(name) else name
 
 
 def read_table(path) -> dict:
-    """Columns of a CSV with one line of names, by name, as arrays of doubles. Lines that start with `#` are provenance
-    and are skipped. Throws DataError, which names file and line."""
+    """Reads a CSV file with one header line. Returns {name: array of doubles}. Skips lines that start with `#`, which
+    hold provenance. Throws DataError, which names file and line."""
     path = Path(path)
     lines = read_text(path, LARGEST_TABLE).splitlines()
     numbered = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
@@ -53,8 +53,9 @@ def read_table(path) -> dict:
 
 
 def frame(path):
-    """The same as a pandas.DataFrame over `time_s`, if it has that. `attrs["units"]` has the unit of each column."""
-    import pandas  # slow to import, and only a part of what this package does needs it
+    """Reads a CSV file as a pandas.DataFrame, over `time_s` if it has this column. `attrs["units"]` has the unit of
+    each column."""
+    import pandas  # slow to import, and most of the package does not need it
 
     columns = read_table(path)
     table = pandas.DataFrame(columns)

@@ -1,11 +1,11 @@
-"""How well a number is known that was computed at several spacings: its limit, its order, and an interval.
+"""Estimates limit, order and interval of a number that was computed at several spacings.
 
-`estimate` is a probabilistic Richardson extrapolation (Oates, Karvonen, Teckentrup, Strocchi, Niederer 2024, Probabilistic
-Richardson extrapolation, arXiv:2401.07562) with chance in the values (Oliver, Malaya, Ulerich, Moser 2014, Estimating
-uncertainties in statistics computed from direct numerical simulation, Phys. Fluids 26, 035101). `extrapolate` is the
-method of L. Eca and M. Hoekstra, A procedure for the estimation of the numerical uncertainty of CFD calculations based on
-grid refinement studies, J. Comput. Phys. 262 (2014) 104-130. docs/theory/uncertainty.md has both, with what they cannot
-do."""
+`estimate` is a probabilistic Richardson extrapolation (Oates, Karvonen, Teckentrup, Strocchi, Niederer 2024,
+Probabilistic Richardson extrapolation, arXiv:2401.07562). It includes random errors of the values (Oliver, Malaya,
+Ulerich, Moser 2014, Estimating uncertainties in statistics computed from direct numerical simulation, Phys. Fluids 26,
+035101). `extrapolate` is the method of L. Eca and M. Hoekstra, A procedure for the estimation of the numerical
+uncertainty of CFD calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130.
+docs/theory/uncertainty.md describes both, with their limits."""
 
 import math
 from dataclasses import dataclass, field
@@ -18,37 +18,40 @@ from .errors import DataError
 
 __all__ = ["Estimate", "Extrapolation", "estimate", "extrapolate"]
 
-LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0  # of an error that can be believed to go on so
-SAFE, UNSAFE = 1.25, 3.0  # factors on the error that was found
-ORDERS = np.linspace(0.05, 8.0, 160)  # that are looked through, before the best is made precise
-# What `estimate` thinks possible before it sees values, all of it alike. An error begins with the first or the half
-# power of the spacing and has TERMS powers, each higher by 1.
+LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0  # range of observed orders that are used for extrapolation
+SAFE, UNSAFE = 1.25, 3.0  # safety factors on the estimated error
+ORDERS = np.linspace(0.05, 8.0, 160)  # trial orders of the search, before refinement
+# Prior hypotheses of `estimate`, all equally probable. An error is a sum of TERMS powers of the spacing; the lowest
+# power is 0.5 or 1, each further one is higher by 1.
 FIRST_POWERS, TERMS = (0.5, 1.0), 3
-SIZES = np.geomspace(0.3, 30.0, 9)  # of the terms at the coarsest spacing, over the spread of the values
-STEPS = (0.01, 0.1, 1.0)  # of the error of the time step there, over that size
-SCATTERS = (0.02, 0.06, 0.2, 0.6)  # of values about such an error, over its size: of how the particles lie at walls
-CHANCES = np.geomspace(1e-3, 2.0, 10)  # standard deviation of one run, over the spread
-UNEVEN = 0.4  # scatter over the size of an error from which on finer spacings are not what narrows the interval
-HIDDEN = 4.2  # standard deviations: seven values that differ by chance alone differ by less, 95 times of 100
-CERTAIN = 0.95  # that the limit is inside the interval
-ROUNDING = 1e-12  # of the values: what spreads less is one number
+SIZES = np.geomspace(0.3, 30.0, 9)  # sizes of the terms at the coarsest spacing, over the range of the values
+STEPS = (0.01, 0.1, 1.0)  # error of the time step at the coarsest spacing, over that size
+# scatter of values about such an error, over its size, due to the arrangement of particles at walls
+SCATTERS = (0.02, 0.06, 0.2, 0.6)
+CHANCES = np.geomspace(1e-3, 2.0, 10)  # standard deviation of one run, over the range of the values
+UNEVEN = 0.4  # scatter over the size of an error, above which finer spacings do not narrow the interval
+# standard deviations; the range of seven values that differ only by chance is smaller with a probability of 95 %
+HIDDEN = 4.2
+CERTAIN = 0.95  # probability that the limit lies within the interval
+ROUNDING = 1e-12  # relative to the values; a smaller range counts as equal values
 
 
 @dataclass(frozen=True)
 class Extrapolation:
-    """Of values at several spacings; the first is the finest."""
+    """Extrapolation from values at several spacings; the finest is the first."""
 
     limit: float  # at spacing 0
-    order: float  # that was observed; nan where none is between 0 and 8
-    error: float  # of the finest value, as the fit has it: fit - limit
+    order: float  # observed order; nan if no order between 0 and 8 fits
+    error: float  # of the finest value by the fit: fit - limit
     scatter: float  # of the values about the fit
-    spread: float  # of the values, per interval between spacings
-    uncertainty: float  # of the finest value, either way
-    form: str  # of the error that was fitted: "h^p", "h", "h^2", "h + h^2", or "none" where all values are one
+    spread: float  # range of the values per interval between spacings
+    uncertainty: float  # half width for the finest value
+    form: str  # of the fitted error: "h^p", "h", "h^2", "h + h^2", or "none" if all values are equal
 
 
 def fitted(h, value, weights, powers):
-    """(limit, error at the finest, scatter, distance of the finest from the fit) of a sum of powers of h."""
+    """Fits a limit and a sum of powers of h. Returns (limit, error at the finest spacing, scatter, distance of the
+    finest value from the fit)."""
     rows = np.column_stack([np.ones_like(h), *(h**power for power in powers)])
     root = np.sqrt(weights)
     coefficients = np.linalg.lstsq(rows * root[:, None], value * root, rcond=None)[0]
@@ -59,7 +62,7 @@ def fitted(h, value, weights, powers):
 
 
 def misfits(orders, h, value, weights):
-    """Of one power each: the weighted sum of the squares that a straight line over h^order leaves."""
+    """The weighted sum of squared residuals of a straight line over h^order, for each of the orders."""
     x = (h / h[0]) ** np.asarray(orders)[:, None]
     x = x - (x @ weights)[:, None]
     y = value - weights @ value
@@ -67,7 +70,7 @@ def misfits(orders, h, value, weights):
 
 
 def best_order(h, value, weights):
-    """The order with which one power fits best; nan if that is at an end of those looked through."""
+    """The order of the single power that fits best; nan if it is at an end of the range of trial orders."""
     orders = ORDERS
     for _ in range(4):
         k = int(np.argmin(misfits(orders, h, value, weights)))
@@ -79,12 +82,12 @@ def best_order(h, value, weights):
 
 
 def scatter_of(named):
-    """Of a fit with its name."""
+    """The scatter of a pair (name, fit)."""
     return named[1][2]
 
 
 def extrapolate(spacings, values) -> Extrapolation:
-    """Of three values or more. Throws DataError for fewer, and for what is no number."""
+    """Extrapolates three values or more. Throws DataError for fewer, and for values that are not finite."""
     h, value = np.asarray(spacings, dtype=float), np.asarray(values, dtype=float)
     if h.shape != value.shape or len(np.unique(h)) != h.size or h.size < 3:
         raise DataError(f"{h.size} spacings and {value.size} values; an uncertainty needs three values or more, each "
@@ -107,14 +110,14 @@ def extrapolate(spacings, values) -> Extrapolation:
         order, fit = min(believed, key=scatter_of)
         form = "h^p"
     else:
-        # Faster than order 2: one of the orders that theory has. Slower than 0.5, or none: their sum as well, where
-        # there are values left to tell its scatter.
+        # Above order 2: one of the theoretical orders. Below 0.5, or without an order: also the sum of both powers, if
+        # enough values remain to estimate the scatter.
         forms = ["h", "h^2"] if order > LARGEST_ORDER or h.size < 4 else ["h", "h^2", "h + h^2"]
         form, fit = min(((form, fitted(h, value, weights, powers_of[form]))
                          for form in forms for weights in (alike, by_fineness)), key=scatter_of)
     limit, error, scatter, off = fit
     if scatter < spread:
-        # The order of three values is found from them alone: no scatter can show that it is chance.
+        # With three values the order fits them exactly, so that no scatter can show whether the order is random.
         is_safe = form == "h^p" and h.size > 3
         uncertainty = (SAFE if is_safe else UNSAFE) * abs(error) + scatter + off
     else:
@@ -124,21 +127,23 @@ def extrapolate(spacings, values) -> Extrapolation:
 
 @dataclass(frozen=True)
 class Hypotheses:
-    """What may be behind values at some spacings, one entry each: for each the mean of the limit is `weights @ values`."""
+    """Possible models of values at some spacings, one per entry. In each model the mean of the limit is `weights @
+    values`."""
 
     weights: np.ndarray  # [entry, spacing]
-    deviation: np.ndarray  # of the limit
-    misfit: np.ndarray  # [entry, spacing, spacing]: values @ misfit @ values is the sum of the squares that is left
-    evidence: np.ndarray  # logarithm of their likelihood but for the misfit
+    deviation: np.ndarray  # standard deviation of the limit
+    misfit: np.ndarray  # [entry, spacing, spacing]: values @ misfit @ values is the sum of squared residuals
+    evidence: np.ndarray  # logarithm of the likelihood, without the misfit
     chance: np.ndarray  # standard deviation of one run
-    of_chance: np.ndarray  # what it does to the limit
+    of_chance: np.ndarray  # standard deviation of the limit due to `chance`
     scatter: np.ndarray  # over the size of the error
 
 
 @lru_cache(maxsize=8)
 def hypotheses(h, steps, counts):
-    """For values that are means of `counts` runs at the spacings `h` with these `steps` in time over the usual one, and
-    spread by about 1. The prior of the limit is flat; all else is Gaussian."""
+    """The hypotheses for values with a range of about 1. The values are means of `counts` runs at the spacings `h`,
+    with time steps that are `steps` times the usual one. The prior of the limit is flat; all other priors are
+    Gaussian."""
     x = np.array(h) / max(h)
     of_step, is_same = np.outer(x * steps, x * steps), x[:, None] == x
     covariances, chances, scatters = [], [], []
@@ -159,7 +164,8 @@ def hypotheses(h, steps, counts):
 
 
 def quantile(share, weights, means, deviations):
-    """Of a sum of normal distributions, by Newton's method, and by bisection where that leaves what is known to hold it."""
+    """Quantile of a mixture of normal distributions, by Newton's method, with bisection where a step leaves the
+    bracket."""
     low, high = float((means - 9 * deviations).min()), float((means + 9 * deviations).max())
     enough, place = 1e-12 * (high - low), float(weights @ means)
     while high - low > enough:
@@ -176,19 +182,19 @@ def quantile(share, weights, means, deviations):
 
 @dataclass(frozen=True)
 class Limit:
-    """Where the limit of several values is."""
+    """Distribution of the limit of several values."""
 
     mean: float
     low: float
     high: float
-    chance: float  # of (high - low)/2, with squares that add up; nan if no values from other starts tell it
-    discretisation: float  # the rest
+    chance: float  # random part of (high - low)/2, in quadrature; nan without values from other starts
+    discretisation: float  # the other part of (high - low)/2
     scatter: float  # of the values from spacing to spacing, over the size of their error
 
 
 def limit_of(h, steps, means, counts, variance, freedom) -> Limit:
-    """Of the means of `counts` runs at each of the spacings `h` and these `steps` over the usual ones. One run's `variance`
-    was found with so many degrees of freedom, which may be 0."""
+    """The limit for the means of `counts` runs at each of the spacings `h`, with time steps that are `steps` times the
+    usual one. `variance`, that of one run, was estimated with `freedom` degrees of freedom, which may be 0."""
     scale = max(float(np.ptp(means)), math.sqrt(variance))
     if scale <= ROUNDING * float(abs(means).max()):
         return Limit(float(means[0]), float(means[0]), float(means[0]), 0.0 if freedom else math.nan, 0.0, 0.0)
@@ -211,17 +217,17 @@ def limit_of(h, steps, means, counts, variance, freedom) -> Limit:
 
 @dataclass(frozen=True)
 class Estimate:
-    """One number with an interval that has its limit in it, 95 times of 100."""
+    """A number with an interval that contains its limit with a probability of 95 %."""
 
     value: float  # of the finest spacing
     low: float
     high: float
-    limit: float  # the mean of what it may be
-    order: float  # that was observed; nan if none
-    discretisation: float  # of half the width of the interval; the root of the sum of its squares and those of chance
-    chance: float  # nan where no run from another start says it
-    step: float  # what half of the time step changes; nan where no run says it. A part of the discretisation
-    eca_hoekstra: float  # the uncertainty of `value`, either way, by the method of Eca & Hoekstra
+    limit: float  # mean of the distribution of the limit
+    order: float  # observed order; nan if none
+    discretisation: float  # part of the half width of the interval; adds to `chance` in quadrature
+    chance: float  # random part of the half width; nan if there is no run from another start
+    step: float  # change by half of the time step, a part of the discretisation; nan if no run has it
+    eca_hoekstra: float  # half width of the uncertainty of `value` by the method of Eca & Hoekstra
     notes: list = field(default_factory=list)
 
     @property
@@ -231,7 +237,7 @@ class Estimate:
 
 
 def notes_on(found, order, is_hidden, step):
-    """What to make of a Limit; `is_hidden` if chance may be all that the values differ by."""
+    """Advice on a Limit; `is_hidden` if all differences of the values may be random."""
     half = 0.5 * (found.high - found.low)
     if half == 0:
         return ["all spacings give one value"]
@@ -251,9 +257,9 @@ def notes_on(found, order, is_hidden, step):
 
 
 def estimate(spacings, values, *, starts=None, step=None) -> Estimate:
-    """`values` at `spacings`; `starts`, {spacing: values of that spacing from several starts, all that there are};
-    `step`, (spacing, value with half of the time step). Throws DataError as `extrapolate`, and for starts or a step at
-    another spacing."""
+    """Estimates the limit of `values` at `spacings`. `starts` is {spacing: all values at that spacing from different
+    initial particle displacements}; `step` is (spacing, value with half of the time step). Throws DataError as
+    `extrapolate`, and for starts or a step at another spacing."""
     starts = {spacing: np.asarray(each, dtype=float) for spacing, each in (starts or {}).items()}
     if others := {*starts, *(step[:1] if step else ())} - set(spacings):
         raise DataError(f"starts or a step at {min(others):g}, a spacing that has no value")
@@ -261,7 +267,7 @@ def estimate(spacings, values, *, starts=None, step=None) -> Estimate:
     eca_hoekstra = extrapolate(spacings, means)
     freedom = sum(len(each) - 1 for each in starts.values())
     variance = sum(float(each.var()) * len(each) for each in starts.values()) / freedom if freedom else 0.0
-    # The finest first, the one with half of the step last.
+    # The finest value is the first, the one with half of the time step the last.
     members = [(float(h), 1.0, mean, len(starts.get(h, [0]))) for h, mean in sorted(zip(spacings, means))]
     of_step = math.nan
     if step:

@@ -1,4 +1,4 @@
-"""The page of a run, served by the program."""
+"""The viewer of runs, served by the program."""
 
 import atexit
 import html
@@ -12,8 +12,8 @@ __all__ = ["View"]
 
 
 class View:
-    """The page of runs, at `address` on this machine, until `close` or the end of this process. A notebook shows inside
-    itself what the runs have written by then, which stays in it when it is saved."""
+    """Serves the viewer of runs at `address` on this machine, until `close` or the end of this process. A notebook
+    embeds a copy of the viewer with the data that the runs have written so far; the copy is saved with the notebook."""
 
     def __init__(self, *paths):
         self.paths = paths
@@ -26,7 +26,7 @@ class View:
         atexit.register(self.close)
 
     def close(self):
-        """Ends the server; the page then shows no more."""
+        """Ends the server; the viewer then shows no new data."""
         self._child.terminate()
         self._child.communicate()
         atexit.unregister(self.close)

@@ -1,7 +1,7 @@
 """The water of a run as one VTKHDF file with all its times, for ParaView 5.12 and newer.
 
-The format is VTKHDF 2.0, PolyData with steps (VTK documentation, "VTKHDF File Format"). Each time is a part of its own,
-with as many points as the run had particles then, and one vertex for each."""
+The format is VTKHDF 2.0, PolyData with steps (VTK documentation, "VTKHDF File Format"). Each time is one part, with one
+point and one vertex for each particle at that time."""
 
 import numpy as np
 
@@ -17,14 +17,15 @@ CHUNK = 1 << 18  # bytes before compression
 
 
 class Tables:
-    """Datasets that grow. They stay open: what is closed is packed, and packed anew each time leaves holes in the file."""
+    """Datasets that grow. They stay open, because HDF5 compresses a chunk when its dataset is closed, and repeated
+    compression leaves holes in the file."""
 
     def __init__(self, root):
         self.root = root
         self._open = {}
 
     def append(self, name, values):
-        """A table's row is one value."""
+        """Appends values; each one is a row of the table."""
         values = np.asarray(values)
         if name not in self._open:
             row = values.shape[1:]
@@ -38,7 +39,7 @@ class Tables:
 
 
 def append_cells(tables, count):
-    """Of one time: a vertex for each of `count` points, and nothing else."""
+    """Appends the cells of one time: a vertex for each of `count` points, no other cells."""
     for kind in KINDS:
         cells = count if kind == "Vertices" else 0
         tables.append(f"{kind}/NumberOfCells", [cells])
@@ -48,7 +49,7 @@ def append_cells(tables, count):
 
 
 def append_step(tables, number, frame, points, names):
-    """`points` were written before it."""
+    """Appends the offsets of one time; `points` is the number of points written before it."""
     tables.root.require_group("Steps").attrs["NSteps"] = number + 1
     tables.append("Steps/Values", [frame.time])
     tables.append("Steps/PartOffsets", [number])
@@ -61,10 +62,10 @@ def append_step(tables, number, frame, points, names):
 
 
 def write_steps(file, frames):
-    """[(time in s, path)] into an open HDF5 file, one in memory at a time."""
+    """Writes frames [(time in s, path)] into an open HDF5 file, with one frame in memory at a time."""
     root = file.create_group("VTKHDF")
     root.attrs["Version"] = VERSION
-    root.attrs["Type"] = np.bytes_("PolyData")  # a text of fixed length, as VTK wants it
+    root.attrs["Type"] = np.bytes_("PolyData")  # a text of fixed length, as VTK requires
     tables, points, names = Tables(root), 0, None
     for number, (time, path) in enumerate(frames):
         frame = read_frame(time, path)
@@ -82,7 +83,7 @@ def write_steps(file, frames):
 
 
 def write_vtkhdf(run, path):
-    """Throws DataError where there are no fields, or no h5py; IoError."""
+    """Writes a VTKHDF file. Throws DataError where there are no fields, or if h5py is missing; IoError."""
     try:
         import h5py
     except ImportError as error:
