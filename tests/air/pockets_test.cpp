@@ -1,4 +1,4 @@
-// What becomes of pockets and their gas as voids change, on voids drawn by hand: slots of cells in water.
+// Changes of pockets and their gas as voids change. The voids are drawn by hand: slots of cells in water.
 #include "air/pockets.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace pockets_test {
 
 constexpr double dx = 0.1;
 
-/// Slots 0.8 high: [from, to] in x.
+/// A slot 0.8 high: [from, to] in x.
 struct Slot {
   double from, to;
 };
@@ -22,7 +22,7 @@ class Basin {
  public:
   Basin() : grid_({Vec<2>::Zero(), Vec<2>(3.0, 1.0)}, dx, {}), walls_(grid_.rows(), grid_.length()) {}
 
-  /// Closes the basin all around, 0.05 from its border.
+  /// Closes the basin on all sides, 0.05 inside its border.
   void seal() {
     for (int row = 0; row < grid_.rows(); ++row) {
       for (int place = 0; place < grid_.length(); ++place) {
@@ -35,7 +35,8 @@ class Basin {
 
   void open() { walls_.clear(); }
 
-  /// Looks at these slots, of which `open` ones reach the open air, after water has gone `displacement` dx.
+  /// Updates the pockets for these slots after a displacement of the water by `displacement` dx. The slots `open`
+  /// connect to the open air.
   void look(const std::vector<Slot>& closed, const std::vector<Slot>& open = {}, double displacement = 0.5) {
     CellMarks water(grid_.rows(), grid_.length());
     const auto is_in = [](const std::vector<Slot>& slots, const Vec<2>& x) {
@@ -79,7 +80,7 @@ class Basin {
   CellMarks walls_;
 };
 
-/// Of a slot of that width.
+/// Volume of a slot of a given width.
 double volume_of(double width) { return 0.8 * width; }
 
 TEST(Pockets, AirThatIsShutInHasTheAtmospheresPressure) {
@@ -93,7 +94,7 @@ TEST(Pockets, AirThatIsShutInHasTheAtmospheresPressure) {
 
 TEST(Pockets, SmallOnesAreNone) {
   Basin basin;
-  basin.look({{0.5, 0.55}});  // 1 x 16 cells; a pocket begins with 4 x 4 = 16, so take one of half the height
+  basin.look({{0.5, 0.55}});  // 1 x 16 cells; the smallest pocket has 4 x 4 = 16
   EXPECT_LE(basin.state.pockets.size(), 1u);
   Basin other;
   other.look({});
@@ -117,14 +118,14 @@ TEST(Pockets, KeepTheirGasWhereTheyJoinAndPart) {
   const double energy = basin.law.energy(basin.state.pockets[0].gas, basin.state.pockets[0].volume);
   basin.look({{0.5, 1.8}});
   ASSERT_EQ(basin.state.pockets.size(), 1u);
-  EXPECT_EQ(basin.state.pockets[0].number, 1);  // that of the larger one
+  EXPECT_EQ(basin.state.pockets[0].number, 1);  // the number of the larger pocket
   EXPECT_NEAR(basin.gas(), gas, 1e-12);
   EXPECT_LT(basin.law.energy(basin.state.pockets[0].gas, basin.state.pockets[0].volume), energy);
   const double pressure = basin.law.pressure(basin.state.pockets[0].gas, basin.state.pockets[0].volume);
   basin.look({{0.5, 1.0}, {1.1, 1.8}});
   ASSERT_EQ(basin.state.pockets.size(), 2u);
   EXPECT_NE(basin.state.pockets[0].number, basin.state.pockets[1].number);
-  // The cells of the wall between them are water now: they take a part of the gas and of the volume along.
+  // The cells between the slots are water now and take part of the gas and of the volume with them.
   for (const AirPocket& pocket : basin.state.pockets) {
     EXPECT_NEAR(basin.law.pressure(pocket.gas, pocket.volume), pressure, 0.05 * std::abs(pressure));
   }
@@ -189,7 +190,7 @@ TEST(Pockets, TakeInAirThatIsShutInBesideThem) {
   EXPECT_EQ(basin.state.pockets[0].number, 0);
 }
 
-// Water that has gone 50 dx takes 1 - 1/e of the difference out.
+// The difference decays by 1 - 1/e while the water moves by 50 dx.
 TEST(Pockets, ComeBackToTheVolumeOfTheirCells) {
   Basin basin;
   basin.look({{0.5, 1.0}});
@@ -198,7 +199,7 @@ TEST(Pockets, ComeBackToTheVolumeOfTheirCells) {
   EXPECT_NEAR(basin.state.pockets[0].volume, volume_of(0.5) * (1.0 + 0.1 * std::exp(-1.0)), 1e-9);
 }
 
-/// Of all pockets, and of gas without one.
+/// Volume of all pockets, including gas without a pocket.
 double volume_in(const AirState& state) {
   double sum = 0.0;
   for (const AirPocket& pocket : state.pockets) sum += pocket.volume;

@@ -18,10 +18,10 @@ GasLaw law_of(AirPockets pockets) {
   return GasLaw(air);
 }
 
-/// For these the gas of 1 m^3.
+/// The velocity for the gas of 1 m^3.
 double velocity_at(const GasLaw& law, double pressure) { return vent_velocity(law, law.gas(pressure, 1.0), 1.0); }
 
-// Bernoulli's law, up to a share of the order of P/p_0.
+// Bernoulli's law, with a relative error of the order of P/p_0.
 TEST(Vent, LetsOutWhatBernoulliSaysAtSmallPressures) {
   for (const AirPockets pockets : {AirPockets::adiabatic, AirPockets::isothermal}) {
     for (const double pressure : {0.1, 10.0, 1000.0}) {
@@ -33,7 +33,7 @@ TEST(Vent, LetsOutWhatBernoulliSaysAtSmallPressures) {
   }
 }
 
-// The textbook's rate of mass at the speed of sound, p_1 sqrt(gamma/(R T_1)) (2/(gamma+1))^((gamma+1)/(2(gamma-1))).
+// The mass flux at the speed of sound from textbooks, p_1 sqrt(gamma/(R T_1)) (2/(gamma+1))^((gamma+1)/(2(gamma-1))).
 TEST(Vent, IsChokedAtLargePressures) {
   const auto choked = [](double pressure, double temperature_ratio) {
     return pressure * std::sqrt(1.4 / (specific * temperature_ratio)) * std::pow(2.0 / 2.4, 3.0);
@@ -46,7 +46,8 @@ TEST(Vent, IsChokedAtLargePressures) {
     EXPECT_NEAR(density * velocity_at(law_of(AirPockets::isothermal), pressure) / choked(ratio * atmosphere, 1.0), 1.0,
                 1e-12);
   }
-  for (const double gas : {0.0, 0.1, 0.4}) {  // into a space that is nearly empty; that of the atmosphere chokes
+  for (const double gas : {0.0, 0.1, 0.4}) {  // into a space that is nearly empty, the flow from the atmosphere is
+                                              // choked
     EXPECT_NEAR(-density * vent_velocity(law_of(AirPockets::adiabatic), gas, 1.0) / choked(atmosphere, 1.0), 1.0,
                 1e-12);
   }
@@ -70,7 +71,7 @@ TEST(Vent, LeavesTheGasThatItsEquationAsksFor) {
       EXPECT_EQ(gas_after_venting(law, gas, 1.0, 0.0, dt), gas);
       for (const double opening : {1e-6, 1e-3, 1.0, 1e3}) {
         const double after = gas_after_venting(law, gas, 1.0, opening, dt);
-        // The next number beside 1 has the largest other flow.
+        // Error of the flow by one rounding of the gas: the flow at the next number above 1.
         const double last_digit = dt * opening * vent_velocity(law, std::nextafter(1.0, 2.0), 1.0);
         EXPECT_NEAR(after + dt * opening * vent_velocity(law, after, 1.0), gas, 4.0 * last_digit + 1e-15);
         EXPECT_LE(std::abs(after - 1.0), std::abs(gas - 1.0)) << "it does not flow past the atmosphere's pressure";

@@ -1,4 +1,4 @@
-// The volume of pockets in a tank, and what particles see of them.
+// The volume of pockets in a tank, and the effect of water particles on it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,12 +37,12 @@ void keep_water(Flow<Dim>& flow, Condition&& condition) {
   flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
 }
 
-// Cubes of edge dx around the particles fill the space of the water without a gap, so what they leave of the tank is
-// the pocket's volume to rounding. If the rows are not dx apart they leave gaps or overlap: where the volume cuts the
-// water it takes up to a row too much or too little, by the difference.
+// Cubes of edge dx around the particles fill the space of the water without a gap, so the rest of the tank is the
+// volume of the pocket to rounding. If the rows are not dx apart, the cubes leave gaps or overlap: at the water surface
+// the volume is then off by the difference, for up to one row.
 TYPED_TEST(PocketVolume, IsWhatALatticeLeavesOfTheTank) {
   constexpr int Dim = TypeParam::value;
-  for (const double depth : {0.3, 0.33}) {  // a whole number of dx, and not
+  for (const double depth : {0.3, 0.33}) {  // a whole number of dx, and another depth
     CaseSpec spec = closed_tank<Dim>(0.6, depth);
     Flow<Dim> flow = make_flow<Dim>(spec);
     air_of(flow).begin_step(flow, 0.0);
@@ -71,8 +71,8 @@ TYPED_TEST(PocketVolume, OfABubbleIsThatOfTheWaterThatIsMissing) {
   EXPECT_NEAR(air_of(flow).state.pockets[0].volume, missing, 1e-9);
 }
 
-// Where water is not a lattice, the row in which the volume cuts it matters: one in twelve particles at random, by a
-// part of its volume, and the mean over many is right.
+// Where water is not a lattice, the row at the surface matters: each particle is off at random by part of its volume,
+// and the average over many is right. The test removes one particle in twelve at random.
 TYPED_TEST(PocketVolume, IsRightInTheMeanBesideDisorderedWater) {
   constexpr int Dim = TypeParam::value;
   double error = 0.0;
@@ -106,7 +106,7 @@ TYPED_TEST(PocketVolume, OpenTankHasNone) {
   EXPECT_TRUE(air_of(flow).state.pockets.empty());
 }
 
-// The hollow of a block that stands in the water is no air.
+// The interior of a block that stands in the water is not air.
 TEST(PocketVolumeOfBlock, InsideOfABlockIsNone) {
   CaseSpec spec = tank_case<2>(dx, 1.6, 0.8);
   spec.air.pockets = AirPockets::adiabatic;
@@ -121,7 +121,8 @@ TEST(PocketVolumeOfBlock, InsideOfABlockIsNone) {
   EXPECT_TRUE(air_of(flow).state.pockets.empty());
 }
 
-// Of its cube nothing is in front of the wall, and the cells beside it are the pocket's.
+// The cube of a particle behind a wall has no volume in front of the wall, and the cells beside it belong to the
+// pocket.
 TEST(PocketVolumeOfBlock, WaterBehindAWallTakesNothing) {
   CaseSpec spec = closed_tank<2>(0.75, 0.375);
   spec.particles.spacing = 0.0625;  // edges of cells are whole numbers
@@ -136,7 +137,7 @@ TEST(PocketVolumeOfBlock, WaterBehindAWallTakesNothing) {
   EXPECT_NEAR(air_of(leaky).state.pockets[0].volume, volume, 1e-12);
 }
 
-// A plate is no way for air: of a closed tank it makes two pockets.
+// Air cannot pass a plate, which divides a closed tank into two pockets.
 TEST(PocketVolumeOfPlate, PlateParts) {
   CaseSpec spec = closed_tank<2>(1.0, 0.4);
   WallTable plate;

@@ -1,8 +1,7 @@
-"""Mutations of case files that know every table and key of the reference, as the program itself tells them, and the
-files that a case may name.
+"""Mutations of case files by the program's own reference of all tables and keys, and the files that a case may name.
 
-`Mutator(reference)` takes what `tailwater run --help-case=json` prints; `mutated(rng, lines)` changes the lines of a case
-and returns the files that lie beside it.
+`Mutator(reference)` takes the output of `tailwater run --help-case=json`; `mutated(rng, lines)` changes the lines of a
+case and returns the files that lie beside it.
 """
 
 import contextlib
@@ -70,11 +69,11 @@ def blow_up(lines, rng):
                              "[[fluid]]\n" * k, 'title = "' + "x" * k + '"')))
 
 
-# Mutations that know only what a line of TOML is.
+# Mutations that use only the syntax of a line of TOML.
 BLIND = (*[change_value] * 4, *[change_number] * 5, drop_line, double_line, double_table, change_bytes, cut_off, blow_up)
 
 
-# Files beside a case, by name; each is also given damaged.
+# Files beside a case, by name; each is also used in a damaged form.
 FILES = {
     "bed.csv": "station [m],elevation [m]\n0,2\n0,0\n1,0.2\n2,0\n3,0\n3,2\n",
     "roll.csv": "t [s],x [mm],angle [deg]\n0,0,0\n0.1,5,0.5\n0.2,0,0\n1000,0,0\n",
@@ -107,7 +106,7 @@ def shown(number):
 
 
 def damaged(text, rng):
-    """A file with one mistake in it."""
+    """A file with one error in it."""
     lines = text.splitlines()
     at = rng.randrange(len(lines))
     kind = rng.randrange(7)
@@ -133,7 +132,7 @@ class Mutator:
         self.tables = {table["name"]: table for table in reference["tables"]}
         self.keys = sorted({key["name"] for table in reference["tables"] for key in table["keys"]})
 
-    # Values that fit a key, more or less
+    # Values that usually fit a key
 
     def number(self, key, rng):
         low, high = key.get("minimum"), key.get("maximum")
@@ -165,7 +164,7 @@ class Mutator:
         return rng.choice(("tank", "water", "in", "out", "a b", "", "-x", "p" * 101, "\\u001b[1m"))
 
     def value(self, key, dimension, names, rng):
-        """A value of the type of a key as TOML; now and then of another."""
+        """A value of the type of a key as TOML, sometimes of another type."""
         if rng.random() < 0.08:
             return some_value(rng)
         coordinate = lambda: shown(rng.choice((0, 0, 0.1, 0.3, 0.5, 0.8, 1, 1.2, 2, 3, -0.1)))
@@ -193,7 +192,7 @@ class Mutator:
     # Mutations; each changes `lines` in place
 
     def table_at(self, lines, at):
-        """The table of the reference that a line belongs to; None if it is in none."""
+        """The table of the reference that a line belongs to; None if it belongs to none."""
         for line in reversed(lines[:at + 1]):
             if match := HEADING.match(line):
                 return self.tables.get(match[1])
@@ -204,7 +203,7 @@ class Mutator:
         return dimension, [match[1] for line in lines if (match := NAME.match(line))]
 
     def set_key(self, lines, rng):
-        """Another value for a key that is there, of its own type."""
+        """Gives a key of the case another value of the key's type."""
         places = [k for k, line in enumerate(lines) if KEY.match(line) and not HEADING.match(line)]
         at = rng.choice(places)
         name = KEY.match(lines[at])[2]
@@ -214,7 +213,7 @@ class Mutator:
             lines[at] = f"{name} = {self.value(keys[0], *self.about(lines), rng)}"
 
     def add_key(self, lines, rng):
-        """A key that the table of some line may have."""
+        """Adds a key that the table of some line may have."""
         at = rng.randrange(len(lines))
         table = self.table_at(lines, at)
         if table and table["keys"]:
@@ -222,7 +221,7 @@ class Mutator:
             lines.insert(at + 1, f'{key["name"]} = {self.value(key, *self.about(lines), rng)}')
 
     def add_table(self, lines, rng):
-        """A table with what it needs, and some of what it may have."""
+        """Adds a table with its required keys and some optional ones."""
         table = rng.choice([table for table in self.tables.values() if table["keys"]])
         dimension, names = self.about(lines)
         lines.append(f'[[{table["name"]}]]' if table["is_list"] else f'[{table["name"]}]')
@@ -243,7 +242,7 @@ class Mutator:
             chosen[key["name"]] = value.strip('"')
 
     def link_file(self, lines, rng):
-        """A file in the place of points or expressions."""
+        """Adds a file that may take the place of points or expressions."""
         at = rng.randrange(len(lines))
         key, names = rng.choice((("points_file", ["bed.csv"]), ("motion", ["roll.csv"]), ("file", list(FILES))))
         lines.insert(at + 1, f'{key} = "{rng.choice(names)}"')
@@ -253,11 +252,11 @@ class Mutator:
         lines[at] = KEY.sub(lambda m: m[1] + rng.choice(self.keys) + m[3] + m[4], lines[at])
 
     def mutated(self, rng, lines):
-        """Changes the lines of a case; the files beside it, of which one may be damaged."""
+        """Changes the lines of a case. Returns the files beside it; one of them may be damaged."""
         known = (self.set_key, self.set_key, self.set_key, self.add_key, self.add_key, self.add_table, self.link_file,
                  self.change_key)
         for _ in range(rng.choice((1, 1, 1, 2, 2, 3, 5))):
-            with contextlib.suppress(IndexError, ValueError):  # what it would change is not there any more
+            with contextlib.suppress(IndexError, ValueError):  # the lines to change may be missing
                 rng.choice(rng.choice((known, BLIND)))(lines, rng)
         files = dict(FILES)
         if rng.random() < 0.25:

@@ -1,14 +1,15 @@
-"""Mutated case files: `tailwater check` must answer each with an exit code and, where it refuses one, with the place.
-With --run, `tailwater run` must do that too, or begin to compute.
+"""Mutated case files: `tailwater check` must return an exit code for each, and name the place of errors.
 
-The mutations (case_mutator.py) know what a case file is made of: every table and key of the program's own reference, the
-files that a case may name, expressions. They begin with the cases in the tree, made coarse, so that a check takes a
-fraction of a second. By hand:
+With --run, `tailwater run` must do the same or begin to compute.
+
+The mutations (case_mutator.py) use every table and key of the program's own reference, the files that a case may name,
+and expressions. They start from the cases in the tree, at a coarse spacing, so that a check takes a fraction of a
+second. To run a campaign:
 
     TAILWATER=build/release/bin/tailwater /usr/bin/python3 -B tests/app/fuzz_cases.py --count 10000 --seed 1
 
-prints how many cases were valid, refused and so on, and keeps each file that provoked a finding in --keep. A
-campaign can be made in pieces, by --first.
+It prints how many cases were valid, refused and so on, and keeps each file with a finding in --keep. --first continues
+a campaign in parts.
 """
 
 import functools
@@ -29,7 +30,7 @@ TREE = pathlib.Path(__file__).resolve().parents[2]
 
 COUNT_IN_SUITE = 100
 
-# What a case is made coarser by, so that it has some hundred particles.
+# Spacings that give a case some hundred particles.
 COARSE = {"janosi2004": 0.02, "martin_moyce1952": 0.008, "ozmen_cagatay2014": 0.05, "soares_frazao2002": 0.05,
           "zhou1999": 0.1, "tank": 0.1}
 
@@ -47,7 +48,7 @@ def seeds():
     return found
 
 
-# What a remedy is told with.
+# Words that messages use for remedies.
 REMEDY = re.compile(
     r"\b(give|gives|giving|add|remove|write|use|move|moving|correct|choose|draw|put|let|close|complete|keep|name|make|start|"
     r"did you mean|valid|remedy|at least|at most|export|exchange|lower|higher|larger|smaller|fewer|begin|lift|leave|need|"
@@ -59,7 +60,7 @@ LONGEST_LINE = 2100
 
 
 def look_for_findings(code, error):
-    """What is wrong with the answer of `check`; nothing, if it is as it should be."""
+    """The fault of an answer of `check`, or None."""
     finding = fuzzing.look_for_findings(code, error, (0, 2, 3))
     if finding:
         return finding
@@ -91,7 +92,7 @@ def check_one(folder, number):
 
 
 def run_for_a_moment(folder, _number):
-    """The same of `run`, which may also be stopped on its way (130) or fail at a step (3)."""
+    """(exit code, standard error, finding) of `run`, which may also stop early (130) or fail at a step (3)."""
     code, error = fuzzing.run_within_limits(["run", "case.toml", "--out", "run", "--quiet", "--wall-time", "1s"], folder)
     finding = fuzzing.look_for_findings(code, error, (0, 2, 3, 130)) if code != 2 else look_for_findings(code, error)
     if finding is None and code == 2 and (folder / "run").exists():
@@ -120,7 +121,7 @@ def run_one(number, seed, keep, cases, mutator, answer):
 
 
 def campaign_of(answer):
-    """What `fuzzing` needs: a function of number, seed and folder to keep."""
+    """The campaign for `fuzzing`: a function of number, seed and folder for findings."""
     reference = json.loads(subprocess.run([fuzzing.PROGRAM, "run", "--help-case=json"], capture_output=True, check=True).stdout)
     return functools.partial(run_one, cases=seeds(), mutator=Mutator(reference), answer=answer)
 

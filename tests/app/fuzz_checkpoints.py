@@ -1,8 +1,7 @@
-"""Checkpoints with wrong contents behind a right checksum: `tailwater resume` must refuse each with a reason, fail at a
-step with a reason, or go on.
+"""Mutated checkpoints with a valid checksum: `tailwater resume` must refuse each, fail at a step or continue.
 
-mutate_checkpoint knows what a checkpoint is made of: it changes values, how many there are, their type, and the numbers
-in its texts. By hand:
+Each refusal or failure needs a reason. mutate_checkpoint changes values, their number and type, and the numbers in
+texts. To run a campaign:
 
     TAILWATER=build/release/bin/tailwater MUTATE_CHECKPOINT=build/release/bin/mutate_checkpoint \\
         /usr/bin/python3 -B tests/app/fuzz_checkpoints.py --count 1000
@@ -24,14 +23,14 @@ from test_resume import BARGE, FLUME, GATE, POCKET, WAVES
 
 MUTATE = os.environ["MUTATE_CHECKPOINT"]
 
-# Whose checkpoints differ in what they hold.
+# Cases whose checkpoints have different datasets.
 CASES = ((), GATE, WAVES, BARGE, FLUME, POCKET)
 
 COUNT_IN_SUITE = 25
 
 
 def make_runs(folder):
-    """A run of each case that was done at 0.05 s, in `folder`; their newest checkpoints."""
+    """Runs each case to 0.05 s, in `folder`; returns the newest checkpoints."""
     (folder / "small.toml").write_text(SMALL_CASE)
     newest = []
     for k, changes in enumerate(CASES):

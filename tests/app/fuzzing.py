@@ -1,4 +1,4 @@
-"""What the fuzzers have in common: the program under limits, and many mutations one after the other."""
+"""Functions common to all fuzzers: calls of the program under limits, and campaigns of many mutations."""
 
 import argparse
 import collections
@@ -11,14 +11,14 @@ import subprocess
 
 PROGRAM = os.environ["TAILWATER"]
 
-# s of CPU time; what else a machine is busy with does not count.
+# s of CPU time, which does not depend on other work of the machine
 LONGEST = 10 * int(os.environ.get("TAILWATER_SLOWDOWN", 1))
-LONGEST_WAIT = 1200  # s of wall-clock time, on however busy a machine
+LONGEST_WAIT = 1200  # s of elapsed time, also on a busy machine
 
 
 def run_within_limits(arguments, folder):
-    """(exit code, standard error) of the program. It is ended by a signal when it takes too long: by SIGXCPU if it
-    works, by SIGKILL if it waits."""
+    """(exit code, standard error) of the program. A program that takes too long is ended by a signal: SIGXCPU if it
+    computes, SIGKILL if it waits."""
     program = subprocess.Popen([PROGRAM, *arguments], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                env={**os.environ, "TAILWATER_FP_TRAPS": "0"})
     resource.prlimit(program.pid, resource.RLIMIT_CPU, (LONGEST, LONGEST + 1))
@@ -31,7 +31,7 @@ def run_within_limits(arguments, folder):
 
 
 def look_for_findings(code, error, codes):
-    """What is wrong with any answer of the program; nothing, if it is as it should be."""
+    """The fault of an answer of the program, or None."""
     if code in (-signal.SIGXCPU, -signal.SIGKILL):
         return "a hang"
     if code not in codes:
@@ -64,7 +64,7 @@ def arguments(about):
 
 
 def main(options, run_one):
-    """Makes the campaign that the command line asks for; the exit code of the fuzzer."""
+    """Runs a campaign by the options of the command line; returns the exit code of the fuzzer."""
     if options.keep:
         options.keep.mkdir(parents=True, exist_ok=True)
     numbers = range(options.first, options.first + options.count)

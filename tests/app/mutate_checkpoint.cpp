@@ -1,5 +1,5 @@
-// Makes a checkpoint that is wrong behind a right checksum: mutate_checkpoint FROM TO SEED. Says what it has changed.
-// The mutations know what a checkpoint is made of; damaged bytes are seen by the checksum before anything is read.
+// Makes a wrong checkpoint with a valid checksum: mutate_checkpoint FROM TO SEED. Prints the changes. The mutations
+// follow the structure of a checkpoint, since the checksum detects damaged bytes before anything is read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ Value strange(Random& random) {
   }
 }
 
-/// Changes some values, or how many there are.
+/// Changes some values, or their number.
 template <class Value>
 std::string mutate(std::vector<Value>& values, Random& random) {
   const std::size_t what = below(random, 8);
@@ -72,7 +72,7 @@ std::string mutate(std::vector<Value>& values, Random& random) {
   return told;
 }
 
-/// A number of a text becomes another, or some bytes do, or the end is missing.
+/// Replaces a number in a text, changes some bytes, or cuts off the end.
 std::string mutate_text(std::string& text, Random& random) {
   if (text.empty()) return "is empty";
   const std::size_t what = below(random, 5);
@@ -108,7 +108,7 @@ std::string mutate_text(std::string& text, Random& random) {
   return fmt::format("byte {}: {}", begin, number);
 }
 
-/// Copies a dataset, or puts it as another type or not at all.
+/// Copies a dataset, writes it with another type, or omits it.
 template <class Value>
 std::string copy(const Hdf5Reader& from, Hdf5Writer& to, const Dataset& set, bool is_mutated, Random& random) {
   std::vector<Value> values = from.get<Value>(set.name);

@@ -1,15 +1,15 @@
-"""What a run that went on must have in common with one that never stopped."""
+"""Comparison of a resumed run with an uninterrupted one."""
 
 import copy
 import json
 
-# Of the machine and its clock.
+# Values that depend on the machine and its clock.
 TIMINGS = {"cost": None, "ranks": ("exchange_share", "reduction_share")}
 CLOCK_COLUMNS = ("exchange_share", "reduction_share")
 
 
 def without_timings(summary):
-    """A copy of a summary without what differs from run to run of the same case."""
+    """A copy of a summary without values that differ from run to run of the same case."""
     summary = copy.deepcopy(summary)
     for block, keys in TIMINGS.items():
         if keys is None:
@@ -21,7 +21,7 @@ def without_timings(summary):
 
 
 def results(run):
-    """All a run leaves except checkpoints and log, by name: bytes, or numbers where timings are taken out."""
+    """All results of a run except checkpoints and log, by name: bytes, or numbers where timings are removed."""
     found = {}
     for path in sorted(run.rglob("*")):
         name = str(path.relative_to(run))
@@ -39,8 +39,8 @@ def results(run):
 
 
 def assert_same_results(test, run, other, apart_from=()):
-    """Bit for bit, apart from these keys of the summary; the message names the first file that differs and not its
-    bytes."""
+    """Asserts bit-identical results, except for the keys `apart_from` of the summary. The message names the first file
+    that differs, without its bytes."""
     a, b = results(test.folder / run), results(test.folder / other)
     for summary in (a["summary.json"], b["summary.json"]):
         for key in apart_from:

@@ -1,4 +1,4 @@
-"""A table of everything a user can get wrong in a case: one clear answer each, at once, and no trace."""
+"""A table of errors that a user can make in a case. The program must report each at once and write nothing."""
 
 import os
 import resource
@@ -13,8 +13,8 @@ AT_ONCE = 2 * SLOWDOWN  # s of CPU time
 
 class BadInput(NamedTuple):
     name: str
-    parts: tuple  # what the message must contain: the place, the key, the value, the remedy
-    replace: tuple = ("", "")  # what is replaced in the small case, and by what
+    parts: tuple  # parts of the message: the place, the key, the value, the remedy
+    replace: tuple = ("", "")  # text of the small case, and its replacement
     arguments: tuple = ()  # more arguments
     code: int = 2  # expected exit code
 
@@ -155,7 +155,7 @@ TABLE = (
              arguments=("--set", "probe.deepth.interval=1")),
 )
 
-# Name: content, expected exit code, what the message must contain.
+# Name: content, expected exit code, parts of the message.
 FILES = {
     "empty file": (b"", 2, ("particles.spacing is missing", "time.end is missing", "there is no fluid")),
     "binary garbage": (bytes(range(255, 0, -1)) * 20, 2, ("not valid TOML",)),
@@ -179,7 +179,7 @@ FILES = {
 
 
 def cpu_seconds():
-    """Of all programs called so far: unlike the clock, it does not depend on what else the machine does."""
+    """CPU time of all programs called so far; unlike elapsed time it does not depend on other work of the machine."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 

@@ -1,4 +1,4 @@
-"""new, check and info, and the command line itself."""
+"""The commands new, check and info, and the command line itself."""
 
 import json
 import os
@@ -38,7 +38,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(result.stderr, self.call("--help").stdout)
 
     def test_help_fits_a_terminal_of_80_columns(self):
-        """Apart from examples, which must be copied as they are."""
+        """Except examples, which must be copied unchanged."""
         for command in ((), *((command,) for command in (*COMMANDS, "view", "migrate", "completion"))):
             text = self.call(*command, "--help").stdout
             self.assertEqual([line for line in text.splitlines() if len(line) > 80 and "tailwater " not in line], [])
@@ -78,7 +78,7 @@ class CommandLine(ProgramTest):
         self.assertRegex(self.call("--version").stdout, r"^tailwater \d+\.\d+\.\d+ \(commit .+\)\n$")
 
     def test_starts_without_petsc(self):
-        """Which takes longer than anything else at a start, and is loaded by the first system that needs it."""
+        """PETSc takes longer to load than all else. It is loaded by the first linear system that needs it."""
         libraries = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
         self.assertIn("libmpi", libraries)
         self.assertNotIn("petsc", libraries)
@@ -131,7 +131,7 @@ class CommandLine(ProgramTest):
         self.call("run", "small.toml", "--out", "run", "--quiet")
         keys = {line.split(" = ")[0] for line in (self.folder / "run/case.effective.toml").read_text().splitlines()
                 if " = " in line}
-        keys = {key for key in keys if not key.endswith("checksum")}  # only the program writes them
+        keys = {key for key in keys if not key.endswith("checksum")}  # only the program writes checksums
         text = self.call("run", "--help-case").stdout
         markdown = self.call("run", "--help-case=markdown").stdout + self.call("run", "--help-case=study").stdout
         self.assertLess({"spacing", "integrator", "gravity"}, keys)
@@ -167,7 +167,7 @@ class New(ProgramTest):
         return [path.name for path in (self.folder / run / "pictures").iterdir()]
 
     def last_picture(self, run):
-        """Of the last field file, as the only one."""
+        """The picture of the last field file, as a list."""
         number = len(list((self.folder / run / "fields").glob("fields_*.vtp"))) - 1
         return [f"picture_{number:05}.png"]
 
@@ -228,7 +228,7 @@ class New(ProgramTest):
         self.assertIn("bed.csv' exists", self.call("new", "river-reach", "reach.toml", expect=2).stderr)
         self.assertFalse((self.folder / "reach.toml").exists())
         self.call("new", "river-reach", "reach.toml", "--force")
-        self.call("new", "river-reach", "other.toml")  # which reads the same
+        self.call("new", "river-reach", "other.toml")  # this template reads the same file
         self.assertTrue((self.folder / "other.toml").exists())
 
     def test_force_takes_no_place_of_links_devices_and_pipes(self):
@@ -263,17 +263,17 @@ class Check(ProgramTest):
         result = self.call("check", "small.toml")
         self.assertEqual(result.stderr, "")
         self.assertIn('small.toml: valid, "Small dam break"', result.stdout)
-        # 10 x 5 of fluid. Walls, three rows: 2 x 3 x (20 + 3) at the sides, three of them above the free end, and
-        # 3 x (30 + 2 x 3) below, corners included.
+        # 10 x 5 fluid particles. Walls of three rows: 2 x 3 x (20 + 3) at the sides, three of these rows above the free
+        # end, and 3 x (30 + 2 x 3) at the bottom, corners included.
         self.assertIn("particles: 50 fluid, 246 wall, spacing 0.1 m", result.stdout)
         self.assertRegex(result.stdout, r"memory: +about \d+ MB")
-        # Steps of at most courant dx / sqrt(2 g H) = 0.55 x 0.1 / sqrt(2 x 9.81 x 0.5) = 17.6 ms, and a flow this slow
-        # takes no smaller ones: 0.1 s are 5.69 steps. How long they take depends on what else the machine does.
+        # Steps of at most courant dx / sqrt(2 g H) = 0.55 x 0.1 / sqrt(2 x 9.81 x 0.5) = 17.6 ms. A flow this slow does
+        # not need smaller ones: 0.1 s are 5.69 steps. Their elapsed time depends on other work of the machine.
         self.assertRegex(result.stdout, r"time: +about [67] steps, (under )?\d+ s on one core of this machine")
 
     @unittest.skipIf(SLOWDOWN > 1, "sanitizers need memory themselves")
     def test_memory_is_enough_and_not_twice_what_a_run_takes(self):
-        """Both beyond what a tiny run takes: how much of libraries counts depends on the system."""
+        """Compares differences from a tiny run, because the memory of libraries depends on the system."""
         (self.folder / "block.toml").write_text("""
 case.dimension = 3
 particles.spacing = 0.05
@@ -402,7 +402,7 @@ class Readme(ProgramTest):
         self.assertEqual([name for name, _ in shown], ["status", "impact", "particles", "water"])
         for name, value in shown:
             result = re.search(rf"^{name}: +(\S.*)$", digest, re.MULTILINE)[1]
-            if name == "impact":  # its digits depend on the processor
+            if name == "impact":  # digits of the impact depend on the processor
                 self.assertAlmostEqual(float(result.split()[0]) / float(value.split()[0]), 1, delta=0.05)
             else:
                 self.assertEqual(result, value)

@@ -1,4 +1,4 @@
-"""A run that goes wrong on its way: exit code 3, a report and the last good fields."""
+"""Runs that fail on their way: exit code 3, a report and the last good fields."""
 
 import re
 import unittest
@@ -15,7 +15,7 @@ REMEDY = r"\. .*remedy: "
 
 class Failure(ProgramTest):
     def fail_run(self, *arguments):
-        """The report and the summary of a run that fails, after what all failures have in common was checked."""
+        """The report and the summary of a failed run, after the checks that are common to all failures."""
         result = self.call("run", "small.toml", "--out", "run", "--quiet", *arguments, expect=3, traps=False)
         self.assertEqual(result.stdout, "")
         self.assertIn("run/failure", result.stderr)
@@ -27,7 +27,7 @@ class Failure(ProgramTest):
         first, *_ = report.splitlines()
         self.assertTrue(summary["message"].startswith(first))
 
-        # What can be read ends at the last good state.
+        # All results end at the last good state.
         positions, fields = read_points(self.folder / "run/failure/last_good.vtp")
         self.assertEqual(positions.shape, (50, 3))
         self.assertEqual(set(fields), {"velocity", "pressure", "id"})
@@ -44,24 +44,24 @@ class Failure(ProgramTest):
         return report, summary
 
     def check_culprit(self, report):
-        """The report names a particle that is among the last good ones, and who was near it."""
+        """Checks that the report names a particle that is among the last good ones, and its neighbours."""
         self.assertRegex(report, "particle before the step: " + PARTICLE)
         _, neighbours = report.split("its neighbours before the step:\n")
-        # Water in a corner of the tank has more neighbours than this.
+        # Water in a corner of the tank has more than five neighbours.
         self.assertGreater(len(neighbours.splitlines()), 5)
         for line in neighbours.splitlines():
             self.assertRegex(line, "^  " + PARTICLE)
 
     def test_a_time_step_that_collapses(self):
-        # At 149 m/s, the most that is allowed, the step is courant dx / u; little gravity makes the first one by the rule,
-        # sqrt(2 g H), more than a thousand times as long.
+        # At 149 m/s, the largest speed allowed, the step is courant dx / u. Small gravity makes the first step by its
+        # rule, sqrt(2 g H), more than a thousand times longer.
         report, _ = self.fail_run("--set", "fluid[0].velocity=[149, 0]", "--set", "physics.gravity=[0, -1e-4]")
         self.assertRegex(report, r"^step 0 from t = 0 s failed: the time step collapsed to 0\.000369 s, less "
                          "than 0.001 of .*, by the advective limit: " + WHERE + r"moves at 149 m/s" + REMEDY)
         self.check_culprit(report)
 
     def test_a_run_that_becomes_unstable_on_its_way(self):
-        # The published formulation dies in a dam break, which is why it is not the default (docs/theory/schemes.md).
+        # The published formulation fails in a dam break and is therefore not the default (docs/theory/schemes.md).
         report, summary = self.fail_run("--set", "scheme.formulation=published", "--set", "time.end=5")
         self.assertIn("scheme.formulation = \"robust\"", report)
         self.check_culprit(report)
@@ -73,7 +73,7 @@ class Failure(ProgramTest):
         residual = float(re.search(r"relative residual (\S+),", report)[1])
         first, last = map(float, re.search(r"Residuals on the way: (\S+), (\S+)\.", report).groups())
         self.assertGreater(first, last)
-        self.assertAlmostEqual(last, residual, delta=0.005 * residual)  # shown with fewer digits
+        self.assertAlmostEqual(last, residual, delta=0.005 * residual)  # the message has fewer digits
         self.assertIn("pressure_solver.max_iterations", summary["message"])
 
     def test_a_failed_run_can_be_replaced(self):

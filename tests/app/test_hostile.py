@@ -1,6 +1,6 @@
-"""What stands in the way of a command besides the case itself: names that are no text, escape sequences, very long
-messages, links, limits of the system, and memory that ends. Each gets one plain line, and nothing is written through a
-link or left half done."""
+"""Obstacles for commands apart from the case itself: names that are not text, escape sequences, very long messages,
+links, limits of the system, exhausted memory. The program must report each in one plain line, and never write through a
+link or leave a partial file."""
 
 import json
 import os
@@ -30,7 +30,7 @@ class Messages(ProgramTest):
         self.assertEqual(self.listing(), before)
 
     def test_a_folder_whose_name_is_no_text(self):
-        """Only a case that names files has to have the folder's name in it."""
+        """Only a case that names files needs the folder's name as text."""
         odd = os.path.join(os.fsencode(self.folder), b"o\xff")
         os.mkdir(odd)
         with open(os.path.join(odd, b"case.toml"), "w", encoding="utf-8") as file:
@@ -99,7 +99,7 @@ class Links(ProgramTest):
                 path.symlink_to(precious)
                 again = ("run", "small.toml", "--out", "run", "--force")
                 self.assertIn("is a link", self.call(*again, "--quiet", expect=2).stderr)
-                if name != "case.effective.toml":  # which resume reads
+                if name != "case.effective.toml":  # resume reads this file
                     self.assertIn("is a link", self.call("resume", "run", "--set", "time.end=0.2", expect=2).stderr)
                 self.assertEqual(precious.read_text(), "precious")
                 path.unlink()
@@ -121,12 +121,12 @@ class Links(ProgramTest):
                 path.unlink()
         (self.folder / "elsewhere").mkdir()
         (self.folder / "linked").symlink_to("elsewhere")
-        self.call("run", "small.toml", "--out", "linked", "--quiet")  # the folder itself may be one
+        self.call("run", "small.toml", "--out", "linked", "--quiet")  # the run folder itself may be a link
 
 
 class Sizes(ProgramTest):
     def check_as_json(self, text):
-        """What `check - --json` answers in a few seconds and 2 GB."""
+        """The findings of `check - --json`, within a few seconds and 2 GB."""
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
         result = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=self.folder, input=text, capture_output=True,
@@ -180,7 +180,7 @@ class Limits(ProgramTest):
         process = self.start("run", "small.toml", "--out", "run", "--quiet", *ENDLESS)
         self.wait_for((self.folder / "run/fields/fields_00002.vtp").exists, process)
         resource.prlimit(process.pid, resource.RLIMIT_AS, (1, 1))
-        (self.folder / "run/CHECKPOINT").touch()  # needs more
+        (self.folder / "run/CHECKPOINT").touch()  # a checkpoint needs more memory
         _, message = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 3, message)
         self.assertIn("memory", message)

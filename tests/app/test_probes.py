@@ -1,4 +1,4 @@
-"""What a run writes of its probes is what docs/reference/probes.md says: tables, summary, measurements, viewer."""
+"""The probe output of a run agrees with docs/reference/probes.md: tables, summary, measurements, viewer."""
 
 import json
 import re
@@ -56,7 +56,7 @@ def point(dimension, x, z, y=0.2):
 
 
 def probes(dimension):
-    """(type, keys) of probes that write all columns there are."""
+    """(type, keys) of probes that write all possible columns."""
     def line(x, z):
         return point(dimension, x, z)
 
@@ -73,7 +73,7 @@ def probes(dimension):
 
 
 def in_dimension(cell, dimension):
-    """What a cell of the page says for a dimension."""
+    """The content of a cell of the page for one dimension."""
     both = re.fullmatch(r"2D: (.*); 3D: (.*)", cell)
     if both:
         return both[dimension - 1]
@@ -102,7 +102,7 @@ def read_page(page, dimension):
     return types
 
 
-# A solitary wave of 0.6 spacings.
+# A solitary wave with a height of 0.6 spacings.
 LOW_WAVE = """
 [particles]
 spacing = 0.05
@@ -151,7 +151,8 @@ class ProbeOutput(ProgramTest):
         return read_page(self.call("run", "--help-case=probes").stdout, dimension)
 
     def case(self, dimension, page):
-        """Writes the case, with a measurement for each probe whose type has a default; returns the types of its probes."""
+        """Writes the case, with a measurement for each probe whose type has a default; returns the types of its
+        probes."""
         text = f"case.dimension = {dimension}\nparticles.spacing = 0.05\ntime.end = 0.03\nair.pockets = \"adiabatic\"\n"
         text += TANK[dimension]
         types = {}
@@ -169,7 +170,7 @@ class ProbeOutput(ProgramTest):
         return types
 
     def assert_in_order(self, some, all_of_them, what):
-        """All of `some` are in the list, in its order."""
+        """Asserts that `some` are in the list, in the order of the list."""
         self.assertEqual(some, [one for one in all_of_them if one in some], what)
 
     def test_is_what_the_reference_says(self):
@@ -193,7 +194,8 @@ class ProbeOutput(ProgramTest):
                     units = {heading: unit for heading, unit, _ in columns}
                     self.assertEqual(drawn[name]["units"], [units[heading] for heading in headings])
                     keys = list(summary.get("probes", {}).get(name, {}))
-                    self.assertEqual(keys, [key for key, *_ in totals][:3 if kind == "depth" else None], kind)  # no waves
+                    # no waves
+                    self.assertEqual(keys, [key for key, *_ in totals][:3 if kind == "depth" else None], kind)
                     quantities = summary["results"][name]["quantities"]
                     self.assert_in_order([(one["name"], one["unit"]) for one in quantities],
                                          [(result, unit) for result, unit, _ in results], kind)
@@ -201,7 +203,7 @@ class ProbeOutput(ProgramTest):
                     self.assertIn(f"\n{name}: {summary['results'][name]['words']}\n", log)
                 for kind, tables in page.items():
                     self.assertEqual(written[kind], {heading for heading, *_ in tables["column"]}, kind)
-                    # A pressure that does not rise has no time of rise.
+                    # A pressure that does not rise has no rise time.
                     self.assertEqual(told[kind] | {"rise"}, {result for result, *_ in tables["result"]} | {"rise"}, kind)
                 for score in summary["measurements"]:
                     heading, unit, _ = next(row for row in page[types[score["probe"]]]["column"] if row[2] == "default")

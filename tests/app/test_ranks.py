@@ -1,4 +1,4 @@
-"""Several ranks: how a run gets them and how they end, by themselves or not."""
+"""Runs on several ranks: how they start and how they end, normally or not."""
 
 import os
 import pathlib
@@ -13,25 +13,25 @@ from program import PATIENCE, PROGRAM, SMALL_CASE, ProgramTest, environment
 
 MPIRUN = os.environ["MPIRUN"]
 
-# Open MPI's mpirun then hands no signal on to the ranks, as on some machines by itself.
+# With this setting, Open MPI's mpirun forwards no signals to the ranks, as it does by default on some machines.
 FORWARD_NOTHING = {"OMPI_MCA_ess_base_forward_signals": "none"}
 
 
 
 class RanksTest(ProgramTest):
     def mpirun(self, *arguments, expect):
-        """Several ranks as a user of mpirun starts them. Returns their messages."""
+        """Runs several ranks as a user of mpirun does. Returns their messages."""
         result = subprocess.run([MPIRUN, "--quiet", *map(str, arguments)], cwd=self.folder, env=environment(),
                                 stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PATIENCE)
         self.assertEqual(result.returncode, expect, result.stdout + result.stderr)
         return result
 
     def processes(self):
-        """Numbers of all processes that run a case into this test's folder."""
+        """Process ids of all processes that run a case into this test's folder."""
         return processes_of(self.folder / "out")
 
     def ranks(self, process):
-        """Those that `process`, the program as the user called it, has started through mpirun."""
+        """Process ids of the ranks that `process`, the program as the user called it, has started through mpirun."""
         return [number for number in self.processes() if command_line(number)[:1] == [PROGRAM] and number != process.pid]
 
     def start_long_run(self, **variables):
@@ -141,7 +141,7 @@ end = 0.02
         for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
             with self.subTest(stop):
                 process = self.start_long_run(**FORWARD_NOTHING)
-                self.assertGreaterEqual(len(self.processes()), 4)  # this one, mpirun, two ranks
+                self.assertGreaterEqual(len(self.processes()), 4)  # the program, mpirun, two ranks
                 process.send_signal(stop)
                 self.check_ended_in_order(process)
                 (self.folder / "out").rename(self.folder / stop.name)
@@ -156,7 +156,7 @@ end = 0.02
         ranks = self.ranks(process)
         self.assertEqual(len(ranks), 2)
         for rank in ranks:
-            os.kill(rank, signal.SIGSTOP)  # they see no request
+            os.kill(rank, signal.SIGSTOP)  # stopped ranks see no request
         message = self.call("run", "small.toml", "--out", self.folder / "out", "--force", expect=2).stderr
         self.assertIn("is still going (process ", message)
         process.send_signal(signal.SIGINT)
@@ -167,8 +167,8 @@ end = 0.02
         self.assertFalse((self.folder / "out" / "STOP").exists())
 
     def test_an_interrupt_before_anything_is_written_ends_all_at_once(self):
-        """Ranks that still make their half a million particles have not touched the results of an earlier run. On a fast
-        machine the signal may come just after that; then the new run says that it had begun."""
+        """Ranks that still create half a million particles have not touched the results of an earlier run. On a fast
+        machine the signal may come just after that; the new run then reports that it had begun."""
         self.call("run", "small.toml", "--out", "out", "--quiet")
         before = self.summary("out")
         process = self.start("run", "small.toml", "--out", self.folder / "out", "--force", "-n", "2", "--set",
@@ -189,7 +189,7 @@ end = 0.02
 
 
 def cores():
-    """Of those that this test may use, two threads of a core counting once."""
+    """Number of physical cores that this test may use."""
     topology = "/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list"
     return len({pathlib.Path(topology.format(processor)).read_text() for processor in os.sched_getaffinity(0)})
 
@@ -201,7 +201,8 @@ def is_limited():
 
 
 class RanksByDefault(ProgramTest):
-    """Water for two ranks is in large.toml. It is there twice in wrong.toml, which ends a run before it makes a flow."""
+    """large.toml has enough water for two ranks. wrong.toml has the same water twice and ends before it makes a
+    flow."""
 
     TOLD = "on 2 ranks; -n 1 for one"
 

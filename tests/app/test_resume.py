@@ -1,4 +1,4 @@
-"""resume: a run that was stopped, killed or done goes on as if nothing had been."""
+"""resume: a run that was stopped, killed or done continues as if it had not been interrupted."""
 
 import os
 import random
@@ -54,7 +54,7 @@ CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "
         "{name='level', type='level-map', from=[0, 0, 0], to=[0.8, 0.3, 0], step=0.1}, "
         "{name='speeds', type='velocity-profile', at=[0.2, 0.1, 0], interval=0.02}]")
 
-# Every feature whose memory a run carries from step to step; all runs have warned before their first checkpoint.
+# Every feature whose state a run carries from step to step; all runs have warned before their first checkpoint.
 FEATURES = {
     "implicit integrator and a gate": ("--set", "scheme.integrator=implicit", *GATE),
     "a wave maker that absorbs, and a damping zone": WAVES,
@@ -76,7 +76,7 @@ class Resumed(ProgramTest):
         case = self.folder / "small.toml"
         (self.folder / "roll.csv").write_text("t [s], x [mm], angle [deg]\n" + "".join(
             f"{0.02 * k}, {0.1 * k * k}, {0.05 * k * k}\n" for k in range(25)))
-        # Probes with an interval of their own and with times, beside those of every step.
+        # Probes with their own interval and with times, beside those of every step.
         case.write_text(case.read_text() + '[[probe]]\nname = "seldom"\ntype = "energy"\ninterval = 0.03\n'
                         '[[probe]]\nname = "force"\ntype = "force"\nmoment_about = [0, 0]\n'
                         '[[probe]]\nname = "map"\ntype = "pressure-map"\ninterval = 0.01\n'
@@ -87,7 +87,7 @@ class Resumed(ProgramTest):
                          *arguments, **options)
 
     def start_endless_run(self, *arguments):
-        """A run with a checkpoint on the disk and a few field files."""
+        """Starts a run and waits until it has a checkpoint and a few field files."""
         process = self.start("run", "small.toml", "--out", "run", "--quiet", "--set", "time.end=1000", "--set",
                              "output.fields_interval=0.05", "--set", "output.view_interval=0.01", *arguments)
         self.wait_for((self.folder / "run/fields/fields_00002.vtp").exists, process)
@@ -109,13 +109,13 @@ class BitForBit(Resumed):
         for part, end in (("out", "outlet"), ("in", "inlet")):
             k = next(k for k, feature in enumerate(FEATURES) if f"an {end}" in feature)
             self.assertGreater(self.summary(f"whole{k}")["water_balance"][part]["particles"], 0)
-        # A run that is done is done again.
+        # Resuming a completed run changes no result.
         self.call("resume", "part0", "--quiet")
         assert_same_results(self, "part0", "whole0")
 
     def test_a_time_step_that_collapses_is_compared_with_the_first(self):
-        """The gate gets faster, and jumps away; by what the step is at the half, it would never be too small: the first is
-        0.01 s, that at the half 2 ms, and the last 9 us."""
+        """The gate accelerates and then jumps away. The first step is 0.01 s, that at half time 2 ms, the last 9 us:
+        compared with the step at half time, the last one would never be too small."""
         gate = ("--set", "particles.spacing=0.0025", "--set", "fluid[0].max=[0.02, 0.02]", "--set",
                 "physics.gravity=[0, -0.01]", "--set", 'wall=[{points=[[0, 0.2], [0, 0], [0.6, 0], [0.6, 0.2]]}, '
                 '{points=[[0.1, 0], [0.1, 0.2]], displacement=["0", "2*t^2 + 145*max(0, t - 0.3)"]}]')
@@ -165,7 +165,7 @@ class Checkpoints(Resumed):
         self.wait_for(lambda: not request.exists(), process)
         first = self.checkpoints()
         self.assertEqual(len(first), 1)
-        # A second request within the ten steps that belong to one checkpoint would find it written.
+        # A second request within ten steps would find the checkpoint already written.
         written_step = int(first[0].stem.removeprefix("step_"))
         step_column = 1
         self.wait_for(lambda: float(self.whole_lines("run/steps.csv")[-1].split(",")[step_column]) > written_step + 10,
@@ -178,7 +178,7 @@ class Checkpoints(Resumed):
     def test_the_wall_time_ends_a_run_with_one(self):
         self.run_case("run", "--set", "time.end=1000", "--wall-time", "0.3s", expect=130, errors_only=False)
         self.assertEqual(self.summary("run")["status"], "interrupted")
-        # On a machine so busy that the time is over before the first step, there is nothing to save.
+        # On a very busy machine the time may be over before the first step; then there is nothing to save.
         self.assertEqual(len(self.checkpoints()), min(1, self.summary("run")["steps"]["count"]))
         for wrong in ("soon", "3", "-1h", "0s", "1:30", "3h5"):
             with self.subTest(wrong):
@@ -236,7 +236,7 @@ class Refused(Resumed):
                             ("probe=[]", "probe"), ("output.fields=['id']", "fields")):
             with self.subTest(change):
                 self.refuse("run", "--set", change, parts=("--set", key, "time.end", "output.fields_interval"))
-        self.call("resume", "run", "--set", "particles.spacing=0.1", "--quiet")  # no change
+        self.call("resume", "run", "--set", "particles.spacing=0.1", "--quiet")  # the same value as before
 
     def test_a_folder_that_is_no_runs(self):
         (self.folder / "other").mkdir()
@@ -271,7 +271,7 @@ class Refused(Resumed):
 
 
 class Faults(Resumed):
-    """A run that the machine does not let finish: exit code 4, and what was written can be used."""
+    """Runs that cannot finish because of the machine: exit code 4, and the files that were written are usable."""
 
     def check_ended(self, process, message):
         _, errors = process.communicate(timeout=PATIENCE)
@@ -284,7 +284,7 @@ class Faults(Resumed):
         self.assertEqual([row[1] for row in steps], list(range(1, len(steps) + 1)))
 
     def test_kills_at_random_moments(self):
-        """As scripts/kill_study.py, a few times."""
+        """A short version of scripts/kill_study.py."""
         random.seed(int.from_bytes(os.urandom(4), "little"))
         process = self.start("run", "small.toml", "--out", "run", "--quiet", "--set", "time.end=1000", *FIELDS, *OFTEN)
         self.wait_for(lambda: self.checkpoints(), process)
@@ -308,7 +308,7 @@ class Faults(Resumed):
     def test_a_full_disk(self):
         process = self.start_endless_run(*OFTEN)
         self.wait_for(lambda: len(self.checkpoints()) == 2, process)
-        # Room for the summary and no more.
+        # Space for the summary only.
         resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (8192, 8192))
         self.check_ended(process, r"^error: cannot write 'run/.+': File too large\n$")
         summary = self.summary("run")

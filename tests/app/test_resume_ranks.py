@@ -13,7 +13,7 @@ from resumed import assert_same_results
 
 MPIRUN = os.environ["MPIRUN"]
 
-# Uneven work, so that space is cut again on the way.
+# A small limit for the imbalance, so that the domain is divided anew during the run.
 CASE = ("--set", "particles.spacing=0.05", "--set", "parallel.imbalance=0.01", "--quiet")
 HALF, WHOLE = ("--set", "time.end=0.15"), ("--set", "time.end=0.3")
 
@@ -34,7 +34,7 @@ class Resumed(ProgramTest):
         return sum(row[cut] for row in rows if row[time] < 0.15)
 
     def test_after_the_loss_of_the_terminal_the_launcher_and_mpirun(self):
-        """On as many ranks as before, without being told."""
+        """Resumes on as many ranks as before, without an option."""
         out = self.folder / "run"
         endless = ("--set", "time.end=1000", "--set", "output.checkpoint_interval=0")
         process = self.start("run", "small.toml", "--out", out, *CASE, *endless, "-n", "2")
@@ -62,7 +62,8 @@ class Resumed(ProgramTest):
         process.kill()
         process.wait()
         self.wait_for(lambda: not processes_of(out))
-        shutil.rmtree(out / "checkpoints", ignore_errors=True)  # ranks that lose their launcher write one if they can
+        # ranks that lose their launcher write a checkpoint if they can
+        shutil.rmtree(out / "checkpoints", ignore_errors=True)
         self.call("resume", out, "--quiet", "--set", "time.end=0.01")
         self.assertEqual((self.summary("run")["status"], self.summary("run")["ranks"]["count"]), ("done", 2))
 
@@ -79,7 +80,7 @@ class Resumed(ProgramTest):
                 self.assertEqual(summary["particles"], self.summary("whole")["particles"])
                 _, rows = self.table(f"{run}/probes/energy.csv")
                 self.assertEqual(len(rows), len(whole))
-                # The pressure is solved to 1e-4, and 0.15 s later the flow has not had time to part.
+                # The pressure is solved to 1e-4, and within 0.15 s the flows cannot diverge.
                 total = names.index("total_J")
                 np.testing.assert_allclose([row[total] for row in rows], [row[total] for row in whole], rtol=1e-4)
 

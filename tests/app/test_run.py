@@ -1,4 +1,4 @@
-"""run: what it writes, what it leaves alone, and what is left when it is stopped."""
+"""run: the files that it writes, those that it leaves unchanged, and the state of its folder after a stop."""
 
 import fcntl
 import os
@@ -12,7 +12,7 @@ import numpy as np
 from fields import read_points, read_series
 from program import PATIENCE, PROGRAM, ProgramTest, environment
 
-# Hours of work: such a run goes on until it is stopped.
+# Such a run takes hours and continues until it is stopped.
 ENDLESS = ("--set", "time.end=1000", "--set", "output.fields_interval=0.05")
 PROBES = ("depth", "energy", "wall_pressure")
 
@@ -45,7 +45,7 @@ class OutputContract(ProgramTest):
         self.call("run", "small.toml", "--out", "run", "--quiet")
         series = read_series(self.folder / "run/fields/fields.pvd")
         times = [time for time, _ in series]
-        # The start, one at or after each multiple of 0.02 s below 0.1 s, the end.
+        # The start, one time at or after each multiple of 0.02 s below 0.1 s, the end.
         self.assertEqual(times, sorted(set(times)))
         self.assertEqual(len(times), 6)
         for k, time in enumerate(times):
@@ -111,7 +111,8 @@ class OutputContract(ProgramTest):
 
 
 class Outlet(ProgramTest):
-    """The small dam break over an open end 1.5 m from the wall: at sqrt(g h) = 2.2 m/s some of it is out after 0.6 s."""
+    """The small dam break with an open end 1.5 m from the wall: at sqrt(g h) = 2.2 m/s some of the water has left after
+    0.6 s."""
 
     OPEN = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.5, 0]]", "--set", "time.end=0.6")
 
@@ -143,7 +144,7 @@ class Outlet(ProgramTest):
                 self.assertEqual(volume_out, sorted(volume_out))
                 self.assertAlmostEqual(volume_out[-1], 0.01 * out)
                 names, rows = self.table(f"{integrator}/probes/volume.csv")
-                for row in rows:  # the probe does not count what is in the duct of the outlet
+                for row in rows:  # the probe does not count water in the duct of the outlet
                     in_case_and_out = 0.01 * row[names.index("particles")] + row[names.index("volume_out_m3")]
                     self.assertLess(in_case_and_out, 0.5 + 1e-9)
                 self.assertAlmostEqual(0.01 * rows[0][names.index("particles")], 0.5)
@@ -175,10 +176,10 @@ class Outlet(ProgramTest):
         (section,) = summary["discharge"]
         self.assertAlmostEqual(section["volume_m3"], rows[-1][2])
         self.assertAlmostEqual(section["mean_m3_per_s"], section["volume_m3"] / summary["time_s"]["reached"])
-        self.assertAlmostEqual(rows[0][1], 0.5, places=6)  # a lattice in even motion is counted exactly
+        self.assertAlmostEqual(rows[0][1], 0.5, places=6)  # a lattice that moves uniformly is counted exactly
 
     def test_an_end_that_misses_its_level_says_so(self):
-        """A shooting flow 0.5 m deep at 6 m/s passes below a tailwater of 0.9 m: its conjugate depth is 1.68 m."""
+        """A supercritical flow 0.5 m deep at 6 m/s passes below a tailwater of 0.9 m: its conjugate depth is 1.68 m."""
         shooting = ("--set", "wall[0].points=[[0, 0], [1.5, 0]]", "--set", "fluid[0].max=[1.5, 0.5]", "--set",
                     "fluid[0].velocity=[6, 0]", "--set", "time.end=9", "--set",
                     "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge=3, level=0.5}]", "--set",
@@ -190,7 +191,7 @@ class Outlet(ProgramTest):
         self.assertRegex(self.summary("run")["warnings"][-1], "the level at outlet 'end', not held for .* m too low")
         balance = self.summary("run")["water_balance"]
         (outlet,), (inlet,) = balance["outlets"], balance["inlets"]
-        self.assertAlmostEqual(outlet["level_missed"]["by_m"], 0.5 - 0.9, delta=0.1)  # the spacing
+        self.assertAlmostEqual(outlet["level_missed"]["by_m"], 0.5 - 0.9, delta=0.1)  # the particle spacing
         self.assertGreater(outlet["level_missed"]["for_s"], 0)
         self.assertNotIn("level_missed", inlet)
         self.assertAlmostEqual(inlet["asked_for_m3"], 3 * 9, delta=0.1)
@@ -209,7 +210,7 @@ class Outlet(ProgramTest):
 
 
 class Books(ProgramTest):
-    # Thrown at 3 m/s over a rim 0.2 m away and 0.1 m higher than the water.
+    # The water moves at 3 m/s over a rim 0.2 m away and 0.1 m above its surface.
     OVER_THE_RIM = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.2, 0], [1.2, 0.6]]", "--set",
                     "fluid[0].velocity=[3, 2]", "--set", "time.end=0.2")
 
@@ -231,7 +232,7 @@ class Books(ProgramTest):
                 balance = self.summary(ranks)["water_balance"]
                 self.assertGreater(balance["outside"]["particles"], 0)
                 positions, _ = read_points(read_series(self.folder / ranks / "fields/fields.pvd")[-1][1])
-                # Above the box around the walls it may still fall back in.
+                # Water above the box around the walls may still fall back into it.
                 beyond = (positions[:, 0] > 1.2) | (positions[:, 0] < 0.0) | (positions[:, 1] < 0.0)
                 self.assertEqual(balance["outside"]["particles"], np.count_nonzero(beyond))
                 for key in ("particles", "volume_m3", "mass_kg"):
@@ -241,24 +242,24 @@ class Books(ProgramTest):
                 self.assertEqual(balance["start"]["mass_kg"], 1000 * balance["start"]["volume_m3"])
 
     def test_water_that_fell_below_all_walls_is_counted_and_no_longer_computed(self):
-        floor = -0.3  # a support below the bed, m
+        floor = -0.3  # one kernel support below the bed, m
         self.call("run", "small.toml", "--out", "run", "--quiet", *self.OVER_THE_RIM, "--set", "time.end=1.2")
         summary = self.summary("run")
         balance = summary["water_balance"]
         positions, _ = read_points(read_series(self.folder / "run/fields/fields.pvd")[-1][1])
         fallen = balance["start"]["particles"] - len(positions)
         self.assertGreater(fallen, 0)
-        # The last step may have taken some below it.
+        # The last step may have moved some particles below the limit.
         self.assertGreater(positions[:, 1].min(), floor - 0.1)
         beside = np.count_nonzero((positions[:, 0] > 1.2) & (positions[:, 1] < 0.6))
         self.assertEqual(balance["outside"]["particles"], beside + fallen)
         self.assertEqual(balance["inside"]["particles"] + balance["outside"]["particles"],
                          balance["start"]["particles"])
         self.assertGreaterEqual(summary["volume"]["outside_the_walls_most"], fallen)
-        # The energy that it took is booked.
+        # The energy balance includes the energy of the removed water.
         self.assertLess(summary["energy"]["largest_rise_over_start"], 1e-3)
 
-    # 0.35 m x 0.33 m, no whole numbers of the spacing of 0.1 m.
+    # 0.35 m x 0.33 m are no multiples of the spacing of 0.1 m.
     def test_an_obstacle_inside_a_block_takes_its_volume(self):
         self.call("run", "small.toml", "--out", "run", "--quiet", "--set",
                   "wall=[{name='tank', points=[[0, 2], [0, 0], [1, 0], [1, 2]]}, "
@@ -342,7 +343,7 @@ class Messages(ProgramTest):
 
 
 class LostTerminal(ProgramTest):
-    """Whatever becomes of the terminal, the run goes on to its end, and its log has what it would have shown."""
+    """A run continues to its end when it loses its terminal, and its log has all messages."""
 
     def check_done(self, run, *expected):
         self.assertEqual(self.summary(run)["status"], "done")
@@ -382,7 +383,7 @@ class LostTerminal(ProgramTest):
                 process.send_signal(signal.SIGTERM)
                 self.assertEqual(process.wait(timeout=PATIENCE), 130)
                 self.assertIn(f"interrupted: results in {ranks}; to go on: ", (self.folder / ranks / "log.txt").read_text())
-                process.stderr = None  # nothing to read for the end of the test
+                process.stderr = None  # nothing to read at the end of the test
 
     def test_standard_output_that_takes_nothing_is_an_error(self):
         with open("/dev/full", "w") as full:
@@ -429,7 +430,7 @@ class ExistingFolder(ProgramTest):
         self.assertFalse((self.folder / "run/probes/depth.csv").exists())
 
     def test_of_a_run_that_goes_on_is_refused(self):
-        """Over several ranks too: test_ranks."""
+        """test_ranks has the same test for several ranks."""
         process = self.start("run", "small.toml", "--out", "run", "--quiet", *ENDLESS)
         self.wait_for((self.folder / "run/fields/fields_00001.vtp").exists, process)
         for command in (("run", "small.toml", "--out", "run"), ("run", "small.toml", "--out", "run", "--force"),

@@ -1,4 +1,4 @@
-"""tailwater view: the server behind it, as its page and others meet it."""
+"""tailwater view: the server, as used by the viewer and by other clients."""
 
 import base64
 import concurrent.futures
@@ -25,7 +25,7 @@ PAGE = {"X-Tailwater": "page"}
 
 class Viewed(ProgramTest):
     def view(self, *arguments):
-        """Starts the server; self.ask then asks it."""
+        """Starts the server, to which self.ask sends requests."""
         self.server = self.start("view", *arguments, "--no-browser")
         address = self.server.stdout.readline()
         found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/\n", address)
@@ -33,7 +33,7 @@ class Viewed(ProgramTest):
         self.port, self.token = int(found[1]), found[2]
 
     def ask(self, path, method="GET", body=None, headers=None, token=None):
-        """(status, headers, bytes) of an answer; the path is behind the token."""
+        """(status, headers, bytes) of a response; `path` follows the token."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
         try:
             connection.request(method, f"/{self.token if token is None else token}/{path}", body, headers or {})
@@ -51,7 +51,7 @@ class Viewed(ProgramTest):
         return self.json(path, expect, method="POST", body=body, headers=PAGE)
 
     def events(self, path="api/run/0/events"):
-        """(name, data) of each event, as they come."""
+        """Yields (name, data) of each event as it arrives."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
         self.addCleanup(connection.close)
         connection.request("GET", f"/{self.token}/{path}")
@@ -66,7 +66,7 @@ class Viewed(ProgramTest):
                 yield name, json.loads(text[6:])
 
     def raw(self, text):
-        """The status of a request as it is written."""
+        """Sends a request verbatim; returns the status of the response."""
         with socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE) as connection:
             connection.sendall(text.encode())
             answer = connection.makefile("rb").readline()
@@ -129,7 +129,7 @@ class OfADoneRun(Viewed):
         for wanted, expected in ((f"bytes={len(table)}-", 200), ("bytes=99999999999999999999-", 200),
                                  ("bytes=0-1,4-5", 200), ("bytes=5-2", 200), ("nonsense", 200)):
             status, _, whole = self.ask("api/run/0/file/steps.csv", headers={"Range": wanted})
-            # The library refuses what it cannot read, before this program sees it.
+            # The HTTP library refuses a header that it cannot parse, before this program sees it.
             self.assertIn(status, (expected, 416), wanted)
             if status == 200:
                 self.assertEqual(whole, table)
@@ -148,7 +148,7 @@ class OfADoneRun(Viewed):
                         {"Origin": "null"}, {"Origin": f"http://localhost:{self.port}"}):
             self.assertEqual(self.ask("api/state", headers=headers)[0], 403, headers)
         self.assertEqual(self.ask("api/state", headers={"Origin": f"http://{own}"})[0], 200)
-        # As through ssh -L with another port.
+        # Such a header arrives through ssh -L with another port.
         self.assertEqual(self.ask("api/state", headers={"Host": "localhost:9999"})[0], 200)
         # A form of another page cannot send the header.
         self.assertEqual(self.ask("api/run/0/stop", method="POST")[0], 403)
@@ -174,7 +174,7 @@ class OfADoneRun(Viewed):
         for path in ("api/run/1/info", "api/run/-1/info", "api/run/x/info", "api/run/99999999999/info", "api/run/0/frame/x", "api/run/0/frame/1e9", "api/run/0", "api/run", "api/template/../new", "api",
                      "x/y/z", "api/case"):
             self.assertEqual(self.ask(path)[0], 404, path)
-        # A frame or a table that is not there may come, and a browser would log a refusal.
+        # A missing frame or table may appear later, and a browser would log an error status.
         for path in ("api/run/0/frame/99999", "api/run/0/file/probes/later.csv", "api/run/0/file/ranks.csv"):
             status, _, text = self.ask(path)
             self.assertEqual((status, text), (204, b""), path)
@@ -199,7 +199,7 @@ class OfADoneRun(Viewed):
             answers = list(pool.map(ask, range(count)))
         self.assertEqual(answers.count(403), len(range(0, count, 3)))
         self.assertEqual(answers.count(200), count - len(range(0, count, 3)))
-        # Connections that say nothing do not keep others out for long.
+        # Idle connections do not block others for long.
         silent = [socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE) for _ in range(200)]
         self.assert_lives()
         for connection in silent:
@@ -214,7 +214,7 @@ class OfADoneRun(Viewed):
         def drip():
             while not ended.wait(0.2):
                 for connection in dripping:
-                    with contextlib.suppress(OSError):  # it has been closed
+                    with contextlib.suppress(OSError):  # the server has closed it
                         connection.send(b"G")
 
         thread = threading.Thread(target=drip)
@@ -250,7 +250,7 @@ class OfADoneRun(Viewed):
         self.assertEqual((status, data[:4]), (200, b"TWVF"))
 
     def exported(self, *runs):
-        """The page, and the data in it."""
+        """The exported page, and the data in it."""
         self.call("view", *runs, "--export", "run.html")
         page = (self.folder / "run.html").read_text()
         text = re.search(r'<script type="application/json" id="tailwater-data">([^<]*)</script>', page)[1]
@@ -309,7 +309,7 @@ class OfADoneRun(Viewed):
 
     def test_a_sweep_goes_on(self):
         self.call("run", "small.toml", "--out", "sweep", "--quiet", "--sweep", "particles.spacing=0.1,0.05")
-        (self.folder / "sweep/particles.spacing=0.1/summary.json").unlink()  # as if it had not begun
+        (self.folder / "sweep/particles.spacing=0.1/summary.json").unlink()  # as if this member had not begun
         self.view("sweep")
         self.assertEqual(self.json("api/sweeps")[0]["done"], 1)
         self.post("api/sweep/0/resume")
@@ -330,7 +330,7 @@ class OfADoneRun(Viewed):
         self.assertIn("shown alone", self.call("view", "report", "run", expect=2).stderr)
         alone = [{"shown": None}]
         (self.folder / "report/report.json").write_text(json.dumps({"studies": alone}))
-        self.view("report")  # without the folder of a run to start from
+        self.view("report")  # the folder has no run to start from
         self.assertEqual(self.json("api/state")["report"]["studies"], alone)
         (self.folder / "report/report.json").write_text("[1]")
         self.assertIn("not a report", self.call("view", "report", expect=2).stderr)
@@ -389,7 +389,7 @@ class OfALiveRun(Viewed):
         process.kill()
         process.wait(timeout=PATIENCE)
         last = read_frames(self.folder / "run")[-1]
-        # What a run that was killed later would have left.
+        # Imitates a run that was killed later.
         shutil.copy(self.folder / f"run/view/{last.index:05}.frame", self.folder / f"run/view/{last.index + 1:05}.frame")
         self.view("run")
         self.assertEqual(self.json("api/run/0/info")["state"], "stopped")
@@ -431,7 +431,7 @@ class OfACase(Viewed):
         lines = text.splitlines()
         self.assertEqual(lines[drawing["walls"][0]["lines"][0] - 1], "[[wall]]")
         self.assertEqual([lines[probe["lines"][0]] for probe in drawing["probes"]][1], 'name = "wall_pressure"')
-        # Wrong in the reader's eyes, in those of the geometry, and not TOML at all.
+        # Errors of the reader, of the geometry, and of the TOML syntax.
         wrong = self.post("api/check", text.replace("spacing = 0.1", "spacing = -1"))["findings"]
         self.assertEqual([(one["severity"], one["line"], one["column"], one["end_column"], one["key"]) for one in wrong],
                          [("error", 4, 11, 13, "particles.spacing")])

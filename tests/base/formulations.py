@@ -1,11 +1,13 @@
-"""Which formulation a case has is asked where it is made, and nowhere else: no other file of src/ above the case room
-names one or reads [scheme]. Texts and comments may. Usage: formulations.py SRC"""
+"""Only the factory of a formulation reads which one a case has.
+
+No other file of src/ above the module `case` names a formulation or reads [scheme]; texts and comments may name one.
+Usage: formulations.py SRC"""
 import pathlib
 import re
 import sys
 
-# The case room knows the keys; the factory and the makers of the formulations read them.
-# run/explain.cpp tells the case in words, as it is written.
+# The module `case` has the keys; the factory and the makers of the formulations read them. run/explain.cpp prints a
+# summary of the case as it is written.
 MAY_ASK = ("case/", "case_help/help.cpp", "robust/formulation.cpp", "published/farzin2014.cpp", "published/farmani2020.cpp",
            "published/make_flow.cpp", "run/explain.cpp")
 ASKS = re.compile(r"\b(SchemeName|Formulation|Integrator)::|\bscheme\.\w|\bstudy\.\w|\b(SchemeTable|StudyTable)\b")

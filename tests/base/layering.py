@@ -1,6 +1,8 @@
-"""A room includes only rooms below it: checks every #include of src/ against the ROOMS of the room's CMakeLists.txt, and
-those against the order of rooms in src/CMakeLists.txt. The core of a flow cannot name a part: rooms that take the steps
-link no room of parts. Usage: layering.py SRC"""
+"""A module of src/ includes only modules below it.
+
+Checks every #include of src/ against the `ROOMS` of the module's CMakeLists.txt, and these against the order of modules
+in src/CMakeLists.txt. The core of a flow cannot name a part: modules that take the steps link no module of parts.
+Usage: layering.py SRC"""
 import pathlib
 import re
 import sys
@@ -16,7 +18,7 @@ def room_order(src):
 
 
 def declared_rooms(room):
-    """Rooms that the room links; None for the program, which may use all."""
+    """Modules that the module `room` links; None for the program, which may use all."""
     call = re.search(r"\nroom\(\w+(.*?)\)", "\n" + (room / "CMakeLists.txt").read_text(), re.DOTALL)
     if call is None:
         return None

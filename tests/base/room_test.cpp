@@ -10,7 +10,7 @@ namespace {
 TEST(Room, IsEnoughAndNeverMuchMore) {
   for (std::size_t count = 0; count < 100000; ++count) {
     ASSERT_GE(with_room(count), count + count / 32);
-    // A thirty-second, and less than an eighth of what that makes.
+    // The reserve is 1/32 of the count; rounding up adds less than 1/8 of the sum.
     ASSERT_LE(with_room(count), 33.0 / 32.0 * 9.0 / 8.0 * static_cast<double>(count) + 1.0);
   }
 }
@@ -18,7 +18,7 @@ TEST(Room, IsEnoughAndNeverMuchMore) {
 TEST(Room, HasEightSizesBetweenPowersOfTwo) {
   std::set<std::size_t> sizes;
   for (std::size_t count = 1 << 16; count < 1 << 17; ++count) sizes.insert(with_room(count));
-  EXPECT_LE(sizes.size(), 9u);  // and the first of the next eight
+  EXPECT_LE(sizes.size(), 9u);  // and the first size of the next eight
 }
 
 TEST(Room, IsSetAsideOnlyWhereItIsMissing) {

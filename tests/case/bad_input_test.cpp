@@ -1,5 +1,5 @@
-// Every kind of wrong case file: where the message points and what it must say. Each file has one mistake and gets
-// one line, so that a mistake never drags others behind it.
+// Every kind of wrong case file, with the place and the parts of its message. Each file has one error and must give one
+// line, so that an error never causes further messages.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -19,7 +19,7 @@ struct BadInput {
   std::vector<std::string> parts;
 };
 
-/// What GoogleTest prints of a row.
+/// GoogleTest prints a row by its name.
 void PrintTo(const BadInput& input, std::ostream* stream) { *stream << input.name; }
 
 const std::string probe = "[[probe]]\nname = \"p\"\n";

@@ -1,4 +1,4 @@
-// A case file that lives as long as a test.
+// A case file that is deleted at the end of a test.
 #pragma once
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ inline CaseSpec read_text(const std::string& text, const std::vector<std::string
   return read_case(file.path(), overrides);
 }
 
-/// The message with which reading the text ends; empty, and a failure of the test, if it succeeds.
+/// The error message of reading the text. If reading succeeds, the test fails and the message is empty.
 inline std::string message_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     read_text(text, overrides);
@@ -53,7 +53,7 @@ inline int line_count(const std::string& message) {
   return 1 + static_cast<int>(std::count(message.begin(), message.end(), '\n'));
 }
 
-/// The shortest valid case: what is required, and one block of water in two dimensions.
+/// The shortest valid case: the required keys, and one block of water in 2D.
 inline const std::string required_keys = "particles.spacing = 0.1\ntime.end = 1.0\n";
 inline const std::string water = "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\n";
 

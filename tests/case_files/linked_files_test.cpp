@@ -1,5 +1,5 @@
-// Files that a case names: what a CSV file of points may look like, how a bad one is refused, and that the case a run
-// leaves does not need its folder.
+// Files that a case names: accepted forms of a CSV file of points, messages for bad files, and an effective case that
+// does not need the folder of the original case.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -11,7 +11,7 @@
 namespace tailwater {
 namespace {
 
-/// A case and a file that it names, in a folder of its own.
+/// A case and a file that it names, in a new folder.
 class LinkedFile : public testing::Test {
  protected:
   LinkedFile(const std::string& case_text, const char* name)
@@ -120,7 +120,7 @@ const std::string mesh_case = "case.dimension = 3\n" + required_keys +
 TEST(MeshFile, IsNamedWithItsFolderAndChecksumInTheCaseThatARunLeaves) {
   const CaseFile file(mesh_case);
   const std::filesystem::path mesh = file.path().parent_path() / "pier.stl";
-  std::ofstream(mesh) << "123456789";  // whose CRC-32 is known
+  std::ofstream(mesh) << "123456789";  // the CRC-32 of this text is known
   const CaseSpec spec = read_case(file.path());
   EXPECT_EQ(spec.walls[0].file, mesh.string());
   EXPECT_EQ(spec.walls[0].checksum, "cbf43926");
@@ -149,7 +149,7 @@ const std::string gauge_case = required_keys + water + "[[probe]]\nname = \"H2\"
                                "[[probe]]\nname = \"line\"\ntype = \"profile\"\nfrom = [0, 0]\nto = [1, 0]\n" +
                                "times = [0.5]\n[[measurement]]\nfile = \"gauge.csv\"\nprobe = ";
 
-/// What a laboratory has measured.
+/// Measurements of a laboratory.
 class GaugeFile : public LinkedFile {
  protected:
   GaugeFile() : LinkedFile(gauge_case + "\"H2\"\n", "gauge.csv") {}
@@ -303,7 +303,7 @@ TEST_F(MotionFile, MayHaveEmptyColumnsAtItsEnd) {
   EXPECT_EQ(read_case(file_.path()).walls[0].series.columns[0], (std::vector<double>{0.0, 0.5}));
 }
 
-/// Whoever may name files in a case need not be allowed to read them.
+/// A user who may name files in a case need not have permission to read them.
 TEST_F(MotionFile, IsNotQuotedUnlessItIsOne) {
   for (const char* text : {"root:x:0:0:root:/root:/bin/bash\n", "user,password\nroot,secret\n", "secret [l]\n1\n"}) {
     const std::string message = this->message(text);
@@ -380,7 +380,7 @@ TEST_F(Hydrograph, IsRefusedWithPlaceAndRemedy) {
   }
 }
 
-/// The case that a run leaves names the file with its folder and checksum.
+/// The effective case of a run names the file with its folder and checksum.
 TEST_F(Hydrograph, OfTheEffectiveCaseMustNotChange) {
   write("t [s], discharge [l/s]\n0, 20\n1, 30\n");
   const CaseSpec spec = read_case(file_.path());

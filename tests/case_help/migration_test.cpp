@@ -1,4 +1,4 @@
-// Case files of earlier formats: what each key that is no more becomes.
+// Migration of case files of earlier formats, for each removed key.
 #include "case_help/migration.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,8 @@ const std::string format_line = fmt::format("format = {}\n", case_format);
 
 std::string migrated(const std::string& text) { return migrate_case(text, "old.toml").text; }
 
-/// A value of the key that the reader of its time accepted, and that of today does if the key has a successor.
+/// A value of the key that the reader of its time accepted, and that today's reader accepts for the successor of the
+/// key, if there is one.
 std::string value_for(const RemovedKey& key) {
   if (key.key == "shifting") return "\"none\"";
   if (key.key == "divergence_free") return "\"start\"";
@@ -24,7 +25,7 @@ std::string value_for(const RemovedKey& key) {
   return key.key == "support" ? "3.5" : "0.125";
 }
 
-/// Each change of the format has its row here, as each entry of the list of removed keys is one.
+/// One row for each entry of the list of removed keys, hence for each change of the format.
 class RemovedKeyTest : public testing::TestWithParam<RemovedKey> {};
 
 TEST_P(RemovedKeyTest, BecomesWhatIsReadToday) {
@@ -51,7 +52,8 @@ TEST_P(RemovedKeyTest, BecomesWhatIsReadToday) {
 INSTANTIATE_TEST_SUITE_P(Case, RemovedKeyTest, testing::ValuesIn(removed_keys().begin(), removed_keys().end()),
                          [](const auto& key) { return fmt::format("{}_{}", key.param.table, key.param.key); });
 
-/// An outlet that was a hole must say what is beyond it; the file alone does not tell whether it is one.
+/// An outlet that was a hole must now give the condition beyond it; the file alone does not show whether an outlet is a
+/// hole.
 TEST(Migration, ReportsOutletsWithoutALevel) {
   const std::string ends =
       "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\n[[outlet]]\nfrom = [0, 0]\nto = [0, 1]\nlevel = 1\n";

@@ -1,5 +1,6 @@
-"""The JSON schema of case files: it accepts every case of the tree, and marks every mistake of the tables of bad input but
-those that no schema can see, which are named here."""
+"""The JSON schema of case files accepts every case of the tree and marks every error of the tables of bad input.
+
+Exceptions are the errors that no schema can detect, which are named here."""
 
 import json
 import os
@@ -20,8 +21,8 @@ try:
 except ImportError:
     jsonschema = None
 
-# What takes arithmetic with two values of the file, the value of an expression, a name of another table, a file, PETSc or
-# the shapes of the case. A schema sees one value, and which keys are there.
+# Errors whose detection needs arithmetic with two values of the file, the value of an expression, a name in another
+# table, a file, PETSc or the shapes of the case. A schema checks single values and the presence of keys.
 UNSEEN = {
     "two values": {
         "box_inside_out", "damping_inside_out", "gate_that_slants", "gate_with_the_wrong_sides", "gate_without_an_extent",
@@ -61,7 +62,7 @@ UNSEEN = {
 
 
 def rows_of_the_reader():
-    """{name: text} of tests/case/bad_input_test.cpp, which writes them where it is told to."""
+    """{name: text} of tests/case/bad_input_test.cpp, which writes its rows to the folder in TAILWATER_BAD_INPUT."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([os.environ["TEST_CASE"], "--gtest_filter=*BadInputTest*"], check=True, capture_output=True,
                        env=os.environ | {"TAILWATER_BAD_INPUT": folder})
@@ -83,7 +84,7 @@ class Schema(unittest.TestCase):
         cls.validator = jsonschema.Draft7Validator(schema)
 
     def mistakes(self, text):
-        """Where they are, and what; a text that is no TOML is marked before any schema is asked."""
+        """Places and messages of all errors; a text that is not TOML is an error before validation."""
         try:
             case = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:

@@ -1,5 +1,5 @@
-// What `check` says of holes in walls, of what is beyond openings, of profiles of inlets and the space they open into,
-// of water from them that finds a way out, and of the depth of wave makers.
+// Findings of `check` on holes in walls, conditions beyond openings, profiles of inlets, the space into which inlets
+// flow, leaks of their water, and the depth at wave makers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_cases;
 
-/// The messages of all errors, one after the other.
+/// The messages of all errors, one per line.
 std::string errors_of(const CaseSpec& spec) {
   const Boundary<2> boundary = make_boundary<2>(spec);
   std::string text;
@@ -36,7 +36,7 @@ CaseSpec tank_over_slot() {
   return spec;
 }
 
-/// The same tank with a slot in its side.
+/// A tank 1 m wide with a slot in its side.
 CaseSpec tank_with_slot() {
   CaseSpec spec = tank_over_slot();
   spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 0.1}}), polyline({{1.0, 0.2}, {1.0, 0.8}})};
@@ -54,7 +54,7 @@ TEST(EndChecks, AHoleNeedsSomethingBeyond) {
     EXPECT_EQ(errors_of(spec), "");
   }
   CaseSpec drowned = tank_with_slot();
-  drowned.outlets[0].level = Varying{0.4};  // above its top
+  drowned.outlets[0].level = Varying{0.4};  // above the top of the slot
   EXPECT_EQ(errors_of(drowned), "");
   CaseSpec flush_inlet = tank_with_slot();
   flush_inlet.outlets.clear();
@@ -63,7 +63,7 @@ TEST(EndChecks, AHoleNeedsSomethingBeyond) {
   EXPECT_EQ(errors_of(flush_inlet), "");
 }
 
-/// A shaft leads to this outlet: the channel goes on below it.
+/// A shaft leads to this outlet, so the channel continues below it.
 TEST(EndChecks, AShaftIsNoHole) {
   CaseSpec spec = tank_over_slot();
   spec.walls[0].points.push_back({0.4, -0.2});
@@ -95,7 +95,7 @@ TEST(EndChecks, DuctsDoNotMeet) {
       << refused;
 }
 
-/// An inlet that enters upwards is told a time, as any other.
+/// For an inlet that enters upwards, the message gives a time, as for any other inlet.
 TEST(EndChecks, AnUprightInletMayStopWithinAWave) {
   CaseSpec spec = tank_over_slot();
   spec.outlets.clear();
@@ -107,7 +107,7 @@ TEST(EndChecks, AnUprightInletMayStopWithinAWave) {
   EXPECT_NE(refused.find("let it change over 0.23 s or more"), std::string::npos) << refused;
 }
 
-/// The sides of an inlet across a periodic channel are open to the next period, and on no wall.
+/// The sides of an inlet across a periodic channel are open to the next period and lie on no wall.
 TEST(EndChecks, AnInletMaySpanAPeriod) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.domain.periodic_y = {0.0, 1.2};
@@ -142,7 +142,7 @@ TEST(EndChecks, AProfileWithoutAMeanIsRefused) {
   }
 }
 
-/// Rows that fill the depth bring the whole discharge, however many there are and however steep the profile is.
+/// Rows that fill the depth deliver the whole discharge, for any number of rows and any steepness of the profile.
 TEST(EndChecks, RowsBringTheWholeProfile) {
   CaseSpec spec = open_channel();
   spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.8}, 0.1)};
@@ -152,14 +152,14 @@ TEST(EndChecks, RowsBringTheWholeProfile) {
     double sum = 0.0;
     for (int k = 0; k < rows; ++k) sum += flow.profile_of_row((k + 0.5) / rows, 1.0 / rows);
     EXPECT_NEAR(sum / rows, 1.0, 1e-12) << rows;
-    // The share sqrt(s) of the discharge is below s. The table misses 0.6/sqrt(n) of it in its lowest n parts.
+    // The fraction sqrt(s) of the discharge is below s. The table misses 0.6/sqrt(n) of it in its lowest n parts.
     if (rows <= 8) {
       EXPECT_NEAR(flow.largest_in_profile(rows) / std::sqrt(rows), 1.0, 0.02) << rows;
     }
   }
 }
 
-/// A duct of 1.0 x 0.2 m has room for what enters in 1 s, not in 3 s, unless it has an outlet or a hole.
+/// A duct of 1.0 x 0.2 m holds the inflow of 1 s, but not of 3 s, unless it has an outlet or a hole.
 TEST(EndChecks, AnInletNeedsASpaceForItsWater) {
   CaseSpec spec = empty_case(0.02);
   spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.2}, {0.0, 0.2}})};
@@ -187,7 +187,7 @@ TEST(EndChecks, AnInletNeedsASpaceForItsWater) {
   EXPECT_EQ(errors_of(spec), "");
 }
 
-/// Two pieces of a channel's bed with a gap between them, dry at the start.
+/// Two pieces of a channel's bed with a gap between them, initially dry.
 TEST(EndChecks, WaterThatComesInMustNotPourOut) {
   CaseSpec spec = empty_case(0.02);
   spec.walls = {polyline({{0.0, 0.1}, {0.5, 0.0}}), polyline({{0.6, 0.0}, {1.0, 0.0}})};

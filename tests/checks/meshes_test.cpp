@@ -1,4 +1,4 @@
-// What is checked of walls from meshes.
+// Checks of walls from meshes.
 #include <gtest/gtest.h>
 
 #include "checks/check.h"
@@ -35,7 +35,7 @@ TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
   expect_words(errors(two), {"crosses itself at (", "unite the bodies"});
 }
 
-// A tank of 3 m with a body in it, beside it, or so large that the tank is inside.
+// A tank of 3 m with a body inside it, then beside it, then so large that the tank is inside the body.
 TEST(CheckMeshes, WarnOfABodyBesideTheRestOrLongerThanIt) {
   const MeshFolder folder;
   CaseSpec spec = empty_case(0.1, 3);

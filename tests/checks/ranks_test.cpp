@@ -1,4 +1,4 @@
-// The water at the start and the checks of the shapes on several ranks: together exactly what one rank makes and finds.
+// The initial water and the checks of the shapes on several ranks: together exactly the results of one rank.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -19,12 +19,11 @@ class AirTest : public testing::Test {};
 TYPED_TEST_SUITE(AirTest, Dimensions);
 
 struct Row {
-  double sum = 0.0;  ///< of the weights below the surface
-  double linear =
-      0.0;  ///< what a full row makes of a pressure equal to the depth, less what the lower part makes of it
+  double sum = 0.0;     ///< sum of the weights of neighbours below the surface
+  double linear = 0.0;  ///< contribution of neighbours above the surface for a pressure that is linear in depth
 };
 
-/// A particle `depth` below a flat surface, its neighbours on a lattice so fine that sums are integrals.
+/// A particle `depth` below a flat surface, with neighbours on a lattice so fine that sums approximate integrals.
 template <int Dim>
 Row row_below_surface(const Kernel<Dim>& kernel, double depth, double fine, double& full) {
   const int reach = static_cast<int>(std::ceil(support / fine));
@@ -52,7 +51,7 @@ Row row_below_surface(const Kernel<Dim>& kernel, double depth, double fine, doub
 }
 
 // The weight times the particle's own pressure, its depth, replaces the missing half of a linear pressure. The surface
-// lies midway between two lattice planes; what is left is the quadrature of lattice and table.
+// lies midway between two lattice planes; the remaining error is that of the quadrature by lattice and table.
 TYPED_TEST(AirTest, IsExactForLinearPressureUnderAFlatSurface) {
   constexpr int Dim = TypeParam::value;
   const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, support);
@@ -75,7 +74,7 @@ TYPED_TEST(AirTest, IsContinuousAndNothingInFullRows) {
   for (double missing = 0.001; missing < 1.0; missing += 0.001) {
     const double weight = air.weight(1.0 - missing, 1.0);
     EXPECT_GE(weight, missing);
-    EXPECT_LE(weight, 2.1 * missing);  // a lattice's outermost row: 2
+    EXPECT_LE(weight, 2.1 * missing);  // 2 for the outermost row of a lattice
     EXPECT_GT(weight, last);
     EXPECT_LT(weight - last, 0.01);
     last = weight;

@@ -14,7 +14,7 @@ template <class D>
 class FreeSurfaceTest : public testing::Test {};
 TYPED_TEST_SUITE(FreeSurfaceTest, Dimensions);
 
-/// What the default reads of a set.
+/// The inputs of the default free-surface marks for a set of particles.
 template <int Dim>
 struct Marks {
   Marks(const Particles<Dim>& particles, PeriodicDomain<Dim> domain)
@@ -47,7 +47,7 @@ TYPED_TEST(FreeSurfaceTest, TheInteriorBeginsBelowTwoRows) {
   for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
     const int row = row_of(marks.set.position(i)[1]);
     const int depth = std::min(row, rows - 1 - row);
-    if (depth == 2) continue;  // on the step
+    if (depth == 2) continue;  // at the transition
     EXPECT_EQ(marks.interior[i], depth < 2 ? 0.0 : 1.0) << "depth " << depth;
   }
 }

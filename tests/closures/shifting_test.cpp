@@ -16,7 +16,8 @@ namespace shifting_test {
 
 constexpr double dx = 0.1;
 constexpr double dt = 0.01;
-/// Not 3 dx: lattice neighbours on the very rim would count or not by rounding, and (F28) has no kernel to fade them.
+/// Not 3 dx: rounding would decide whether lattice neighbours at that distance count, and (F28) has no kernel that
+/// decays there.
 constexpr double radius = 2.9 * dx;
 
 template <class D>
@@ -51,7 +52,7 @@ struct Shifted {
   static Particles<Dim> moving(const std::vector<Vec<Dim>>& points, double speed) {
     Particles<Dim> particles = fluid_at<Dim>(points, dx);
     for (Vec<Dim>& velocity : particles.velocity) velocity = speed * Vec<Dim>::UnitX();
-    particles.kind[0] = ParticleKind::wall;  // and must not move
+    particles.kind[0] = ParticleKind::wall;  // a wall, which must not move
     return particles;
   }
 
@@ -74,7 +75,7 @@ TYPED_TEST(ShiftingTest, LeavesTheInteriorOfALatticeAlone) {
     for (std::size_t i = 0; i < shifted.set.size(); ++i) {
       if (shifted.set.position(i).cwiseAbs().maxCoeff() > interior) continue;
       ++tested;
-      // Opposite neighbours cancel; a particle's place is known to eps times the cube's size, ten dx.
+      // Opposite neighbours cancel; the rounding error of a position is eps times the size of the cube, ten dx.
       EXPECT_LT(shifted.shift[i].norm(), 10.0 * single_eps * dt);
     }
     EXPECT_GT(tested, 0u);
@@ -89,7 +90,7 @@ TYPED_TEST(ShiftingTest, MovesAwayFromTheCrowd) {
     points[middle] += 0.3 * dx * Vec<Dim>::UnitX();
     const Shifted<Dim> shifted(kind, dx, points, 1.0, false);
     EXPECT_LT(shifted.shift[middle][0], 0.0);
-    // What is across vanishes by symmetry.
+    // The transverse components vanish by symmetry.
     EXPECT_LT((shifted.shift[middle] - shifted.shift[middle][0] * Vec<Dim>::UnitX()).norm(), 10.0 * single_eps * dt);
   }
 }
@@ -106,7 +107,7 @@ TYPED_TEST(ShiftingTest, LeavesTheSurfaceAlone) {
 TYPED_TEST(ShiftingTest, IsWholeWhereAllNeighboursAreInside) {
   constexpr int Dim = TypeParam::value;
   const std::vector<Vec<Dim>> points = jittered_cube<Dim>(13, dx, 0.1);
-  const auto row = [&](std::size_t i) { return std::lround(6.0 - points[i][Dim - 1] / dx); };  // 0 is on top
+  const auto row = [&](std::size_t i) { return std::lround(6.0 - points[i][Dim - 1] / dx); };  // 0 is the top row
   std::vector<double> interior(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) interior[i] = row(i) < 2 ? 0.0 : 1.0;
   const Shifted<Dim> shifted(ShiftingKind::lind, 1e6 * dx, points, 1.0, interior);
@@ -140,7 +141,7 @@ TYPED_TEST(ShiftingTest, BoundsItselfSmoothly) {
         const double length = unbounded.shift[i].norm();
         EXPECT_LE((bounded.shift[i] - unbounded.shift[i] / std::hypot(1.0, length / cap)).norm(), 16.0 * eps * length);
         EXPECT_LE(bounded.shift[i].norm(), cap * (1.0 + 8.0 * eps));
-        // What the bound takes is of third order: (1 + q^2)^-1/2 >= 1 - q^2/2.
+        // The reduction by the bound is of third order: (1 + q^2)^-1/2 >= 1 - q^2/2.
         EXPECT_LE((bounded.shift[i] - unbounded.shift[i]).norm(),
                   length * (0.5 * length * length / (cap * cap) + 16.0 * eps));
       }
@@ -155,7 +156,7 @@ TYPED_TEST(ShiftingTest, NothingForWallsLoneParticlesAndWaterAtRest) {
     const auto points = jittered_cube<Dim>(cube_count<Dim>, dx, 0.3);
     EXPECT_EQ((Shifted<Dim>(kind, dx, points, 1.0, false).shift[0]), zero);
     for (const Vec<Dim>& shift : Shifted<Dim>(kind, dx, points, 0.0, false).shift) EXPECT_EQ(shift, zero);
-    // A wall and two lone particles; then a pair in the air, whose only direction is its normal.
+    // A wall and two lone particles; then an isolated pair, whose only direction is its normal.
     const std::vector<Vec<Dim>> lone{Vec<Dim>::Constant(9.0), zero, Vec<Dim>::Constant(-9.0)};
     for (const Vec<Dim>& shift : Shifted<Dim>(kind, dx, lone, 1.0, false).shift) EXPECT_EQ(shift, zero);
     const std::vector<Vec<Dim>> pair{Vec<Dim>::Constant(9.0), zero, 0.5 * dx * Vec<Dim>::UnitY()};

@@ -42,7 +42,7 @@ TYPED_TEST(ViscosityTest, ConservesMomentumAndDissipatesWhatItMust) {
   add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, 0.0, velocity,
                                no_gradient, acceleration);
 
-  // Without gradients, pair by pair: force on i = - force on j, power = - w_i c_ij nu_ij |u_i - u_j|^2.
+  // Without gradients, each pair has force on i = - force on j and power = - w_i c_ij nu_ij |u_i - u_j|^2.
   const Pairs<Dim>& pairs = set.pairs();
   Vec<Dim> force = Vec<Dim>::Zero();
   double power = 0.0;
@@ -78,11 +78,11 @@ TYPED_TEST(ViscosityTest, ARigidRotationIsFreeOfStressUpToTheSurface) {
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
   add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, kernel_gradients<Dim>(set), viscosity, 0.0, velocity,
                                std::vector<Mat<Dim>>(set.size(), spin), acceleration);
-  // Pair by pair 2 w dW (G + G^T) e, which is 0; its two parts are of the size nu spin/dx.
+  // Each pair contributes 2 w dW (G + G^T) e, which is 0; its two parts are of the size nu spin/dx.
   for (const Vec<Dim>& a : acceleration) EXPECT_LT(a.norm(), 10.0 * single_eps * 0.1 * 2.0 / dx);
 }
 
-/// What dissipates noise, alone: without any other viscosity.
+/// Adds only the noise viscosity, without any other viscosity.
 template <int Dim>
 void add_noise_viscosity(const ParticleSet<Dim>& set, const std::vector<Vec<Dim>>& velocity,
                          const std::vector<Mat<Dim>>& gradient, std::vector<Vec<Dim>>& acceleration) {
@@ -95,7 +95,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
   ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Noise noise(43);
   const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
-  // Any gradients, right or wrong: what the limiter promises does not depend on them.
+  // Any gradients, right or wrong: the properties of the limiter do not depend on them.
   std::vector<Mat<Dim>> gradient(set.size());
   for (Mat<Dim>& entry : gradient) {
     for (int a = 0; a < Dim; ++a) entry.row(a) = 20.0 * noise.vector<Dim>().transpose();
@@ -120,8 +120,8 @@ TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
 TYPED_TEST(ViscosityTest, NoiseViscosityLeavesTheProfileOfALayerAlone) {
   constexpr int Dim = TypeParam::value;
   ParticleSet<Dim> set = jittered_block<Dim>(dx);
-  // All differences point along x: those of the profile, and those of its gradient, of which half is found, as beside
-  // a wall whose particles glide along.
+  // All differences point along x: those of the profile, and those of its gradient. The gradient is half the true one,
+  // as beside a wall whose particles move with the slip velocity.
   const auto velocity =
       sample(set, [](const Vec<Dim>& x) { return Vec<Dim>(std::log(10.0 + x[1] / dx) * Vec<Dim>::UnitX()); });
   std::vector<Mat<Dim>> gradient(set.size(), Mat<Dim>::Zero());
@@ -175,7 +175,8 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
   }
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
   add_noise_viscosity<Dim>(set, velocity, gradient, acceleration);
-  // Where the support is whole the gradient is exact; a neighbour's must be too, so two supports from the edge.
+  // Where the support is full the gradient is exact. The gradient of a neighbour must be exact as well, hence a
+  // distance of two supports from the edge.
   const double inside = (0.5 * edge - 0.5 - 3.3) * dx;
   const double unit = slope.norm() * 0.1 / (dx * dx) * dx;  // nu u/dx^2 with |u| = slope dx
   std::size_t tested = 0;

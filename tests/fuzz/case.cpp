@@ -11,7 +11,7 @@ namespace {
 
 using namespace tailwater;
 
-/// With files that a case may name.
+/// A folder with the files that a case may name.
 class Folder : public TemporaryFolder {
  public:
   Folder() {
@@ -39,7 +39,7 @@ std::vector<std::string> quoted_words(const std::string& text) {
   return words;
 }
 
-/// The keys with their defaults, and what they may be set to.
+/// The keys with their defaults and possible values.
 Vocabulary make_vocabulary() {
   Vocabulary vocabulary;
   vocabulary.words = {

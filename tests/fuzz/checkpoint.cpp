@@ -1,5 +1,5 @@
-// The contents of checkpoints behind a right checksum. An input is a list of changes to a small checkpoint that is
-// sound: each says which dataset, what is done to it and where, and with which bytes.
+// Changed contents of checkpoints with a valid checksum. An input is a list of changes to a small valid checkpoint:
+// each selects a dataset, an operation, a position and bytes.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr const char* case_text =
     "[particles]\nspacing = 0.5\n[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\n[[wall]]\npoints = [[0, 2], [0, 0], [1, 0], "
     "[1, 2]]\n[time]\nend = 1\n";
 
-/// Four particles of water above one of a wall.
+/// Four fluid particles above one wall particle.
 Checkpoint<2> sound_checkpoint() {
   Checkpoint<2> checkpoint;
   Particles<2>& particles = checkpoint.flow.state.particles;
@@ -116,7 +116,7 @@ std::string image_of(const Sets& sets) {
 
 SealedFile file_of(const Sets& sets) { return {checkpoint_format, "a program", 1, image_of(sets), "step_10.h5"}; }
 
-/// Takes an input apart; what is not there any more is 0.
+/// Splits an input into numbers and bytes; beyond its end all numbers are 0.
 class Changes {
  public:
   explicit Changes(std::string_view rest) : rest_(rest) {}
@@ -139,7 +139,7 @@ class Changes {
   std::string_view rest_;
 };
 
-/// Values of eight bytes that are more telling than others.
+/// Values of eight bytes that are likely to cause errors.
 constexpr double strange[] = {0.0,
                               -1.0,
                               1e300,
@@ -193,7 +193,7 @@ void change(Sets& sets, Changes& changes) {
   }
 }
 
-/// What a run may rely on in a checkpoint that was not refused.
+/// Properties of an accepted checkpoint on which a run relies.
 template <int Dim>
 void require_sound(Checkpoint<Dim> checkpoint) {
   Particles<Dim>& particles = checkpoint.flow.state.particles;
@@ -226,7 +226,7 @@ void read_in(const SealedFile& file) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Sets sound = read_sound_sets();
-  // Refused as it is, it would show nothing.
+  // If the unchanged checkpoint were refused, the test would show nothing.
   [[maybe_unused]] static const Checkpoint<2> read_once = read_checkpoint<2>(file_of(sound), Communicator());
   const std::string text = text_of_input(data, size);
   Changes changes(text);

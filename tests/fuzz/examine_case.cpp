@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-/// What takes a fraction of a second under sanitizers.
+/// Limit that keeps a check below a fraction of a second with sanitizers.
 constexpr double most_particles = 2000.0;
 
 template <int Dim>

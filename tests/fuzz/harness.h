@@ -1,6 +1,6 @@
-// What a fuzz target is made of. Each target is a file with LLVMFuzzerTestOneInput, and with LLVMFuzzerCustomMutator
-// where bytes at random would not get far. With libFuzzer (preset `fuzz`) it looks for inputs that reach new code; with
-// the driver of replay.cpp it is a test, which repeats the corpus and a few mutations of it.
+// Parts of a fuzz target. Each target is a file with LLVMFuzzerTestOneInput, and with LLVMFuzzerCustomMutator where
+// random bytes would not reach much code. With libFuzzer (preset `fuzz`) a target searches for inputs that reach new
+// code. With the driver of replay.cpp it is a test, which repeats the corpus and a few mutations of it.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 #include <string_view>
 
 extern "C" {
-/// One input. Whoever finds something in it aborts.
+/// Tests one input; aborts on a finding.
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 /// Changes the input in its place, to at most `room` bytes; returns its new size.
 std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t room, unsigned seed);
-/// Mutates bytes: libFuzzer's, or that of replay.cpp.
+/// Mutates bytes: libFuzzer's function, or that of replay.cpp.
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t room);
 }
 
@@ -25,7 +25,7 @@ inline std::string text_of_input(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Ends the fuzzer with what it has found.
+/// Ends the fuzzer with a finding.
 [[noreturn]] inline void finding(std::string_view what, std::string_view about) {
   std::fprintf(stderr, "finding: %.*s\n%.*s\n", static_cast<int>(what.size()), what.data(),
                static_cast<int>(about.size()), about.data());

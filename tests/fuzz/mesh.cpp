@@ -1,5 +1,4 @@
-// Mesh files, as a body in a tank. The first letter of an input says as what the rest of it is read: s STL, o OBJ, p
-// PLY.
+// Mesh files, as a body in a tank. The first letter of an input selects the format of the rest: s STL, o OBJ, p PLY.
 #include <algorithm>
 #include <cstring>
 #include <fstream>
@@ -15,7 +14,7 @@ using namespace tailwater;
 
 const char* kind_of(std::uint8_t letter) { return letter == 'o' ? "obj" : letter == 'p' ? "ply" : "stl"; }
 
-/// With a case for each kind of mesh.
+/// A folder with a case for each mesh format.
 class Folder : public TemporaryFolder {
  public:
   Folder() {
@@ -29,7 +28,7 @@ class Folder : public TemporaryFolder {
   }
 };
 
-/// How many bytes a binary STL file has before its first triangle, and in each.
+/// Number of bytes of a binary STL file before its first triangle, and of each triangle.
 constexpr std::size_t stl_head = 84, stl_triangle = 50;
 
 }  // namespace
@@ -90,7 +89,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   const bool is_binary = std::any_of(data, data + size, [](std::uint8_t byte) { return byte == 0; });
   if (!is_binary) return mutate_text(data, size, room, seed, vocabulary);
   const std::size_t new_size = LLVMFuzzerMutate(data, size, room);
-  if (new_size > 1 + stl_head && data[0] == 's' && seed % 2 == 0) {  // as many triangles as there are
+  if (new_size > 1 + stl_head && data[0] == 's' && seed % 2 == 0) {  // correct the number of triangles
     const auto count = static_cast<std::uint32_t>((new_size - 1 - stl_head) / stl_triangle);
     std::memcpy(data + 1 + stl_head - sizeof(count), &count, sizeof(count));
   }

@@ -1,5 +1,5 @@
-// CSV files: of points, as the bed of a basin, and of quantities over time, as the motion of a wall, as what comes in
-// and as what a gauge has measured. Each input is read as all of these.
+// CSV files of points, as the bed of a basin, and of quantities over time: the motion of a wall, a discharge, a
+// measurement of a gauge. Each input is read as all of these.
 #include <array>
 #include <fstream>
 #include <utility>
@@ -24,7 +24,7 @@ constexpr std::array cases{
               "type = \"depth\"\nat = [0.5, 0]\n[[measurement]]\nprobe = \"gauge\"\n"
               "file = \"input.csv\"\n"}};
 
-/// With cases that name the input.
+/// A folder with cases that name the input.
 class Folder : public TemporaryFolder {
  public:
   Folder() {

@@ -1,5 +1,5 @@
 // The driver of a fuzz target as a test: FOLDER COUNT repeats all files of a corpus and COUNT mutations of them, which
-// are always the same. PROGRAM.last_input holds the input at work; it stays when something is found.
+// are always the same. PROGRAM.last_input holds the current input and remains after a finding.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -38,7 +38,7 @@ void try_input(const std::string& input, const fs::path& last) {
 
 }  // namespace
 
-// A target without a mutator of its own gets this one.
+// Default mutator, for targets that define none.
 extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                                      std::size_t room, unsigned) {
   return LLVMFuzzerMutate(data, size, room);

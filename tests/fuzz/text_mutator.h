@@ -1,4 +1,4 @@
-// Mutations that know that a text has lines, and lines have words.
+// Mutations of the lines and words of a text.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace tailwater {
 
-/// What a kind of text is made of.
+/// Lines and words that a kind of text consists of.
 struct Vocabulary {
   std::vector<std::string> lines;
   std::vector<std::string> words;
 };
 
-/// A mutator for LLVMFuzzerCustomMutator: adds, drops, doubles, moves and cuts lines, puts words in the place of
-/// others, changes the bytes of a word, or (in one case of eight) any bytes.
+/// A mutator for LLVMFuzzerCustomMutator: adds, removes, duplicates, moves and cuts lines, replaces words, changes the
+/// bytes of a word, or (in one of eight cases) any bytes.
 std::size_t mutate_text(std::uint8_t* data, std::size_t size, std::size_t room, unsigned seed,
                         const Vocabulary& vocabulary);
 

@@ -99,7 +99,8 @@ TEST(Boundary, SignedDistanceAtAConcaveCorner) {
   EXPECT_EQ(boundary.nearest({0.3, 0.2}, 0.1).face, -1);
 }
 
-// A wedge of solid with its tip at the origin, 2 x 0.1 rad thin: near the tip the two faces' planes disagree.
+// A solid wedge of 2 x 0.1 rad with its tip at the origin: near the tip the planes of the two faces give different
+// distances.
 TEST(Boundary, SignedDistanceAtASharpConvexCorner) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {polyline({{-std::cos(0.1), std::sin(0.1)}, {0, 0}, {-std::cos(0.1), -std::sin(0.1)}})};
@@ -168,7 +169,7 @@ TEST(Boundary, BadWallsAreNamedWithThePoint) {
   EXPECT_TRUE(contains(input_error_of(spec), "\"top\" is not a face"));
   spec.walls = {box_wall({0, 0}, {1, 1}, {"-x", "+x", "-y", "+y"})};
   EXPECT_TRUE(contains(input_error_of(spec), "no face left"));
-  // Before anything is made of it: it would take hours.
+  // The check precedes the generation of particles, which would take hours.
   spec.walls = {polyline({{0, 0}, {0, 1.5e9}})};
   spec.walls[0].shape = WallShape::plate;
   EXPECT_TRUE(contains(input_error_of(spec), "reaches over 1.5e+09 m, which is 1.5e+10 times particles.spacing"));
@@ -177,7 +178,7 @@ TEST(Boundary, BadWallsAreNamedWithThePoint) {
   EXPECT_TRUE(contains(input_error_of(spec), "2D only"));
 }
 
-/// A search among filed faces finds what a search among all finds.
+/// A search among filed faces has the same results as a search among all faces.
 template <int Dim>
 void expect_the_same_nearest(const CaseSpec& spec, const Vec<Dim>& low, const Vec<Dim>& high) {
   Boundary<Dim> filed = make_boundary<Dim>(spec);
@@ -202,7 +203,7 @@ void expect_the_same_nearest(const CaseSpec& spec, const Vec<Dim>& low, const Ve
   EXPECT_GT(found, 500);
 }
 
-/// Whether a plate hides one place from another.
+/// Whether a plate hides one position from another.
 template <int Dim>
 bool hides(const CaseSpec& spec, const Vec<Dim>& from, const Vec<Dim>& to) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
@@ -210,7 +211,8 @@ bool hides(const CaseSpec& spec, const Vec<Dim>& from, const Vec<Dim>& to) {
                              [&](const auto& screen) { return screen.hidden_fraction(from, to) > 0.5; });
 }
 
-// A basin with a plate below the mouth of a channel, from whose bed the plate goes down to the bed of the basin.
+// A basin with a plate below the mouth of a channel. The plate reaches from the bed of the channel down to the bed of
+// the basin.
 TEST(Screens, GoOnBehindAWallAndNotInFrontOfIt) {
   CaseSpec spec = empty_case(0.1);
   WallTable plate = polyline({{0.0, 0.0}, {0.0, 0.4}});
@@ -232,9 +234,9 @@ TEST(Screens, GoOnBehindAWallAndNotInFrontOfItIn3D) {
   EXPECT_FALSE(hides<3>(spec, {-0.05, 0.5, 0.5}, {0.05, 0.5, 0.5}));
 }
 
-// What a plate hides fades over a spacing on either side of its edge, evenly about it, and not where it stands on a
-// wall. It depends on the distance from the edge alone, also where the last piece of the plate is shorter than a
-// spacing.
+// The screening by a plate decays over one spacing on either side of its edge, symmetrically about it, but not where
+// the plate stands on a wall. It depends only on the distance from the edge, even if the last piece of the plate is
+// shorter than a spacing.
 TEST(Screens, FadeAtAnEdge) {
   for (const bool has_short_piece : {false, true}) {
     CaseSpec spec = empty_case(0.1);
@@ -266,7 +268,7 @@ TEST(FreeEnds, HaveNothingBehindThem) {
   const Boundary<2> alone = make_boundary<2>(spec);
   EXPECT_NEAR(alone.nearest({0.03, -0.04}, 1.0).signed_distance, 0.05, 1e-12);
   EXPECT_NEAR(alone.nearest({-0.3, -0.04}, 1.0).signed_distance, -0.04, 1e-12);
-  // Water beside the end has come around it; farther away it must have passed the wall.
+  // Water near the end has come around it; water farther away must have passed through the wall.
   EXPECT_NEAR(alone.nearest_to_water({-0.3, -0.04}, 1.0).signed_distance, 0.04, 1e-12);
   EXPECT_NEAR(alone.nearest_to_water({-0.5, -0.04}, 1.0).signed_distance, -0.04, 1e-12);
   // A wall within half a spacing leaves no opening until it moves away.

@@ -1,4 +1,4 @@
-// Walls from mesh files: formats, placement, signs of distances, what is refused and with which words.
+// Walls from mesh files: formats, placement, signs of distances, and messages for bad files.
 #include "geometry/meshes.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST(MeshFile, IsScaledTurnedAndMoved) {
   const MeshSurface surface(mesh);
   EXPECT_LT((surface.low() - Vec<3>(4.8, 0.0, 1.0)).norm(), 1e-6);
   EXPECT_LT((surface.high() - Vec<3>(5.0, 1.0, 1.3)).norm(), 1e-6);
-  EXPECT_NEAR(volume_of(mesh), -0.06, 1e-6);  // its front looks inwards, at the water
+  EXPECT_NEAR(volume_of(mesh), -0.06, 1e-6);  // the front faces inwards, towards the water
 }
 
 TEST(MeshFile, OfAnOpenSheetLooksToTheWater) {
@@ -165,7 +165,7 @@ TEST(MeshFile, ThatIsDamagedIsRefused) {
                {"noise.stl", "export the mesh again"});
   expect_words(refusal("pier.step", "ISO-10303-21;"), {"\".step\" is no kind of mesh", ".stl, .obj or .ply"});
   expect_words(refusal("none.ply", ply({})), {"none.ply", "export the mesh again"});
-  for (const char* format : {"ascii", "binary_little_endian"}) {  // without properties elements take no room
+  for (const char* format : {"ascii", "binary_little_endian"}) {  // elements without properties take no space
     const std::string endless =
         fmt::format("ply\nformat {} 1.0\nelement vertex 9000000000000000000\nend_header\n1 2 3\n", format);
     expect_words(refusal("endless.ply", endless), {"endless.ply", "9000000000000000000", "6 bytes left", "cut off"});
@@ -201,9 +201,9 @@ TEST(MeshSurface, MeasuresTheDistanceFromABoxOnAllSides) {
   }
 }
 
-/// A point of a body where ridges and valleys meet. Beside it, a nearest triangle may show the wrong sign.
+/// A point of a body where ridges and valleys meet. Beside it, the nearest triangle may give the wrong sign.
 TriangleMesh saddle_body() {
-  // A disc of six directions that go steeply up and down in turn, closed by a plate far below.
+  // A disc of six directions that alternate between steeply up and steeply down, closed by a plate far below.
   TriangleMesh mesh;
   mesh.points.push_back(Vec<3>::Zero());
   for (int k = 0; k < 6; ++k) {
@@ -222,8 +222,8 @@ TriangleMesh saddle_body() {
   return mesh;
 }
 
-/// Whether a point is in a closed mesh, by the solid angle under which it sees the triangles (van Oosterom & Strackee
-/// 1983), which knows nothing of nearest points.
+/// Whether a point is in a closed mesh, by the solid angle of the triangles as seen from it (van Oosterom & Strackee
+/// 1983). The method is independent of nearest points.
 bool sees_inside(const TriangleMesh& mesh, const Vec<3>& x) {
   double angle = 0.0;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {

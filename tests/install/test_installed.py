@@ -1,5 +1,6 @@
-"""The installed program: every command works from a copy that knows nothing of the sources, and a program of one's own
-finds the library."""
+"""The installed program: every command works from a copy without the sources.
+
+A user's program finds the library."""
 
 import json
 import os
@@ -37,7 +38,8 @@ class Installed(unittest.TestCase):
 
     @classmethod
     def hides_sources(cls):
-        """What makes a command see an empty folder in place of the sources, where this machine allows that."""
+        """A command prefix that replaces the sources by an empty folder, where this machine allows it; otherwise an
+        empty list."""
         words = ["unshare", "--mount", "sh", "-c", f'mount -t tmpfs none "{SOURCES}" && exec "$@"', "sh"]
         allowed = subprocess.run([*words, "true"], capture_output=True, check=False).returncode == 0
         return words if allowed else []

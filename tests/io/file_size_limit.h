@@ -6,7 +6,7 @@
 
 namespace tailwater {
 
-/// Files cannot grow beyond `bytes` while this lives: what a full disk looks like to the program.
+/// Limits the size of files to `bytes` during its lifetime, which imitates a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

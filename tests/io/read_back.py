@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Reads field files back with VTK's own reader and compares every value with what was written.
+"""Reads field files back with VTK's own reader and compares every value with the original.
 
-Usage: read_back.py SAMPLES MPIRUN: what the program write_vtk_samples writes on one rank, and on three."""
+Usage: read_back.py SAMPLES MPIRUN: the files that the program write_vtk_samples writes on one rank, and on three."""
 
 import pathlib
 import subprocess
@@ -15,7 +15,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 
 def read(path):
-    """The vtkPolyData in the file; any complaint of the reader is an error."""
+    """The vtkPolyData in the file; any error or warning of the reader is an error."""
     complaints = []
     reader = vtkXMLPolyDataReader()
     reader.AddObserver("ErrorEvent", lambda *_: complaints.append("error"))

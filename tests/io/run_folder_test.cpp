@@ -131,7 +131,7 @@ TEST(RunFolder, UnwritableIsAnIoErrorForRootToo) {
   const std::string message = message_of<IoError>([&] { RunFolder::create(below_a_file, false); });
   EXPECT_NE(message.find(below_a_file.string()), std::string::npos) << message;
   EXPECT_EQ(tree(folder.path()), (Names{"file"}));
-  // A file system on which nobody can make a folder.
+  // A file system on which no user can make a folder.
   EXPECT_THROW(RunFolder::create("/proc/tailwater", false), IoError);
 }
 

@@ -1,4 +1,4 @@
-// Files that all ranks write together; read_back.py reads what they hold.
+// Files that all ranks write together; read_back.py checks their contents.
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -21,7 +21,7 @@ std::string bytes_of(int rank) {
 
 std::size_t count_entries(const fs::path& folder) { return std::distance(fs::directory_iterator(folder), {}); }
 
-/// The error all ranks get when they write together; collective.
+/// Expects that all ranks get the same error when they write together; collective.
 void expect_same_error(const SharedFolder& folder, const fs::path& path) {
   const std::string bytes = bytes_of(folder.ranks().rank());
   const std::string_view part = bytes;
@@ -34,12 +34,12 @@ TEST(WriteTogether, PartsStandInTheOrderOfRanks) {
   const SharedFolder folder;
   const fs::path path = folder.path() / "file";
   const int rank = folder.ranks().rank();
-  // A longer file that stood there, and a longer one that a killed run left.
+  // A longer earlier file, and a longer one of a killed run.
   if (folder.ranks().is_root()) {
     write_text_file(path, std::string(1'000'000, 'o'));
     write_text_file(folder.path() / "file.part", std::string(1'000'000, 'p'));
   }
-  // Rank r gives r + 1 parts, rank 1 empty ones.
+  // Rank r gives r + 1 parts; those of rank 1 are empty.
   const std::string bytes = rank == 1 ? "" : bytes_of(rank);
   const std::vector<std::string_view> parts(rank + 1, bytes);
   write_file(path, parts, folder.ranks());
@@ -63,7 +63,7 @@ TEST(WriteTogether, AFullDiskIsTheErrorOfAllAndTheOldFileStays) {
   if (folder.ranks().is_root()) write_text_file(path, "old");
   folder.ranks().meet();
   {
-    // Only the last rank's part does not fit any more.
+    // Only the last rank's part exceeds the limit.
     const FileSizeLimit limit(static_cast<rlim_t>(100'000 * folder.ranks().size() - 1));
     expect_same_error(folder, path);
   }

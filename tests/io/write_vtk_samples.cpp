@@ -1,5 +1,5 @@
-// Writes field files of known content into the folder named on the command line, and beside each file what is in it as
-// NAME.csv, for read_back.py to compare. On three ranks each file is written by all of them.
+// Writes field files of known content into the folder named on the command line, and beside each file its content as
+// NAME.csv, with which read_back.py compares it. On three ranks each file is written by all of them.
 #include <fmt/format.h>
 
 #include <array>
@@ -27,7 +27,7 @@ struct Sample {
   std::vector<double> pressure;
   std::vector<std::int64_t> id;
 
-  /// Numbers without a pattern that a shifted or swapped array could share.
+  /// Numbers without a pattern, so that a shifted or swapped array differs.
   Sample(std::size_t count, std::size_t first) {
     for (std::size_t i = first; i < first + count; ++i) {
       const double a = static_cast<double>(i);
@@ -52,7 +52,7 @@ struct Sample {
   }
 };
 
-/// The particles' values as a table.
+/// Writes the values of the particles as a table.
 template <int Dim>
 void write_table(const std::filesystem::path& path, const Sample<Dim>& sample) {
   CsvWriter csv(path, {"x", "y", "z", "pressure", "u", "v", "w", "id"});
@@ -68,7 +68,7 @@ void write_table(const std::filesystem::path& path, const Sample<Dim>& sample) {
   }
 }
 
-/// One file to which rank r gives `counts[r]` particles, and its contents as text.
+/// Writes one file to which rank r gives `counts[r]` particles, and its contents as a table.
 template <int Dim>
 void write_sample(const std::filesystem::path& folder, const std::vector<std::size_t>& counts, int compression,
                   const Communicator& ranks) {
@@ -80,8 +80,8 @@ void write_sample(const std::filesystem::path& folder, const std::vector<std::si
   write_table(folder / (name + ".csv"), Sample<Dim>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), 0));
 }
 
-/// Particles per rank. One rank: none; one; exactly one 32 KiB block of Int64; many blocks. Three: none; an empty rank
-/// at each end and in the middle.
+/// Particles per rank. One rank: none; one; exactly one 32 KiB block of Int64; many blocks. Three ranks: none; an empty
+/// rank at each end and in the middle.
 std::vector<std::vector<std::size_t>> samples(int ranks) {
   if (ranks == 1) return {{0}, {1}, {4096}, {10000}};
   return {{0, 0, 0}, {0, 1, 0}, {5000, 0, 7000}, {4096, 10000, 10}};
@@ -96,7 +96,7 @@ void write_samples(const std::filesystem::path& folder, const Communicator& rank
   }
 }
 
-/// Every rank has `count` particles of each file.
+/// Writes a series of files; every rank has `count` particles of each file.
 void write_series(const std::filesystem::path& folder, const Communicator& ranks) {
   std::filesystem::create_directory(folder / "series");
   PvdSeries series(folder / "series", "fields", 1);

@@ -1,6 +1,6 @@
-// The multigrid on cells and Orthomin around it: iterations do not grow with the number of unknowns, and no row stops
-// them. The systems are those of tanks, with spacing 1: jittered water in layers of wall that follow it, and dry walls
-// above it.
+// The multigrid on cells and Orthomin around it: iterations do not grow with the number of unknowns, and no row
+// prevents convergence. The systems are those of tanks with spacing 1: jittered water, layers of wall around it, and
+// dry walls above it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,8 +31,8 @@ PressureSolverTable multigrid_settings() {
 
 enum class Top { surface, lid };
 
-/// Water in a tank `edge` particles wide and deep, with the rows of a pressure equation and the source whose answer has
-/// the longest waves.
+/// Water in a tank `edge` particles wide and deep, with the rows of a pressure equation and the source whose solution
+/// has the longest waves.
 template <int Dim>
 struct Tank {
   Tank(int edge, Top top) : set(points(edge, top), make_kernel<Dim>(KernelName::wendland_c2, 2.6), 1.0) {
@@ -41,14 +41,14 @@ struct Tank {
     for (std::size_t i = 0; i < set.size(); ++i) {
       weights.emplace_back(pairs.end(i) - pairs.begin(i), 0.0);
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-        if (!is_water[i] && !is_water[pairs.j[k]]) continue;  // walls look at water only
+        if (!is_water[i] && !is_water[pairs.j[k]]) continue;  // walls couple to water only
         weights[i][k - pairs.begin(i)] = static_cast<float>(is_water[i] ? pairs.F(i, k) : pairs.value(i, k));
         sum[i] += weights[i][k - pairs.begin(i)];
       }
     }
     const double full = *std::max_element(sum.begin(), sum.end());
     for (std::size_t i = 0; i < set.size(); ++i) {
-      // What is missing near a surface is air, p = 0. Under a lid only a little softness fixes the pressure.
+      // The deficit near a surface is air, p = 0. Under a lid only a small compressibility fixes the pressure.
       const double own = top == Top::surface ? std::max(0.0, 0.7 * full - sum[i]) : 1e-4 * full;
       diagonal.push_back(is_water[i] ? sum[i] + own : sum[i]);
       rhs.push_back(is_water[i] ? 1.0 : 0.0);
@@ -122,7 +122,7 @@ TEST(CellMultigrid, IterationsDoNotGrowWithDepth) {
   for (const int edge : {8, 12, 20}) {
     EXPECT_LE(iterations_in(Tank<3>(edge, Top::surface)), most_iterations) << edge << " rows deep";
   }
-  // SSOR's iterations do grow, so the systems can tell:
+  // The iterations of SSOR grow, which shows that the systems are large enough:
   EXPECT_GT(iterations_in(Tank<2>(100, Top::surface), PreconditionerName::ssor), 2 * most_iterations);
 }
 
@@ -140,8 +140,9 @@ TEST(CellMultigrid, WaterFarFromTheOriginIsNoHarder) {
   EXPECT_LE(iterations_in(solid), most_iterations);
 }
 
-/// Iterations of a tank of which some rows near the surface have got larger diagonals, as where water may not pull,
-/// from a share of the solution before; with the multigrid of the solve before, or a new one.
+/// Iterations for a tank in which some rows near the surface have larger diagonals, as where tension is limited. The
+/// initial guess is `share_of_solution` times the solution before. The multigrid is that of the previous solve, or a
+/// new one.
 int iterations_after_division(double share_of_solution, bool has_solved_before) {
   constexpr int edge = 40;
   const Tank<2> tank(edge, Top::surface);
@@ -166,9 +167,9 @@ int iterations_after_division(double share_of_solution, bool has_solved_before) 
 }
 
 TEST(CellMultigrid, FollowsDividedDiagonals) {
-  // From near the solution the first level follows; a multigrid that does not gets stuck.
+  // Near the solution the first level of the multigrid follows the change; without this the solve stagnates.
   EXPECT_LE(iterations_after_division(1.0, true), 3 * iterations_after_division(1.0, false) / 2);
-  // From far away it is made anew.
+  // Far from the solution the multigrid is built anew.
   EXPECT_EQ(iterations_after_division(0.0, true), iterations_after_division(0.0, false));
 }
 
@@ -181,8 +182,8 @@ TEST(CellMultigrid, TheSameSystemHasTheSameSolutionBitForBit) {
   EXPECT_EQ(first, second);
 }
 
-/// Rows on a ring of n unknowns spaced by 1, each coupled with its neighbours by 1, and the cells of their places.
-/// `columns` is what the system borrows.
+/// Rows for a ring of n unknowns with spacing 1, each coupled with its neighbours by 1, and the cells of their
+/// positions. The system borrows `columns`.
 void pose_ring(PressureSystem& system, int n, double own, std::vector<std::int32_t>& columns) {
   std::vector<std::size_t> row_begin{0};
   std::vector<Vec<2>> position;
@@ -238,7 +239,7 @@ TEST(CellMultigrid, RowsWithoutNeighboursAndFewRowsAreSolved) {
 }
 
 TEST(CellMultigrid, ManyDropsAreSolvedLikeOneBody) {
-  // Pieces of the ring, cut off from one another: every fifth particle is p = 0, as if it were air.
+  // Separate pieces of the ring: every fifth particle has p = 0, like air.
   PressureSystem system(multigrid_settings());
   std::vector<std::int32_t> columns;
   pose_ring(system, 1000, 0.0, columns);
@@ -280,8 +281,8 @@ TEST(Orthomin, ItsResidualIsThatOfItsSolutionAndNeverGrows) {
   for (std::size_t k = 1; k < outcome.history.size(); ++k) EXPECT_LE(outcome.history[k], outcome.history[k - 1]);
 }
 
-/// Iterations after the three rows at the surface may not pull, with a multigrid from before that has followed,
-/// or with one from after it.
+/// Iterations after the tension of the three rows at the surface was limited. The multigrid was built before and has
+/// followed the change, or was built after it.
 int iterations_with_held_surface(bool has_followed) {
   constexpr int edge = 40;
   constexpr double depth = 3.0;
@@ -295,20 +296,20 @@ int iterations_with_held_surface(bool has_followed) {
     const Vec<2>& x = tank.set.particles.position[i];
     if (tank.is_water[i] && x[1] > edge - depth) system.divide_diagonal(i, 0.1 * static_cast<double>(i % 3));
   }
-  method.begin(system, 0.0);  // so near to the solution a multigrid follows
+  method.begin(system, 0.0);  // so near to the solution a multigrid follows the change
   std::vector<double> x(system.size(), 0.0);
   Iterate iterate{x, {system.rhs().begin(), system.rhs().end()}};
   return method.improve(system, goal_of(tolerance * norm(iterate.residual)), iterate).iterations;
 }
 
 TEST(CellMultigrid, CoarseLevelsFollow) {
-  // If the first level alone does, 13 iterations instead of 9.
+  // If only the first level follows, 13 iterations instead of 9.
   EXPECT_LE(iterations_with_held_surface(true), 5 * iterations_with_held_surface(false) / 4);
 }
 
 TEST(Orthomin, SaysWhenItIsStuck) {
-  // x_i - 3 x_(i+1) = b_i round a ring, which the multigrid, made for diagonals that are larger than the rest, does not
-  // solve.
+  // x_i - 3 x_(i+1) = b_i on a ring. The multigrid is made for diagonals larger than the sum of the other weights and
+  // does not solve this system.
   constexpr int n = 1000;
   std::vector<std::size_t> row_begin{0};
   std::vector<std::int32_t> columns;
@@ -327,7 +328,7 @@ TEST(Orthomin, SaysWhenItIsStuck) {
     row.set_weights([](std::size_t) { return 3.0; });
     row.finish(1.0, noise());
   }
-  const SuspendFpTraps suspended;  // cycles go wild
+  const SuspendFpTraps suspended;  // the cycles diverge
   KeptMultigrid multigrid;
   Orthomin method(multigrid);
   method.begin(system, 1.0);

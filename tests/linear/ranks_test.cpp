@@ -1,5 +1,5 @@
-// The pressure system on several ranks: unknowns dealt out unevenly, with and without empty ranks, against the solution
-// that the right-hand side was made from.
+// The pressure system on several ranks: unknowns are distributed unevenly, with and without empty ranks. The right-hand
+// side is computed from a known solution.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int small_edge = 24;  // unknowns of a square grid with zeros around it
 
-/// The cell of an unknown, two of them wide.
+/// The cell of an unknown; cells are two unknowns wide.
 std::uint64_t cell_of(int number, int edge) {
   return spread_bits<2>(number % edge / 2) | spread_bits<2>(number / edge / 2) << 1;
 }
@@ -34,17 +34,17 @@ std::vector<int> neighbours_of(int number, int edge) {
   return neighbours;
 }
 
-/// The rows of this rank, and the plan that brings what they couple to.
+/// The rows of this rank, and the exchange plan for the unknowns that they couple to.
 struct Share {
   int edge = small_edge;
-  std::vector<int> own;     ///< numbers of its unknowns
-  std::vector<int> ghosts;  ///< numbers of those of others, in the order in which they come
+  std::vector<int> own;     ///< numbers of the rank's own unknowns
+  std::vector<int> ghosts;  ///< numbers of unknowns of other ranks, in the order of their arrival
   ExchangePlan halo;
   std::vector<std::size_t> row_begin{0};
   std::vector<std::int32_t> columns;
 };
 
-/// `owner(number)` says who has an unknown.
+/// `owner(number)` returns the rank that has an unknown.
 template <class Owner>
 Share make_share(const Communicator& ranks, Owner&& owner, int edge = small_edge) {
   Share share;
@@ -58,8 +58,8 @@ Share make_share(const Communicator& ranks, Owner&& owner, int edge = small_edge
   }
   for (int rank = 0; rank < ranks.size(); ++rank) {
     for (int number = 0; rank != ranks.rank() && number < edge * edge; ++number) {
-      bool is_wanted = false;  // by a row of the rank
-      bool is_needed = false;  // by a row of mine
+      bool is_wanted = false;  // by a row of `rank`
+      bool is_needed = false;  // by a row of this rank
       for (const int other : neighbours_of(number, share.edge)) {
         is_wanted = is_wanted || owner(other) == rank;
         is_needed = is_needed || owner(other) == ranks.rank();
@@ -154,7 +154,7 @@ TEST(SystemOfRanksThatFails, AllFailTogether) {
 }
 
 TEST(CellMultigridOfRanks, IterationsDoNotGrowWithRanksAndResultsAreRepeatable) {
-  // Large enough that ranks share more than one level before they gather one.
+  // Large enough that several levels are distributed over the ranks before one is gathered.
   constexpr int edge = 160;
   const Communicator ranks = Communicator::world();
   PressureSolverTable settings;

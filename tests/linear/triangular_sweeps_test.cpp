@@ -1,4 +1,4 @@
-// The sweeps of SSOR, and BiCGStab with them, beside their definitions, with whole matrices.
+// Compares the sweeps of SSOR, and BiCGStab with them, with their definitions by full matrices.
 #include "linear/triangular_sweeps.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr double omega = ssor_factor;
 
-/// A matrix of 0 to `most` entries beside the diagonal, 1, in each row, as the rows of a system. Every third row also
-/// couples images: ghosts of this rank's first rows.
+/// A matrix with unit diagonal and 0 to `most` other entries per row, as the rows of a system. Every third row also
+/// couples to images: ghosts of this rank's first rows.
 struct SparseRows {
   SparseRows(int rows, int images, int most = 6)
       : own(Eigen::MatrixXd::Identity(rows, rows)), of_ghosts(Eigen::MatrixXd::Zero(rows, rows)) {
@@ -73,13 +73,13 @@ struct SparseRows {
   Eigen::MatrixXd whole() const { return own + of_ghosts; }
   Eigen::MatrixXd diagonal_matrix() const { return Eigen::MatrixXd::Identity(own.rows(), own.cols()) / omega; }
 
-  Eigen::MatrixXd own;                ///< what a rank couples of its own
-  Eigen::MatrixXd of_ghosts;          ///< and of images, in the columns of what they copy
-  std::vector<std::int32_t> columns;  ///< which the system borrows
+  Eigen::MatrixXd own;                ///< couplings to the rank's own unknowns
+  Eigen::MatrixXd of_ghosts;          ///< couplings to images, in the columns of the unknowns that they copy
+  std::vector<std::int32_t> columns;  ///< borrowed by the system
   LinearSystem system;
 };
 
-/// Where the rows' parts begin, of a new pattern.
+/// The beginnings of the parts of all rows, for a new pattern.
 RowParts parts_of(const LinearSystem& system) {
   RowParts parts;
   parts.follow(system);
@@ -118,7 +118,7 @@ TEST(TriangularSweeps, EisenstatsFormIsTheProductBetweenTwoSweeps) {
   }
 }
 
-/// x, whose b - A x is `residual`, improved by BiCGStab.
+/// Improves x by BiCGStab; `residual` is b - A x.
 MethodOutcome improve(const LinearSystem& system, const Eigen::VectorXd& residual, double target, Eigen::VectorXd& x) {
   Iterate iterate{entries(x), {residual.begin(), residual.end()}};
   Bicgstab method;
@@ -163,8 +163,8 @@ TEST(Bicgstab, SolvesOnePatternAfterTheOther) {
 }
 
 TEST(Bicgstab, SaysWhenItBreaksDown) {
-  // x_0 - 3 x_1 = b_0, x_1 - 3 x_0 = b_1. Between a b whose preconditioned residual has a positive product with its
-  // image and one with a negative there is one where BiCGStab would divide by 0, or by nearly 0.
+  // x_0 - 3 x_1 = b_0, x_1 - 3 x_0 = b_1. For some b the product of the preconditioned residual with its image is
+  // positive, for others it is negative. Between them is a b for which BiCGStab would divide by 0 or nearly 0.
   LinearSystem system;
   const std::vector<std::int32_t> columns{1, 0};
   system.set_pattern(std::vector<std::size_t>{0, 1, 2}, columns);
@@ -203,7 +203,7 @@ TEST(Bicgstab, SaysWhenItBreaksDown) {
 
 TEST(LinearSystemProduct, IsThatOfTheWholeMatrix) {
   for (const int images : {0, 5}) {
-    const SparseRows rows(40, images, 22);  // some rows as long as several registers, with all rests
+    const SparseRows rows(40, images, 22);  // some rows are as long as several registers, with all possible remainders
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(40, -1.0, 2.0);
     Eigen::VectorXd y(40);
     std::vector<double> with_ghosts(x.begin(), x.end());

@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_cases;
 
-/// A plate that turns by a right angle in 1 s about its foot and moves to the right by t^2, in a channel.
+/// A plate in a channel that rotates by a right angle in 1 s about its foot and moves to the right by t^2.
 CaseSpec flap_case() {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {polyline({{-2.0, -3.0}, {4.0, -3.0}}), box_wall({0.0, 0.2}, {0.3, 1.2}, {}, FluidSide::outside)};
@@ -27,7 +27,7 @@ CaseSpec flap_case() {
 TEST(WallMotion, TurnsAboutThePivotAndThenMoves) {
   const CaseSpec spec = flap_case();
   const WallPath<2> path(spec, spec.walls[1], CaseLabel("wall", "flap"));
-  // (0, 1.2) stands 1 m over the pivot; turned to the right it lies 1 m beside it, and 1 m further.
+  // (0, 1.2) is 1 m above the pivot. After the rotation to the right it is 1 m beside the pivot, and then 1 m further.
   EXPECT_LT((path.at(1.0)(Vec<2>(0.0, 1.2)) - Vec<2>(2.0, 0.2)).norm(), 4.0 * eps);
   EXPECT_LT((path.at(0.0)(Vec<2>(0.3, 0.7)) - Vec<2>(0.3, 0.7)).norm(), 4.0 * eps);
   const AffineMap<2> way = displacement_between(path.at(0.3), path.at(0.8));
@@ -60,7 +60,7 @@ TEST(WallMotion, CarriesFacesAndParticles) {
       EXPECT_EQ(velocity[row], Vec<2>(9.0, 9.0));
       continue;
     }
-    // Depth behind the own faces, and what is blocked, go with the body.
+    // The depth behind the faces of the body and the blocked directions move with the body.
     EXPECT_NEAR(boundary.nearest(particles.position[row], 1.0).signed_distance,
                 drawn.nearest(at_start.position[row], 1.0).signed_distance, 8.0 * eps);
     EXPECT_LT((particles.blocked[row] - turn * at_start.blocked[row] * turn.transpose()).norm(), 8.0 * eps);
@@ -79,7 +79,7 @@ TEST(WallMotion, TakesAGivenPathThatBeginsWhereTheWallIs) {
   WallParticles<2> particles = make_dummy_particles<2>(boundary, 0.1, 3);
   const WallParticles<2> drawn = particles;
   WallMotion<2> motion(spec, boundary, particles);
-  // At t = 0.5 it has moved by 0.25 and turned by an eighth; from there on it goes to the right at 3 m/s.
+  // At t = 0.5 the plate has moved by 0.25 and rotated by pi/4; then it moves to the right at 3 m/s.
   const auto path = [](double ahead) {
     return GivenMotion<2>{[=](double time) {
       return Placement<2>{{0.25 + ahead + 3.0 * (time - 0.5), 0.0}, -std::numbers::pi / 4.0};
@@ -106,7 +106,8 @@ TEST(WallMotion, TakesAGivenPathThatBeginsWhereTheWallIs) {
   EXPECT_NEAR(motion.largest_displacement(0.5, 0.7, {}), 0.6, 16.0 * eps);
 }
 
-// A gate that stands on the bed: the bed's rows go on under it, and nothing of the gate is in the bed.
+// A gate that stands on the bed: the rows of the bed continue under the gate, and no particle of the gate is in the
+// bed.
 TEST(WallMotion, ABodyAndWhatItStandsOnAreSampledApart) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {polyline({{0.0, 1.0}, {0.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}}),
@@ -158,8 +159,8 @@ TEST(Spline, KeepsStraightLinesAlsoBeyondItsEnds) {
   for (const double t : {-1.0, 0.0, 0.03, 0.3, 1.7, 2.0, 4.0}) EXPECT_NEAR(line.at(t), 1.0 + 2.0 * t, 16.0 * eps) << t;
 }
 
-// The sine's second derivative is 0 at both ends, as the spline's, so that it errs by at most 5/384 h^4 times the
-// largest fourth derivative (C.A. Hall, W.W. Meyer 1976) up to the ends.
+// The second derivative of the sine is 0 at both ends, as that of the spline. The error of the spline is therefore at
+// most 5/384 h^4 times the largest fourth derivative (C.A. Hall, W.W. Meyer 1976), also at the ends.
 TEST(Spline, IsOfFourthOrderOnASmoothFunction) {
   const double w = 2.0 * std::numbers::pi;
   for (const double h : {0.1, 0.05}) {
@@ -171,7 +172,7 @@ TEST(Spline, IsOfFourthOrderOnASmoothFunction) {
   }
 }
 
-// Velocity and acceleration are continuous where pieces meet: a difference over 2e from one side and from the other
+// Velocity and acceleration are continuous where pieces meet: one-sided differences from the left and from the right
 // differ by O(e).
 TEST(Spline, HasNoJumpsOfVelocityOrAcceleration) {
   const Spline spline({0.0, 0.3, 0.4, 1.0}, {0.0, 0.5, -0.2, 0.1});
@@ -208,7 +209,7 @@ TEST(WallMotion, InSpaceTurnsAboutAnAxis) {
   spec.walls[0].pivot = {1, 0, 0};
   spec.walls[0].axis = {0, 2, 0};
   const WallPath<3> path(spec, spec.walls[0], CaseLabel("wall", "tank"));
-  // About +y, counter-clockwise as seen against it: z turns to x. (1, 0.5, 1) comes to lie beside the pivot.
+  // About +y, counter-clockwise as seen against it: z turns to x. (1, 0.5, 1) moves to a position beside the pivot.
   EXPECT_LT((path.at(1.0)(Vec<3>(1, 0.5, 1)) - Vec<3>(2, 0.5, 0)).norm(), 8.0 * eps);
   EXPECT_LT((path.at(1.0)(Vec<3>(0, 0.25, 0)) - Vec<3>(1, 0.25, 1)).norm(), 8.0 * eps);
 }

@@ -1,4 +1,4 @@
-// What holds pair by pair, on any set.
+// Identities that hold pair by pair, for any set of particles.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -19,7 +19,7 @@ template <class D>
 class ConservationTest : public testing::Test {};
 TYPED_TEST_SUITE(ConservationTest, Dimensions);
 
-/// A jittered block with edges, in which volumes differ and two particles coincide.
+/// A jittered block with edges, with different volumes and two coincident particles.
 template <int Dim>
 ParticleSet<Dim> disorder(KernelName name) {
   std::vector<Vec<Dim>> points = jittered_cube<Dim>(Dim == 2 ? 14 : 8, dx, 0.4);

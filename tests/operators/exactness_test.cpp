@@ -1,5 +1,5 @@
-// What the operators reproduce exactly. Bounds are round-off: eps times the size of what is summed times a condition
-// number, never an observed error.
+// Fields that the operators reproduce exactly. Bounds are round-off: eps times the size of the summands times a
+// condition number, never an observed error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ ParticleSet<Dim> cube(KernelName kernel, double jitter) {
   return ParticleSet<Dim>(jittered_cube<Dim>(cube_count<Dim>, dx, jitter), make_kernel<Dim>(kernel, radius), dx);
 }
 
-/// Is the whole support inside the cube?
+/// Whether the whole support is inside the cube.
 template <int Dim>
 bool is_interior(const Vec<Dim>& position) {
   return position.cwiseAbs().maxCoeff() < (0.5 * cube_count<Dim> - 0.5 - 0.3) * dx - radius;
@@ -70,11 +70,11 @@ TYPED_TEST(ExactnessTest, GradientOfLinearFieldsInteriorAndEdges) {
       for (std::size_t i = 0; i < set.size(); ++i) {
         const Renormalisation<Dim>& tensors = operators.tensors[i];
         if (jitter == 0.0) {
-          // On a regular block one octant of neighbours remains at a corner, and that spans space.
+          // On a regular block one octant of neighbours remains at a corner, which spans space.
           ASSERT_TRUE(tensors.has_inverse);
         }
         if (!tensors.gradient_is_sound()) continue;
-        // Differences of values of size 2 carry 4 eps; their weights sum to at most tr A |B1| sqrt(Dim)/r_min.
+        // Differences of values of size 2 have errors of 4 eps; their weights sum to at most tr A |B1| sqrt(Dim)/r_min.
         double weights = 0.0;
         for (std::size_t k = set.pairs().begin(i); k < set.pairs().end(i); ++k) {
           weights += consistent_gradient_weight<Dim>(tensors.B1, set.particles.volume[i], set.pairs().e(i, k),
@@ -136,8 +136,8 @@ TYPED_TEST(ExactnessTest, LaplacianOfQuadraticFieldsInteriorAndEdges) {
         for (std::size_t k = set.pairs().begin(i); k < set.pairs().end(i); ++k) {
           weights += std::abs(operators.laplacian_weight(i, k));
         }
-        // Values of size up to 3 are rounded, and so are the weights; B2 comes from a system of at most 6 unknowns
-        // whose condition number soundness keeps below some 1e3.
+        // Values of size up to 3 are rounded, and so are the weights. B2 comes from a system of at most 6 unknowns,
+        // with a condition number below about 1e3 where the tensors are sound.
         const double bound = 1e3 * 16.0 * eps * weights * radius + 16.0 * eps * 3.0 * weights;
         ASSERT_LT(std::abs(operators.laplacian(i, quadratic) - H.trace()), bound);
         ASSERT_LT((operators.laplacian(i, vector) - H.trace() * some_vector<Dim>()).norm(), 2.0 * bound);
@@ -150,8 +150,8 @@ TYPED_TEST(ExactnessTest, LaplacianOfQuadraticFieldsInteriorAndEdges) {
 
 TYPED_TEST(ExactnessTest, SignOfTheSecondTermOfF23) {
   constexpr int Dim = TypeParam::value;
-  // With v = g . x the first term of (F23) sums to -2 (C : B2) . g and the second to 2 drift . A . g, and these cancel
-  // because drift = A^-1 (C : B2). The "+" of the scan leaves -4 (A drift) . g instead, which is of order |g|/dx where
+  // With v = g . x the first term of (F23) sums to -2 (C : B2) . g and the second to 2 drift . A . g. These cancel
+  // because drift = A^-1 (C : B2). The "+" of the scanned paper leaves -4 (A drift) . g, which is of order |g|/dx where
   // the set has no symmetry.
   const Vec<Dim> g = some_vector<Dim>();
   const ParticleSet<Dim> set = cube<Dim>(KernelName::farzin, 0.3);
@@ -206,7 +206,7 @@ TYPED_TEST(ExactnessTest, KernelSumsAreThoseOfThePairs) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     KernelSums<Dim> expected{set.particles.volume[i] * values.W_0, Vec<Dim>::Zero(), Mat<Dim>::Zero(),
                              Vec<Dim>::Zero()};
-    double steepnesses = 0.0;  // 1/m; what the sums over directions may cancel
+    double steepnesses = 0.0;  // 1/m; magnitude of the terms that may cancel
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const double volume = set.particles.volume[pairs.j[k]];
       const double pairing = 1.0 + 0.2 * std::pow(pairs.value(i, k) / values.W_spacing, 4);
@@ -251,7 +251,7 @@ TYPED_TEST(ExactnessTest, LatticeSumsAreWhatALatticeParticleSees) {
       EXPECT_NEAR(kernel_sums<Dim>(pairs, i, values).concentration, sums.concentration, in_single);
       EXPECT_NEAR(morris, sums.morris, in_single * sums.morris);
       EXPECT_LT(kernel_sums<Dim>(pairs, i, values).gradient.norm() * dx, in_single);
-      // By symmetry the two standard forms see linear fields scaled by -sum w dW r/Dim, no other part.
+      // By symmetry the two standard forms multiply linear fields by -sum w dW r/Dim and add nothing else.
       EXPECT_LT((conservative_gradient<Dim>(pairs, i, set.particles.volume, vectors, linear) -
                  first_moment * some_vector<Dim>())
                     .norm(),

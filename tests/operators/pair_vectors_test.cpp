@@ -1,4 +1,4 @@
-// What holds for corrected pair vectors: antisymmetry on any set, first order on strained ones, half-closed faces.
+// Properties of corrected pair vectors: antisymmetry for any set, first order on strained sets, half-closed faces.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -49,7 +49,7 @@ std::vector<Vec<Dim>> sums_over_faces(const ParticleSet<Dim>& set, const PairVec
 
 TYPED_TEST(PairVectorsTest, AreAntisymmetricToTheLastBit) {
   constexpr int Dim = TypeParam::value;
-  // A block with edges, any shares of the corrections.
+  // A block with edges and arbitrary fractions of the corrections.
   const ParticleSet<Dim> set = jittered_block<Dim>(dx);
   Noise noise(51);
   const auto interior =
@@ -135,7 +135,8 @@ TYPED_TEST(PairVectorsTest, MomentumAndWorkAreExactAcrossPeriodicEdges) {
       terms += 4.0 * std::sqrt(Dim) * volume[i] * volume[pairs.j[k]] * vectors.at(pairs, i, k).norm();
     }
   }
-  // Places of ghosts are rounded once more than those of their owners: some eps of the box over the spacing.
+  // Positions of ghosts are rounded once more than those of their owners: some eps times the size of the box over the
+  // spacing.
   const double round_off = static_cast<double>(pairs.owned() + 200) * eps * terms;
   EXPECT_LT(force.norm(), round_off);
   EXPECT_LT(std::abs(work), 4.0 * single_eps * terms);
@@ -143,7 +144,7 @@ TYPED_TEST(PairVectorsTest, MomentumAndWorkAreExactAcrossPeriodicEdges) {
 
 TYPED_TEST(PairVectorsTest, AreOfFirstOrderOnAStrainedLattice) {
   constexpr int Dim = TypeParam::value;
-  // A periodic lattice stretched by 1.2 along x and pressed together along y.
+  // A periodic lattice stretched by 1.2 along x and compressed along y.
   constexpr int count = 10;
   PeriodicDomain<Dim> domain;
   domain.fill(std::pair{-0.5 * count * dx, 0.5 * count * dx});
@@ -166,7 +167,7 @@ TYPED_TEST(PairVectorsTest, AreOfFirstOrderOnAStrainedLattice) {
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
     EXPECT_LT((conservative_gradient<Dim>(pairs, i, set.particles.volume, vectors, pressure) - slope).norm(), bound);
     EXPECT_NEAR(standard_divergence<Dim>(pairs, i, vectors, velocity), G.trace(), bound);
-    // The kernel's gradients take the strain for a compression.
+    // With the kernel's gradients the strain appears as a compression.
     EXPECT_GT(std::abs(standard_divergence<Dim>(pairs, i, gradients, velocity) - G.trace()), 0.01);
   }
 }
@@ -205,7 +206,7 @@ TYPED_TEST(PairVectorsTest, SweepsTendToHalfOfTheFaces) {
     squares_open += open[i].squaredNorm();
     squares_used += as_used[i].squaredNorm();
   }
-  // Half of the faces is a quarter of the squares; three sweeps leave a little more.
+  // Closing half of each face leaves a quarter of the squares; three sweeps leave a little more.
   EXPECT_GT(squares_used, 0.25 * squares_open * (1.0 - 10.0 * single_eps));
   EXPECT_LT(squares_used, 0.5 * squares_open);
 }
@@ -243,7 +244,7 @@ TYPED_TEST(PairVectorsTest, StretchingOfASurfaceIsNoCompressionOnceTheyReachIt) 
     return u;
   }));
   const auto divergences_on_top = [&](const PairVectorField<Dim>& vectors) {
-    std::vector<double> found;  // 1/s, of the three outermost rows in the middle
+    std::vector<double> found;  // 1/s, for the three outermost rows in the middle
     for (int row = 0; row < 3; ++row) {
       for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
         Vec<Dim> place = Vec<Dim>::Zero();
@@ -263,7 +264,7 @@ TYPED_TEST(PairVectorsTest, StretchingOfASurfaceIsNoCompressionOnceTheyReachIt) 
     EXPECT_NEAR(inside[row], kernel[row], 0.01);
     EXPECT_LT(std::abs(surface[row]), 0.3 * kernel[row]);
   }
-  EXPECT_LT(std::abs(surface[2]), 0.2 * kernel[1]);  // of the sweeps, which reach inside
+  EXPECT_LT(std::abs(surface[2]), 0.2 * kernel[1]);  // due to the sweeps, which reach inside
 }
 
 }  // namespace pair_vectors_test

@@ -10,7 +10,7 @@
 namespace tailwater {
 namespace {
 
-/// A system that is told file by file.
+/// A folder with the files by which a system describes its processors.
 class System {
  public:
   void tell(const std::filesystem::path& file, const std::string& text) {

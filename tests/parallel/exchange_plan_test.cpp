@@ -9,8 +9,8 @@
 namespace tailwater {
 namespace {
 
-/// Rank r owns 3 (r + 1) entries, but the last of several ranks none. Each sends to every rank, itself included, its
-/// entries k for which (k + sender + receiver) is even, the first of them twice.
+/// Rank r owns 3 (r + 1) entries; the last of several ranks owns none. Each rank sends to every rank, itself included,
+/// its entries k for which (k + sender + receiver) is even, the first of them twice.
 struct Exchange {
   Communicator ranks = Communicator::world();
   std::size_t owned = owned_by(ranks.rank());
@@ -40,7 +40,7 @@ struct Exchange {
     for (std::size_t k = 0; k < owned; ++k) field.push_back(value(ranks.rank(), static_cast<std::int32_t>(k)));
     return field;
   }
-  /// The same with the ghosts that must have come.
+  /// The owned entries followed by the ghosts that must arrive.
   template <class Value>
   auto whole_field(const Value& value) const {
     auto field = owned_field(value);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t points_in_all = 8000;
 
-/// Points in a unit cube with weights from 1 to 3, the same for any number of ranks; dealt round-robin to all but the
-/// last rank, which starts with none.
+/// Points in a unit cube with weights from 1 to 3, the same for any number of ranks. They are dealt round-robin to all
+/// ranks but the last, which starts with none.
 template <int Dim>
 struct Cloud {
   Communicator ranks = Communicator::world();
@@ -41,8 +41,8 @@ template <class Dimension>
 class SpaceCutsTest : public testing::Test {};
 TYPED_TEST_SUITE(SpaceCutsTest, Dimensions);
 
-/// A cut passes between points, so a part misses its share by up to the weight of one point at each of its cuts, or by
-/// the tolerance that Zoltan is given, 1 %.
+/// A cut passes between points, so the weight of a part is off by up to the weight of one point at each of its cuts, or
+/// by the tolerance given to Zoltan, 1 %.
 TYPED_TEST(SpaceCutsTest, PartsGetEqualWeight) {
   constexpr int Dim = TypeParam::value;
   const Cloud<Dim> cloud;
@@ -78,7 +78,7 @@ TYPED_TEST(SpaceCutsTest, RanksAgreeAlsoAboutFarPlaces) {
   EXPECT_EQ(disagreements, 0);
 }
 
-/// Restored cuts are the same, and so are those that are made next: bisection starts from the cuts before.
+/// Restored cuts are equal, and so are the next ones, although bisection starts from the previous cuts.
 TYPED_TEST(SpaceCutsTest, CanBeSavedAndRestored) {
   constexpr int Dim = TypeParam::value;
   Cloud<Dim> cloud;
@@ -100,8 +100,8 @@ TYPED_TEST(SpaceCutsTest, CanBeSavedAndRestored) {
   expect_same(cuts, restored);
 }
 
-/// Recursive bisection cuts space by planes: a far place belongs to the part of what is nearest to it in the cloud when
-/// it lies straight out from a face, and every part is a box.
+/// Recursive bisection cuts space by planes. Every part is a box, and a far position straight out from a face of the
+/// cloud belongs to the part of the nearest point of the cloud.
 TYPED_TEST(SpaceCutsTest, PartsOfBisectionAreBoxesWithoutBound) {
   constexpr int Dim = TypeParam::value;
   const Cloud<Dim> cloud;

@@ -14,7 +14,7 @@ namespace {
 constexpr double dx = 0.05;
 constexpr double layer_porosity = 0.4;
 
-/// A tank of 1 m with a layer from x = 0.4 m to its right wall, on its floor, up to the height.
+/// A tank of 1 m with a porous layer on its floor, from x = 0.4 m to its right wall, up to `height`.
 template <int Dim>
 CaseSpec tank_with_layer(double height) {
   CaseSpec spec = tank_case<Dim>(dx, 1.0, 0.5);
@@ -38,7 +38,7 @@ PorousField<Dim> make_field(const CaseSpec& spec, const PeriodicDomain<Dim>& dom
   return {spec, boundary, make_kernel<Dim>(KernelName::wendland_c2, 3.0 * dx), domain};
 }
 
-/// At x, halfway up the layer and in the middle of other directions.
+/// The position at x and height y, in the middle of other directions.
 template <int Dim>
 Vec<Dim> at(double x, double y) {
   Vec<Dim> place = Vec<Dim>::Constant(0.5);
@@ -67,7 +67,8 @@ TYPED_TEST(PorousFieldIn, HasTheMediumInsideUpToWallsAndOpenWaterOutside) {
   EXPECT_NEAR(field.porosity_at(at<Dim>(0.4, 0.2)), 0.5 * (1.0 + layer_porosity), rounding);
 }
 
-// The kernel is even, so across the surface the mean is that of what is drawn, also where the surface is between nodes.
+// The kernel is even, so across the surface of the layer the mean porosity equals that of the drawing, also where the
+// surface is between nodes.
 TYPED_TEST(PorousFieldIn, KeepsTheVolumeOfThePores) {
   constexpr int Dim = TypeParam::value;
   for (const double from : {0.4, 0.4 + 0.3 * dx}) {
@@ -114,7 +115,7 @@ TEST(PorousField, APolygonHasTheSidesOfItsOutline) {
   const PorousField<2> field = make_field<2>(spec);
   EXPECT_NEAR(field.porosity_at({0.8, 0.2}), layer_porosity, rounding);
   EXPECT_EQ(field.porosity_at({0.3, 0.4}), 1.0);
-  // Oblique to the grid the fraction of a cell is not exact: a hundredth of the step of n.
+  // Oblique to the grid the fraction of a cell is not exact: the error is a hundredth of the step of n.
   EXPECT_NEAR(field.porosity_at({0.6, 0.3}), 0.5 * (1.0 + layer_porosity), 0.01 * (1.0 - layer_porosity));
 }
 

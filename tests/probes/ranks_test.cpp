@@ -1,5 +1,5 @@
-// Probes read the same however the particles are distributed. Sums over particles come in another order, so readings
-// differ by rounding: some hundred terms of one sign are exact to 1e-13, and no reading magnifies this by ten.
+// Probes have the same readings for any distribution of the particles. Sums over particles have another order, so that
+// readings differ by rounding: some hundred terms of one sign are exact to 1e-13, and no reading magnifies this by ten.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 namespace tailwater {
 namespace {
 
-/// Particle `i` at `x` goes to this rank.
+/// Returns the rank of particle `i` at `x`.
 template <int Dim>
 using Deal = std::function<int(std::size_t i, const Vec<Dim>& x)>;
 
-/// Sloping water that moves, and a single particle before its front and above it.
+/// Sloping water that moves, and a single particle beyond its front and above it.
 template <int Dim>
 Tank<Dim> sloping_tank() {
   Tank<Dim> tank(0.6, [](const Vec<Dim>& x) { return x[0] < 0.8 && x[Dim - 1] < 0.6 - 0.3 * x[0]; });
@@ -35,7 +35,7 @@ Tank<Dim> sloping_tank() {
   return tank;
 }
 
-/// On the part of the walls left of x = 0.63.
+/// A probe on the part of the walls left of x = 0.63.
 template <int Dim>
 ProbeTable on_walls(ProbeType type, const Coordinates& moment_about) {
   ProbeTable probe = probe_at(type, {});
@@ -46,7 +46,7 @@ ProbeTable on_walls(ProbeType type, const Coordinates& moment_about) {
   return probe;
 }
 
-/// Some force through every owned particle.
+/// Arbitrary forces through every owned particle.
 template <int Dim>
 WallForces<Dim> made_forces(const Particles<Dim>& particles) {
   WallForces<Dim> forces;
@@ -90,8 +90,8 @@ std::vector<ProbeTable> all_probes() {
   return probes;
 }
 
-/// The sloping tank with a plate across its water, and some particles of it on both of its sides; the plate that each
-/// particle is of.
+/// The sloping tank with a plate across its water and some particles of the plate on both of its sides. Also returns
+/// the plate that each particle belongs to.
 template <int Dim>
 std::pair<Tank<Dim>, std::vector<int>> tank_with_plate() {
   Tank<Dim> tank = sloping_tank<Dim>();
@@ -116,7 +116,7 @@ std::pair<Tank<Dim>, std::vector<int>> tank_with_plate() {
   return {std::move(tank), std::move(felt_through)};
 }
 
-/// What rank `rank` has of the tank: its own particles and all others as ghosts, or these alone.
+/// The particles that rank `rank` has: its own, and with `with_ghosts` all others as ghosts.
 template <int Dim>
 Particles<Dim> part_of(const Particles<Dim>& all, const Deal<Dim>& deal, int rank, bool with_ghosts) {
   Particles<Dim> part;
@@ -144,12 +144,12 @@ std::vector<double> numbers_in(const std::filesystem::path& path) {
   return {std::istream_iterator<double>(stream), {}};
 }
 
-/// Takes all readings on one rank and on all, and compares them.
+/// Takes all readings on one rank and on all ranks, and compares them.
 template <int Dim>
 void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   Tank<Dim> tank = sloping_tank<Dim>();
   tank.spec.probes = all_probes<Dim>();
-  // Without ghosts no rank knows who is connected.
+  // Without ghosts no rank can determine which particles are connected.
   if (!with_ghosts) tank.spec.probes.resize(tank.spec.probes.size() - 2);
   const FlowTotals totals{.kinetic_energy = 1.5, .potential_energy = 2.5, .volume_out = 0.25};
 
@@ -194,7 +194,7 @@ class ProbesOnRanks : public testing::Test {
       return static_cast<int>(i % n);
     };
   }
-  /// Ranks 2 and on have none.
+  /// Ranks from 2 on have no particles.
   static Deal<Dimension::value> halves() {
     return [n = Communicator::world().size()](std::size_t, const Vec<Dimension::value>& x) {
       return n > 1 && x[0] < 0.4 ? 1 : 0;
@@ -210,7 +210,7 @@ TYPED_TEST(ProbesOnRanks, HalvesAndEmptyRanksWithGhosts) {
   expect_same_readings<TypeParam::value>(this->halves(), true);
 }
 
-// The root reads what particles of other ranks say, and those that are of a plate speak for what it hides.
+// The root combines the readings of all ranks. Particles of a plate count for the water that the plate hides.
 TYPED_TEST(ProbesOnRanks, BesideAPlate) {
   constexpr int Dim = TypeParam::value;
   auto made = tank_with_plate<Dim>();

@@ -18,7 +18,7 @@ class VelocityProfileTest : public testing::Test {
   static constexpr int dimension = Dimension::value;
   using TankOf = Tank<dimension>;
 
-  /// Water up to 0.6 m that shears, (1 + 2 z, .., -3), or moves along x.
+  /// Water up to 0.6 m with a linear shear, (1 + 2 z, .., -3).
   static TankOf shearing() {
     TankOf tank = TankOf::filled(0.6);
     for (std::size_t i = 0; i < tank.particles.size(); ++i) {
@@ -35,7 +35,7 @@ class VelocityProfileTest : public testing::Test {
 };
 TYPED_TEST_SUITE(VelocityProfileTest, Dimensions);
 
-/// The interpolation is exact for linear fields, and so is the mean over pieces that are read in their middle.
+/// The interpolation is exact for linear fields, and so is the mean over pieces by the midpoint rule.
 TYPED_TEST(VelocityProfileTest, OfALinearShearIsExact) {
   constexpr int Dim = TestFixture::dimension;
   using T = typename TestFixture::TankOf;
@@ -83,9 +83,9 @@ TYPED_TEST(VelocityProfileTest, OfADryBedIsARowOfZeros) {
   EXPECT_EQ(reading.take(tank.context()), std::vector<Row>{Row(2 + 2 * Dim, 0.0)});
 }
 
-/// What overtops a crest 0.4 m high: a section from the crest up, H = 1 m high. Water 0.8 m high is a whole number of
-/// rows, which the tent counts exactly. What passes at a constant rate q brings the mean from q_0 to q + (q_0 - q)
-/// exp(-t/T) with T = 20 dx/sqrt(g H), whenever it is read meanwhile.
+/// Overtopping of a crest 0.4 m high: a section from the crest up, H = 1 m high. Water 0.8 m high is a whole number of
+/// rows, which the linear weights count exactly. A constant discharge q changes the mean from q_0 to q + (q_0 - q)
+/// exp(-t/T) with T = 20 dx/sqrt(g H), independent of readings in between.
 TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
   constexpr int Dim = TestFixture::dimension;
   using T = typename TestFixture::TankOf;
@@ -108,7 +108,7 @@ TYPED_TEST(VelocityProfileTest, DischargeOverACrestKeepsItsLargest) {
   const auto after = [&](double time, double from, double to) {
     return to + (from - to) * std::exp(-time / smoothing);
   };
-  const double at_start = 0.4 * 0.5;  // nothing has been counted yet: by the water's velocity
+  const double at_start = 0.4 * 0.5;  // from the velocity of the water, since no volume has been counted yet
   EXPECT_NEAR(discharge_at(0.0, 0.5, 0.0), at_start, 1e-12);
   EXPECT_NEAR(discharge_at(0.1, 2.0, 0.08), after(0.1, at_start, 0.8), 1e-12);
   EXPECT_NEAR(discharge_at(0.15, 0.0, 0.12), after(0.15, at_start, 0.8), 1e-12);

@@ -16,8 +16,8 @@ class WallPressureTest : public testing::Test {
   static constexpr int dimension = Dimension::value;
   using TankOf = Tank<dimension>;
 
-  /// Every term of the sum equals the wall's own pressure up to rounding: some 1e2 operations on numbers of size
-  /// rho g H, each exact to 1.1e-16 of that.
+  /// Every term of the sum equals the pressure at the wall up to rounding: some 1e2 operations on numbers of size rho g
+  /// H, each with a relative error of 1.1e-16.
   static constexpr double rounding = 1e-13 * TankOf::rho * TankOf::g;
 
   static Row pressure(const TankOf& tank, const Coordinates& at) {
@@ -33,7 +33,7 @@ TYPED_TEST(WallPressureTest, StillWaterIsReadExactlyAtAnyHeightUpToTheSurface) {
   using T = typename TestFixture::TankOf;
   const double level = 0.8;
   const T tank = T::filled(level);
-  // To the floor's corner, and to within the error of the depth (0.05 dx) of the surface.
+  // Down to the corner at the floor, and up to the surface within the error of the depth (0.05 dx).
   for (const double z : {0.0, 0.01, 0.1, 0.333, 0.7, 0.79, level - 0.05 * T::dx}) {
     EXPECT_NEAR(TestFixture::pressure(tank, T::at(1.0, z))[0], T::rho * T::g * (level - z), TestFixture::rounding) << z;
   }
@@ -42,7 +42,7 @@ TYPED_TEST(WallPressureTest, StillWaterIsReadExactlyAtAnyHeightUpToTheSurface) {
   }
 }
 
-/// Of the air a pressure that grows away from the right wall, on which it is 0: it is read dx in front of the wall.
+/// The air pressure is 0 at the right wall and grows away from it: the probe reads it dx in front of the wall.
 TYPED_TEST(WallPressureTest, OfADryPlaceIsThatOfTheAirInFrontOfIt) {
   using T = typename TestFixture::TankOf;
   constexpr int dim = TestFixture::dimension;
@@ -90,7 +90,7 @@ TYPED_TEST(WallPressureTest, HydrostaticsDoNotMakeSuctionThatNoParticleHas) {
   using T = typename TestFixture::TankOf;
   T falling = T::filled(0.8);
   std::fill(falling.particles.pressure.begin(), falling.particles.pressure.end(), 0.0);
-  // At the surface all particles are below the place, and carried up along rho g they would read some -rho g dx.
+  // At the surface all particles are below the probe. Extrapolated upwards with rho g, they would give about -rho g dx.
   const double z = 0.8 - 0.05 * T::dx;
   EXPECT_EQ(TestFixture::pressure(falling, T::at(1.0, z))[0], 0.0);
   std::fill(falling.particles.pressure.begin(), falling.particles.pressure.end(), -1.0);
@@ -108,10 +108,10 @@ TYPED_TEST(WallPressureTest, TheMeanOverAStretchCountsDryPlacesAsZero) {
         .take(tank.context())
         .at(0);
   };
-  // The middles of equal pieces average a linear pressure exactly.
+  // Averaging the midpoints of equal pieces is exact for a linear pressure.
   EXPECT_NEAR(mean(0.1, 0.5)[0], T::rho * T::g * 0.3, TestFixture::rounding);
   EXPECT_EQ(mean(0.1, 0.5)[1], 1.0);
-  // Half the stretch is above water; no place (at odd multiples of dx/4) is nearer to the surface than dx/4.
+  // Half of the stretch is above water; no point (at odd multiples of dx/4) is nearer to the surface than dx/4.
   EXPECT_NEAR(mean(0.4, 0.8)[0], 0.5 * T::rho * T::g * 0.1, TestFixture::rounding);
   EXPECT_EQ(mean(0.4, 0.8)[1], 0.5);
   EXPECT_EQ(mean(0.7, 0.9), (Row{0.0, 0.0, 0.0}));
@@ -131,7 +131,7 @@ TYPED_TEST(WallPressureTest, TheMeanOverADiscIsThatAtItsCentreUnderWaterAndHalfD
     EXPECT_NEAR(disc(0.3, diameter)[0], T::rho * T::g * 0.3, TestFixture::rounding) << diameter;
     EXPECT_EQ(disc(0.3, diameter)[1], 1.0);
   }
-  // No place is nearer to the level than dx/4.
+  // No point is nearer to the level than dx/4.
   const Row at_level = disc(0.6, 4.0 * T::dx);
   EXPECT_EQ(at_level[1], 0.5);
   EXPECT_GT(at_level[0], 0.0);
@@ -146,7 +146,7 @@ TEST(WallPressureMean, OverARectangleIsThatOverItsDepth) {
     probe.width = width;
     return wall_pressure_mean_reading<3>(probe, tank.spec, tank.boundary).take(tank.context()).at(0);
   };
-  // From 0.5 m to 0.7 m, half of it dry: 0.1 m of water in the mean 0.05 m deep, over twice its height.
+  // From 0.5 m to 0.7 m, half of it dry: 0.1 m of water with a mean depth of 0.05 m, over twice its height.
   const Row row = mean({1.0, 0.2, 0.6}, {1.0, 0.8, 0.6}, 0.2);
   EXPECT_NEAR(row[0], 0.5 * T::rho * T::g * 0.05, 1e-9 * T::rho * T::g);
   EXPECT_EQ(row[1], 0.5);

@@ -1,4 +1,4 @@
-// What a gauge says of waves: of sines whose heights and periods are known.
+// Wave statistics of a gauge, for sines with known heights and periods.
 #include "probes/wave_record.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,9 @@ std::map<std::string, double> lines(const WaveRecord& record) {
   return lines;
 }
 
-/// Crests fall between samples by at most half a step: 1 - cos(pi step/period). A crossing is off by the share of the
-/// mean that is not yet still: the first half wave lifts it by at most height/(2 pi) of its own time.
+/// Crests lie between samples, at most half a step away, and are missed by 1 - cos(pi step/period). A crossing is
+/// shifted by the error of the mean level: the first half wave raises the mean by at most height/(2 pi), weighted by
+/// its duration.
 TEST(WaveRecord, TellsHeightsAndPeriodOfASine) {
   WaveRecord record(band);
   for (int n = 0; n * step < 20.0 * period; ++n) record.add(n * step, still + wave(n * step));
@@ -45,7 +46,8 @@ TEST(WaveRecord, TellsHeightsAndPeriodOfASine) {
   EXPECT_NEAR(found.at("largest_m"), still + 0.5 * height, missed);
 }
 
-/// Every third wave is twice as high: the mean of the highest third is theirs, the mean of all 4/3 of the small ones.
+/// Every third wave is twice as high: they determine the mean of the highest third, and the mean of all waves is 4/3 of
+/// the small ones.
 TEST(WaveRecord, TheHighestThirdIsTheSignificantHeight) {
   WaveRecord record(band);
   const auto size = [](double time) { return static_cast<int>(std::floor(time / period + 0.25)) % 3 == 0 ? 2.0 : 1.0; };
@@ -69,7 +71,7 @@ TEST(WaveRecord, TremblingIsNoWave) {
   EXPECT_NEAR(found.at("mean_m"), still, 1e-2 * band);
 }
 
-/// A record that goes on from another's memory ends as the other.
+/// A record restored from another's state gives the same results.
 TEST(WaveRecord, GoesOnFromItsMemory) {
   WaveRecord whole(band);
   WaveRecord half(band);

@@ -1,4 +1,4 @@
-// The operators of the two-step scheme, (B6)-(B8): what holds pair by pair on any set, and what they have on a lattice.
+// The operators of the two-step scheme, (B6)-(B8): identities pair by pair for any set, and values on a lattice.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ ParticleSet<Dim> cube(double jitter) {
                           make_kernel<Dim>(KernelName::cubic_spline, radius), dx);
 }
 
-/// Is the whole support inside the cube?
+/// Whether the whole support is inside the cube.
 template <int Dim>
 bool is_interior(const ParticleSet<Dim>& set, std::size_t i) {
   return set.position(i).cwiseAbs().maxCoeff() < (0.5 * (Dim == 2 ? 14 : 9) - 0.5) * dx - radius;
@@ -130,7 +130,7 @@ TYPED_TEST(DensityWeightedTest, LatticeHasFullDensityAndGivesLinearFieldsNoLapla
       second_moment += c_ij * pairs.r(i, k) * pairs.r(i, k);
     }
     EXPECT_NEAR(linear, 0.0, 10.0 * single_eps * sum * radius);
-    // A lattice knows no direction: lap(x^2) is lap(r^2)/Dim.
+    // A lattice has no preferred direction: lap(x^2) is lap(r^2)/Dim.
     EXPECT_NEAR(square, second_moment / Dim, 10.0 * single_eps * second_moment);
   }
   EXPECT_GT(tested, 0);

@@ -17,7 +17,7 @@ TYPED_TEST_SUITE(SurfaceMarksTest, Dimensions);
 
 enum class Test { cone, density };
 
-/// What the surface tests of the papers mark of a set.
+/// The surface marks of the papers for a set of particles.
 template <int Dim>
 struct Marks {
   Marks(Test test, const Particles<Dim>& particles, PeriodicDomain<Dim> domain)
@@ -46,7 +46,8 @@ struct Marks {
 
 TYPED_TEST(SurfaceMarksTest, MarkTheOutermostRowsAndNothingElse) {
   constexpr int Dim = TypeParam::value;
-  for (const Test test : {Test::cone, Test::density}) {  // on a disordered set density marks whatever is loose
+  for (const Test test : {Test::cone, Test::density}) {  // on a disordered set, the density test marks all loose
+                                                         // particles
     const Marks<Dim> marks(test, fluid_at<Dim>(layer<Dim>(), layer_dx), along_the_layer<Dim>());
     for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
       const int row = row_of(marks.set.position(i)[1]);
@@ -61,7 +62,7 @@ TYPED_TEST(SurfaceMarksTest, TheInteriorBeginsBelowTwoRows) {
   for (std::size_t i = 0; i < marks.set.pairs().owned(); ++i) {
     const int row = row_of(marks.set.position(i)[1]);
     const int depth = std::min(row, rows - 1 - row);
-    if (depth == 2) continue;  // exactly 2 layer_dx away: rounding decides
+    if (depth == 2) continue;  // exactly 2 layer_dx away, so that rounding decides
     EXPECT_EQ(marks.interior[i], depth < 2 ? 0.0 : 1.0) << "depth " << depth;
   }
 }
@@ -81,7 +82,7 @@ TYPED_TEST(SurfaceMarksTest, WallsAreNeverMarkedAndCoverTheSurface) {
 
 TYPED_TEST(SurfaceMarksTest, AClumpAsDenseAsWaterIsSurface) {
   constexpr int Dim = TypeParam::value;
-  // Seven particles almost in one place: W_0 w/C_0 is 0.32 in 2D and 0.18 in 3D.
+  // Seven nearly coincident particles: W_0 w/C_0 is 0.32 in 2D and 0.18 in 3D.
   std::vector<Vec<Dim>> clump;
   for (int k = 0; k < 7; ++k) clump.push_back(0.01 * k * layer_dx * Vec<Dim>::UnitX());
   const Marks<Dim> marks(Test::density, fluid_at<Dim>(clump, layer_dx), {});

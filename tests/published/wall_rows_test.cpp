@@ -1,4 +1,4 @@
-// What the walls of the papers show to the water.
+// The velocities that the wall rows of the papers present to the water.
 #include <gtest/gtest.h>
 
 #include "published/pressure_rows.h"
@@ -31,7 +31,7 @@ TYPED_TEST(WallRowsTest, AWallThatMovesWithTheWaterLeavesItAlone) {
       EXPECT_LT((velocity[i] - u).norm(), 4.0 * single_eps);
       EXPECT_LT(acceleration[i].norm(), 40.0 * single_eps / (wetted_dx * wetted_dx));
     }
-    // A piston faster than the water: its rows have its own velocity.
+    // A piston faster than the water: the rows have the velocity of the piston.
     for (Vec<Dim>& V : wall.V) V = u + Vec<Dim>::UnitY();
     const auto pushed = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
     for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {

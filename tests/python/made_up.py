@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Made-up series of values whose limit is 0: how many intervals contain it, and how wide they are.
+"""Made-up series of values whose limit is 0: the fraction of intervals that contain it, and the widths of intervals.
 
 Usage: PYTHONPATH=python tests/python/made_up.py [COUNT]    prints the table of docs/theory/uncertainty.md; 3 minutes
 """
@@ -9,14 +9,14 @@ import numpy as np
 from tailwater.uncertainty import estimate
 
 H = 0.01 * 2 ** np.linspace(0, 1, 7)  # the seven spacings of a study
-STARTS = 3  # others, of the second coarsest
+STARTS = 3  # other starts at the second coarsest spacing
 
 
 def sign(random):
     return random.choice([-1, 1])
 
 
-# Error over x, the spacing over the coarsest.
+# Error as a function of x, the spacing over the coarsest one.
 FAMILIES = {
     "a x + b x^2 of one sign": lambda x, random: sign(random) * (random.uniform(0, 1) * x + random.uniform(0, 1) * x**2),
     "a x + b x^2 of either sign": lambda x, random: random.uniform(-1, 1) * x + random.uniform(-1, 1) * x**2,
@@ -26,17 +26,17 @@ FAMILIES = {
     "a x + b x^2 and scatter up to 0.3": lambda x, random: (random.uniform(-1, 1) * x + random.uniform(-1, 1) * x**2
                                                             + random.uniform(0, 0.3) * random.normal(size=x.size)),
 }
-# At which it may fail.
+# Errors for which the method may fail.
 HARD = {
     "a x^0.5 + b x^1.5": lambda x, random: random.uniform(-1, 1) * x**0.5 + random.uniform(-1, 1) * x**1.5,
     "x - b x^2, b from 0.5 to 1": lambda x, random: sign(random) * (x - random.uniform(0.5, 1) * x**2),
 }
-CHANCES = (0, 0.1, 0.3, 1)  # of the largest error, at most
+CHANCES = (0, 0.1, 0.3, 1)  # largest standard deviation over the largest error
 
 
 def found(error_of, chance, random, of_step=0.0):
-    """(Estimate, largest error) of one series. `of_step` is the error of the step at the coarsest spacing, of the first
-    order; half of the step is tried at the second coarsest."""
+    """(Estimate, largest error) of one series. `of_step` is the first-order error of the time step at the coarsest
+    spacing; half of the time step is run at the second coarsest spacing."""
     x = H / H[-1]
     error = error_of(x, random) + of_step * x
     largest = abs(error).max()
@@ -48,8 +48,8 @@ def found(error_of, chance, random, of_step=0.0):
 
 
 def shares(error_of, chance, count, steps=0.0, seed=1):
-    """Of so many series: the share of intervals that contain 0, and their median half width over the largest error; the
-    same for the method of Eca & Hoekstra. `steps`: the largest error of the step."""
+    """For `count` series, the fraction of intervals that contain 0, and their median half width over the largest error;
+    then both numbers for the method of Eca & Hoekstra. `steps` is the largest error of the time step."""
     random = np.random.default_rng(seed)
     all_found = [found(error_of, chance, random, steps * random.uniform(-1, 1)) for _ in range(count)]
     inside = [one.low <= 0 <= one.high for one, _ in all_found]

@@ -1,4 +1,4 @@
-"""Two ranks under mpirun, one with an error in its script: both end, and nobody waits. Argument: the run's folder."""
+"""Two ranks under mpirun, one with an error in its script: both end, and neither waits. Argument: the run's folder."""
 
 import sys
 import tempfile

@@ -1,4 +1,4 @@
-"""Cases of a few particles, and a folder to work in."""
+"""Cases of a few particles, and a test class with a working folder."""
 
 import os
 import tempfile
@@ -28,7 +28,7 @@ type = "depth"
 at = [0.5, 0]
 """
 
-# Nothing acts on it, so what a script adds is all.
+# No force acts on the drop except those of a script.
 DROP = """\
 [case]
 title = "A drop that nothing holds"
@@ -47,7 +47,7 @@ end = 0.2
 
 
 class PackageTest(unittest.TestCase):
-    """In an empty folder, which is the working folder."""
+    """A test in an empty folder, which is the working folder."""
 
     maxDiff = None
 

@@ -1,4 +1,4 @@
-"""What a script adds to a run: forces on water and bodies, the discharge of an inlet."""
+"""Actions of a script on a run: forces on water and bodies, the discharge of an inlet, motions of walls."""
 
 import unittest
 
@@ -55,8 +55,8 @@ end = 0.5
 
 class OnWater(PackageTest):
     def free_water(self, hook):
-        """(the end, what its velocity can be wrong by): the small pressure that there is pushes a particle by its
-        difference over half the way to the next, in all that time."""
+        """(the end, bound of the error of its velocity). The bound follows from the small pressure of the drop, which
+        acts on a particle all the time, by its difference over half the distance to the next particle."""
         largest = 0.0
         with tw.Case(self.write("drop.toml", DROP)).simulation() as simulation:
             for step in simulation:
@@ -68,7 +68,7 @@ class OnWater(PackageTest):
             return end.time, end.velocity, 4 * largest / (simulation.density * simulation.spacing) * end.time
 
     def test_equal_force_moves_free_water_as_a_body(self):
-        """It has no divergence, so it makes no pressure, and the sum over steps of dt a is a t."""
+        """The force has no divergence and causes no pressure, so the sum of dt a over the steps is a t."""
         force = np.array([3.0, -2.0])
 
         def pull(step):
@@ -108,7 +108,7 @@ class OnWater(PackageTest):
 class OnBodies(PackageTest):
     def setUp(self):
         super().setUp()
-        # Without the jitter all is symmetric, and round-off decides what happens first on which side.
+        # Without the jitter the flow is symmetric, and round-off decides on which side something happens first.
         self.case = tw.Case.template("floating-box").update(
             {"particles.spacing": 0.04, "particles.jitter": 0.1, "time.end": 0.25})
 
@@ -138,8 +138,9 @@ class OnBodies(PackageTest):
                     path.append([step.time, *box.centre, np.arctan2(box.rotation[1, 0], box.rotation[0, 0])])
             return np.array(path)
 
-        # Round-off may cost a solve an iteration, so solves end only where that is seen no more. What is left, here
-        # 2e-9 to 8e-9 with spacings of 0.035 to 0.045 m, comes from pairs, which are in single precision.
+        # Round-off may cost a solve an iteration, so the tolerance makes this effect negligible. The remaining
+        # difference, here 2e-9 to 8e-9 with spacings of 0.035 to 0.045 m, comes from pairs, which are in single
+        # precision.
         self.case["pressure_solver.tolerance"] = 1e-8
         moored, pushed = motion(self.case), motion(self.without_lines(), moor)
         self.assertGreater(abs(moored[:, 2] - moored[0, 2]).max(), 1e-4)
@@ -163,7 +164,7 @@ class OnBodies(PackageTest):
 
 class AtInlets(PackageTest):
     def test_discharge_is_that_of_the_script(self):
-        """The books add dt q in every step."""
+        """The water balance adds dt q in every step."""
         with tw.Case(self.write("inflow.toml", INFLOW)).simulation("out") as simulation:
             asked = 0.0
             for step in simulation:
@@ -182,7 +183,8 @@ class AtInlets(PackageTest):
 
 class OnWalls(PackageTest):
     def stroke(self, kind, time, height=0.06, period=0.8, depth=0.2, ramp=0.3):
-        """Of the plate at the still water's level, m: Dean & Dalrymple (1991), ch. 6; second order: Madsen (1971)."""
+        """Stroke of the plate at the still-water level, m: Dean & Dalrymple (1991), ch. 6; second order: Madsen
+        (1971)."""
         omega, y = 2 * np.pi / period, brentq(lambda y: y * np.tanh(y) - (2 * np.pi / period)**2 * depth / 9.81, 1e-3, 9)
         shape = np.sinh(y) + ((1 - np.cosh(y)) / y if kind == "flap" else 0)
         transfer = 4 * np.sinh(y) * shape / (np.sinh(2 * y) + 2 * y)

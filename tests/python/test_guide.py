@@ -1,5 +1,6 @@
-"""The guides run as they stand: those of scripts as notebooks, cell after cell, those of case files with the changes that
-they ask for, on fewer particles. Their words about the runs are true."""
+"""The guides run as they are printed: scripts as notebooks, cell by cell, case files with the changes of the guide.
+
+The tests use fewer particles than the guides, and check the guides' statements about the runs."""
 
 import contextlib
 import io
@@ -21,7 +22,7 @@ GUIDES = ROOT / "docs" / "guide"
 
 
 def run_notebook(name, least, coarser=()):
-    """(the names that its cells leave, what they print); `coarser` (old, new) changes their text."""
+    """(names that the cells define, their output); `coarser` (old, new) changes their text."""
     names = {}
     told = io.StringIO()
     subprocess.run([ROOT / "scripts/notebook.py", GUIDES / name, "guide.ipynb"], check=True)
@@ -44,7 +45,7 @@ class Guide(PackageTest):
         self.assertLess(abs(levels[-1] - names["wanted"]), 0.002)
         self.assertLess(abs(names["height"] - 0.213), 0.003)
         self.assertLess(len(levels), 8)
-        # And a damper: more of it leaves less of a swing.
+        # And a damper: a stronger damper reduces the swing.
         shares = sorted((float(line.split()[0]), float(line.split()[3])) for line in lines if "of a swing" in line)
         self.assertEqual([share for _, share in shares], sorted((share for _, share in shares), reverse=True))
         self.assertLess(min(abs(share - names["wanted_share"]) for _, share in shares), 0.01)
@@ -54,13 +55,14 @@ class Guide(PackageTest):
         quick = ('template("weir")', 'template("weir").update({"particles.spacing": "P/6", "time.end": 3.0})')
         names, told = run_notebook("weir.md", 1, quick)
         self.assertRegex(told.getvalue(), r"^head \d+ mm, within \d+ mm\n")
-        # Six rows in the weir's height: the finest value is near, and the interval wide enough for Rehbock's head.
+        # Six rows in the weir's height: the finest value is near, and the interval contains Rehbock's head.
         row, crest = names["row"], names["case"]["parameters.P"]
         self.assertTrue(0.07 < row["value"] - crest < 0.1, row["value"])
         self.assertTrue(row["low"] < crest + 0.088 < row["high"], row)
 
     def walk(self, guide, changes, words=()):
-        """The names that the guide's blocks of Python leave after a sweep of one run; `words` (old, new) changes their text."""
+        """The names that the guide's blocks of Python define after a sweep of one run; `words` (old, new) changes their
+        text."""
         case = tw.Case(walk_guides.write_case(guide))
         self.assertEqual(case.check().findings, [])
         spacing = changes.pop("particles.spacing")
@@ -79,7 +81,7 @@ class Guide(PackageTest):
         self.assertLess(abs(found["period"] - 3.99), 0.1)
         self.assertLess(abs(found["place"] - 0.1), 0.01)
         self.assertLess(abs(found["load"] / (25000 * 9.81) - 1), 0.01)
-        # Pictures show the hull where it has gone.
+        # Pictures show the hull at its current position.
         hull = found["run"].walls_at(2.0)[1]
         self.assertLess(abs(hull[0][1] - 1.4 - np.interp(2.0, found["rise"].time, found["rise"].value)), 1e-9)
 
@@ -88,12 +90,13 @@ class Guide(PackageTest):
         self.assertEqual(names["case"]["physics.density"], 1000)
         self.assertEqual(names["upstream"].attrs["units"]["connected_m"], "m")
         self.assertEqual(len(names["level"]), 4)
-        # More discharge stands higher.
+        # A larger discharge has a higher level.
         self.assertGreater(names["level"][1], names["level"][0])
         self.assertGreater(names["level"][3], names["level"][2])
         self.assertEqual(names["crest"][0][0], 0.0)
         self.assertTrue(np.isfinite(names["crest"]).all())
-        # The paddle goes 50 mm in 0.2 s, at most pi/2 times its mean speed of 0.25 m/s, and water before it as fast.
+        # The paddle moves 50 mm in 0.2 s, at most at pi/2 times its mean speed of 0.25 m/s, and so does the water in
+        # front of it.
         self.assertTrue(0.05 < names["pushed"] < 1.0, names["pushed"])
         self.assertIn("particles.spacing - ", told.getvalue())
 

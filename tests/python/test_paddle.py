@@ -1,4 +1,4 @@
-"""Plates whose waves are known: what the theory of a plate's motion makes of the motion that was found."""
+"""Plates whose waves are known: the waves of the computed motion by the theory of wave makers."""
 
 import contextlib
 import io
@@ -32,7 +32,7 @@ class Paddle(unittest.TestCase):
         self.to = self.folder / "paddle.csv"
 
     def make(self, text, *options, expect=0):
-        """What the command says."""
+        """The output of the command."""
         file = self.folder / "waves.csv"
         file.write_text(text, encoding="utf-8")
         told, errors = io.StringIO(), io.StringIO()
@@ -42,7 +42,7 @@ class Paddle(unittest.TestCase):
         return errors.getvalue() if expect else told.getvalue()
 
     def record(self, *sines):
-        """A surface of sines of (frequency, amplitude in m), in mm and ms."""
+        """A record of sines of (frequency, amplitude in m), in mm and ms."""
         time = np.arange(0, 60, 0.02)
         surface = sum(1000 * a * np.cos(2 * math.pi * f * time) for f, a in sines)
         return "# of a flume\nt [ms], eta [mm]\n" + "".join(f"{1000 * t:.1f}, {z:.6f}\n" for t, z in zip(time, surface))
@@ -60,11 +60,13 @@ class Paddle(unittest.TestCase):
         for distance in (0.0, 3.0):
             told = self.make(self.record((0.6, 0.02)), "--distance", distance)
             y = wave_number(0.6) * DEPTH
-            height_over_stroke = 2 * (math.cosh(2 * y) - 1) / (math.sinh(2 * y) + 2 * y)  # Dean & Dalrymple (1991), 6.25
+            # Dean & Dalrymple (1991), 6.25
+            height_over_stroke = 2 * (math.cosh(2 * y) - 1) / (math.sinh(2 * y) + 2 * y)
             begins = float(told.rpartition("t = ")[2].split()[0]) if distance else 0.0
             amplitude, phase = self.sine_of(0.6, begins + 15, begins + 45)
             self.assertAlmostEqual(amplitude * height_over_stroke, 0.02, delta=2e-5)
-            # cos(w (t - begins)) at the gauge is sin(w t + phase) at the plate, cos a quarter ahead, and kx later.
+            # cos(w (t - begins)) at the gauge is sin(w t + phase) at the plate: the cosine leads by a quarter period,
+            # and the gauge lags by kx.
             wanted = -2 * math.pi * 0.6 * begins + wave_number(0.6) * distance
             self.assertAlmostEqual(math.sin(phase - wanted), 0.0, delta=0.01)
             self.assertGreater(math.cos(phase - wanted), 0.0)
@@ -79,7 +81,8 @@ class Paddle(unittest.TestCase):
         piston = np.loadtxt(self.to, delimiter=",", skiprows=1).T[1]
         self.assertLess(np.corrcoef(angle, piston)[0, 1], -0.99)  # counter-clockwise is away from the water
         largest = np.abs(DEPTH * np.tan(angle[(t > 20) & (t < 40)])).max()
-        self.assertAlmostEqual(largest * height_over_stroke, 0.02, delta=2e-4)  # lines at most 1/40 period from the crest
+        # lines at most 1/40 period from the crest
+        self.assertAlmostEqual(largest * height_over_stroke, 0.02, delta=2e-4)
 
     def test_motion_begins_and_ends_at_rest(self):
         self.make(self.record((0.6, 0.02)))
@@ -95,7 +98,8 @@ class Paddle(unittest.TestCase):
     def test_spectrum_has_its_height_and_is_that_of_its_seed(self):
         spectrum = "f [Hz], S [cm^2/Hz]\n" + "".join(f"{f}, {s}\n" for f, s in ((0.3, 0), (0.5, 40), (0.7, 40), (0.9, 0)))
         told = self.make(spectrum, "--duration", 100)
-        self.assertAlmostEqual(float(told.partition("Hm0 ")[2].split()[0]), 4 * math.sqrt(16e-4), delta=1e-3)  # its area
+        # from the area of the spectrum
+        self.assertAlmostEqual(float(told.partition("Hm0 ")[2].split()[0]), 4 * math.sqrt(16e-4), delta=1e-3)
         first = self.to.read_bytes()
         self.make(spectrum, "--duration", 100, "--seed", 2)
         self.assertNotEqual(self.to.read_bytes(), first)

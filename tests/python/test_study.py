@@ -1,4 +1,4 @@
-"""A study of a case of a few particles: what it runs, what it says, and what it refuses."""
+"""A study of a case of a few particles: its runs, its results, and its error messages."""
 
 import csv
 import json
@@ -24,7 +24,7 @@ class Studies(PackageTest):
         self.assertEqual([found.starts[0].spacing, found.step.spacing], [0.125, 0.125])
         self.assertEqual(found.step.case["scheme"]["courant"], found.runs[1].case["scheme"]["courant"] / 2)
         self.assertEqual(found.starts[0].case["particles"]["jitter"], 0.01)
-        # The table says what the method makes of what the runs say.
+        # The table holds the estimates for the results of the runs.
         def value(run):
             return run.results["depth"]["quantities"][0]["value"]
         expected = estimate(found.spacings, [value(run) for run in found.runs],
@@ -41,7 +41,7 @@ class Studies(PackageTest):
         self.assertIn("depth, depth: ", Path("s/study.txt").read_text(encoding="utf-8"))
         loaded = tw.Study.load("s")
         self.assertEqual([repr(loaded), loaded.step.path.resolve()], [repr(found), found.step.path.resolve()])
-        # Called again it runs nothing.
+        # A second call runs nothing.
         before = [run.path.joinpath("summary.json").stat().st_mtime_ns for run in found.runs]
         again = tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=1)
         self.assertEqual([run.path.joinpath("summary.json").stat().st_mtime_ns for run in again.runs], before)

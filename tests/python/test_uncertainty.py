@@ -1,4 +1,4 @@
-"""Intervals of made-up values whose truth is known."""
+"""Intervals of made-up values with known limits."""
 
 import math
 import unittest
@@ -40,7 +40,7 @@ class Extrapolations(unittest.TestCase):
         self.assertGreater(slow.uncertainty, 3 * abs(slow.error))
 
     def test_what_goes_away_from_a_limit_is_not_believed(self):
-        found = extrapolate(H, [1.0, 1.01, 1.015, 1.017])  # changes more, the finer
+        found = extrapolate(H, [1.0, 1.01, 1.015, 1.017])  # the changes grow with finer spacings
         self.assertNotEqual(found.form, "none")
         away = extrapolate(H, 1 - np.log(H))
         self.assertNotEqual(away.form, "h^p")
@@ -94,13 +94,13 @@ class Estimates(unittest.TestCase):
         self.assertAlmostEqual(found.uncertainty**2, found.discretisation**2 + found.chance**2)
 
     def test_step_that_hides_an_error_is_seen(self):
-        # Errors of space and time that compensate each other: the values alone do not tell, half of the step does.
+        # Errors of space and time that compensate each other: only the value with half of the step shows it.
         value = 2 + 3 * H - 2.9 * H
         blind = estimate(list(H), list(value))
         found = estimate(list(H), list(value), step=(H[2], 2 + 3 * H[2] - 1.45 * H[2]))
         self.assertAlmostEqual(found.step, 1.45 * H[2])
         self.assertGreater(found.uncertainty, 2 * blind.uncertainty)
-        # A step that changes nothing widens nothing.
+        # A step without effect does not widen the interval.
         still = estimate(list(H), list(value), step=(H[2], value[2]))
         self.assertLess(still.uncertainty, 1.05 * blind.uncertainty)
 
@@ -112,7 +112,7 @@ class Estimates(unittest.TestCase):
         self.assertLess(chance(0.01, pairs=4), 0.8 * chance(0.01))
 
     def test_intervals_contain_the_truth_in_nine_of_ten(self):
-        # As docs/theory/uncertainty.md has it, all sizes of chance and of the step's error in turn.
+        # As in docs/theory/uncertainty.md, with all sizes of chance and of the error of the step in turn.
         for name, error_of in made_up.FAMILIES.items():
             random, inside = np.random.default_rng(1), 0
             for k in range(120):
@@ -126,7 +126,8 @@ class Estimates(unittest.TestCase):
             self.assertLess(half, their_half, name)
 
     def test_fewer_do_where_chance_hides_that_errors_compensate_each_other(self):
-        # What it cannot do, docs/theory/uncertainty.md; here for who mends it.
+        # A limitation of the method (docs/theory/uncertainty.md). A change that improves the method should fail this
+        # test.
         inside, *_ = made_up.shares(made_up.HARD["x - b x^2, b from 0.5 to 1"], 0.1, 80)
         self.assertTrue(0.4 < inside < 0.9)
 

@@ -1,4 +1,4 @@
-// How far a computed curve is from a measured one, on curves whose answer is known.
+// Differences between computed and measured curves, for curves with known differences.
 #include "results/measurements.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(MeasurementScore, OfASineThatIsLateIsItsShift) {
                                          sampled([late](double t) { return wave(t - late); }, 4.0, 4000));
     // sin a - sin (a - b) has the rms 2 sin(b/2)/sqrt(2) over whole periods.
     EXPECT_NEAR(found.as_timed.rms, std::sqrt(2.0) * std::abs(std::sin(pi * late)), 1e-3);
-    EXPECT_NEAR(found.best_shift, late, 0.0021);  // it is tried in steps of a thousandth
+    EXPECT_NEAR(found.best_shift, late, 0.0021);  // shifts are tried in steps of a thousandth
     EXPECT_LT(found.shifted.rms, 0.03);           // before t = 0 nothing is computed
     EXPECT_TRUE(found.is_inside());
     EXPECT_LT(found.as_timed.share_inside, 0.5);
@@ -77,12 +77,12 @@ TEST(MeasurementScore, KeepsToTheShiftThatIsAllowed) {
   const MeasurementScore found =
       score(measured(sampled(wave, 3.0, 300), 0.03, 0.0), sampled([](double t) { return wave(t - 0.1); }, 4.0, 4000));
   EXPECT_DOUBLE_EQ(found.best_shift, 0.03);
-  EXPECT_FALSE(found.is_inside());  // of what no scatter is known
+  EXPECT_FALSE(found.is_inside());  // no scatter is known
   EXPECT_NE(found.words().find("all that is allowed"), std::string::npos) << found.words();
 }
 
 TEST(MeasurementScore, WeighsSamplesByTheTimeTheyStandFor) {
-  // A hundred samples in the first tenth of a second are no more than that tenth.
+  // A hundred samples in the first tenth of a second have only the weight of that tenth.
   Curve lab = sampled([](double) { return 1.0; }, 0.1, 100);
   lab.time.push_back(1.0);
   lab.value.push_back(0.0);
@@ -94,7 +94,7 @@ TEST(MeasurementScore, WeighsSamplesByTheTimeTheyStandFor) {
 TEST(MeasurementScore, IsOverWhatTheRunHasReached) {
   const MeasurementTable lab = measured(sampled([](double t) { return t < 1.5 ? 0.0 : 9.0; }, 3.0, 300), 0.1, 0.0);
   const MeasurementScore found = score(lab, sampled([](double) { return 0.0; }, 1.0, 10));
-  EXPECT_NEAR(found.to, 0.9, 1e-9);  // later ones cannot be looked at with every shift
+  EXPECT_NEAR(found.to, 0.9, 1e-9);  // later samples cannot be compared with every shift
   EXPECT_EQ(found.as_timed.rms, 0.0);
   EXPECT_EQ(score(lab, sampled([](double) { return 0.0; }, 0.05, 10)).samples, 0u);
   EXPECT_EQ(score(lab, Curve{}).samples, 0u);

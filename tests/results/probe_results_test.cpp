@@ -1,4 +1,4 @@
-// What is told of the tables of probes at the end of a run.
+// Summaries of the tables of probes at the end of a run.
 #include "results/probe_results.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ namespace {
 TEST(ProbeTable, MeansAreOverTimeAndLinearBetweenReadings) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "probe.csv";
-  // From t = 2 on: 1 s at 1, then a line up to 3 at t = 4, whose mean is 2. The reading at t = 1 is 5: at 2 it is 1.
+  // From t = 2 on: 1 for 1 s, then a line up to 3 at t = 4, whose mean is 2. The reading of 5 at t = 1 precedes the
+  // second half.
   std::ofstream(path) << "time_s,a_m,volume_m3\n0,9,0\n1,5,1\n2,1,2\n3,1,4\n4,3,8\n";
   const TableDigest table = digest_probe_table(path, 2.0);
   ASSERT_EQ(table.names, (std::vector<std::string>{"a_m", "volume_m3"}));
@@ -26,7 +27,7 @@ TEST(ProbeTable, MeansAreOverTimeAndLinearBetweenReadings) {
   EXPECT_EQ(table.columns[0].least, 1.0);
   EXPECT_EQ(table.columns[0].largest, 9.0);
   EXPECT_EQ(table.columns[0].time_of_largest, 0.0);
-  // Where the half begins between two readings, the first is interpolated: 3 at t = 1.5.
+  // If the second half begins between two readings, its first value is interpolated: 3 at t = 1.5.
   EXPECT_DOUBLE_EQ(digest_probe_table(path, 1.5).columns[0].mean_of_second_half(), (0.5 * 2.0 + 1.0 + 2.0) / 2.5);
 }
 
@@ -50,7 +51,7 @@ TEST(ProbeTable, HasTheMagnitudeOfAForceAndTheLinesOfTheLastTime) {
   EXPECT_EQ(table.columns[1].largest_of_last, 4.0);
 }
 
-/// The words and units of a probe of the given type whose table has this text.
+/// The summary of a probe of the given type whose table has this text.
 class Results : public testing::Test {
  protected:
   std::string words(const std::string& type_and_keys, const std::string& table, double time, int dimension = 2) const {
@@ -85,7 +86,7 @@ TEST_F(Results, AreToldInWords) {
       words("\"discharge\"\nfrom = [0, 0]\nto = [0, 1]",
             "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n1,0.06,0.01\n2,0.04,0.06\n", 2.0),
       "0.05000 m^3/s per m (mean of the second half), largest 0.06000 m^3/s per m (at 1 s, smoothed over 0.64 s)");
-  // From the impulse alone: what the pressure was at the lines themselves is not told.
+  // From the impulse alone: the pressures at the times of the lines have no effect.
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]",
             "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,0,0\n1.5,99,50\n2,9000,6050\n3,7000,7050\n4,900,7950\n", 4.0, 3),

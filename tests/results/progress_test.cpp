@@ -29,10 +29,10 @@ TEST(ProgressLine, TellsWhatIsLeftFromWhatWasDone) {
   report.iterations = 17;
   report.residual = 4e-6;
   FlowMeasures measures;
-  measures.density_error_largest = 0.2;  // of a single particle, which tells little
+  measures.density_error_largest = 0.2;  // that of a single particle, which is not representative
   measures.density_error_rms = 0.0123;
   measures.density_error_mean = -0.0004;
-  // A quarter took 60 s: three more of these are left.
+  // A quarter took 60 s, so the other three quarters take 180 s.
   EXPECT_EQ(
       progress_line(0.5, 2.0, 60.0, 250, report, measures),
       " 25.0 %  t = 0.5000 s  ETA 3 min 00 s  step 250  dt 2.00e-03 s  passes 3  iterations 17  residual 4.0e-06  "

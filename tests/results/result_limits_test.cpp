@@ -1,4 +1,4 @@
-// When a run warns of its own results.
+// Warnings of a run about its own results.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -11,12 +11,12 @@
 namespace tailwater {
 namespace {
 
-/// Of a pond: rises in shares of m g L/2, and the warnings that they gave.
+/// A pond: energy rises as fractions of m g L/2, and the warnings that they cause.
 class Limits {
  public:
   Limits() : flow_(make_flow<2>(pond_case<2>())), limits_(LimitsTable{}, flow_), before_(warnings().size()) {}
 
-  /// Open ends have done `work` of the same unit.
+  /// Open ends have done `work`, in the same unit.
   void rise_to(double share, double work = 0.0) {
     const double mass = fluid_sums_of_rank(flow_).mass;
     const double unit = 0.5 * mass * flow_.setup.gravity.norm() * flow_.setup.length;
@@ -42,7 +42,7 @@ TEST(ResultLimits, IsSilentOfWhatTheLatticeDoesNotResolve) {
   EXPECT_EQ(run.count(), 1U);
 }
 
-// A space that fills through an end that does 20 times the energy of the start.
+// A space that fills through an open end whose work is 20 times the initial energy.
 TEST(ResultLimits, ComparesARiseWithTheWorkOfOpenEnds) {
   Limits run;
   run.rise_to(1.0, 20.0);

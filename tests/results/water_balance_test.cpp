@@ -1,4 +1,4 @@
-// Which water counts as lost.
+// Water that counts as lost.
 #include "results/water_balance.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Water 0.4 m deep over a bed from x = 0 to `end` in a domain that repeats after 1 m.
+/// Water 0.4 m deep over a bed from x = 0 to `end`, in a domain with a period of 1 m.
 template <int Dim>
 CaseSpec periodic_channel(double end, double slope) {
   CaseSpec spec = pond_case<Dim>();
@@ -43,7 +43,7 @@ TEST(WaterOutside, WhatFallsThroughTheSeamOfAPeriodicDomainComesBack) {
   }
 }
 
-/// The column that has moved beyond the seam and is not yet in again at the other end.
+/// The water has moved beyond the seam of the period and has not yet entered again at the other end.
 TEST(WaterOutside, WhatIsBeyondTheSeamWithNoWallBelowItIsInside) {
   CaseSpec spec = periodic_channel<2>(1.0, 0.0);
   spec.physics.gravity = {9.81, 0.0};
@@ -55,7 +55,7 @@ TEST(WaterOutside, WhatIsBeyondTheSeamWithNoWallBelowItIsInside) {
   EXPECT_EQ(water_outside(flow).particles, 0);
 }
 
-// Of the 25 columns of 10 particles those beyond the end of the bed, or that gravity takes there, are lost.
+// There are 25 columns of 10 particles. Those beyond the end of the bed, or that gravity moves there, are lost.
 TEST(WaterOutside, WhatMissesABedThatEndsIsLost) {
   EXPECT_EQ(particles_outside<2>(0.6, 0.0), 10 * 10);
   EXPECT_EQ(particles_outside<2>(0.6, 0.5), 10 * 10);

@@ -1,4 +1,4 @@
-// What a case is said to be.
+// Summaries of cases in sentences.
 #include "run/explain.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Open ends: their warnings, what they restore, and the inflow from a head.
+// Open ends: their warnings, their restored states, and the inflow from a head.
 #include "open_ends/open_ends.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(OpenEndsWarning, ReportsAtTheEndWhetherALevelIsHeldAgain) {
             "again");
 }
 
-/// The warnings of a run after which an inlet has passed `passed` [m^3] net of what was prescribed.
+/// The warnings of a run in which an inlet has passed a net volume `passed` [m^3], compared with the prescribed volume.
 std::string warning_of_discharge(double asked, double passed) {
   const CaseSpec spec = read_case_text(
       "particles.spacing = 0.1\ntime.end = 1\n[[wall]]\npoints = [[0, 0], [2, 0], [2, 1]]\n[[fluid]]\nmin = [0, 0]\n"
@@ -73,7 +73,7 @@ TEST(OpenEndsWarning, ReportsADischargeThatIsNotDelivered) {
   EXPECT_NE(warning_of_discharge(-1.0, -1.2).find("inlet 'in' passes more water than prescribed"), std::string::npos);
 }
 
-/// An opening with the section of a valley: columns 0.05 m wide whose bottoms lie on two slopes of 1.
+/// An opening with the section of a valley: columns 0.05 m wide with their bottoms on two slopes of 1.
 OpenEnd<3> valley() {
   const CaseSpec spec = read_case_text(
       "case.dimension = 3\nparticles.spacing = 0.05\ntime.end = 1\n[[wall]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
@@ -99,8 +99,8 @@ TEST(SectionOfAnOpening, DepthAndAreaOfAValley) {
   EXPECT_GT(excess(critical - 1e-3), 0.0);
 }
 
-/// Whatever the column and the height, fibres of one speed move the buffer as one, and those that become deeper do so
-/// from the bottom of their column.
+/// Fibres of equal speed move the buffer zone as one, for any column and height. Fibres that become deeper do so from
+/// the bottom of their column.
 TEST(SectionOfAnOpening, FibresOfOneSpeedMoveTheBufferAsOne) {
   OpenEnd<3> end = valley();
   end.flow.discharge.reset();
@@ -117,7 +117,7 @@ TEST(SectionOfAnOpening, FibresOfOneSpeedMoveTheBufferAsOne) {
   }
 }
 
-/// Bernoulli from the water at rest, and the characteristic that leaves the case.
+/// Bernoulli's law from the water at rest, and the characteristic that leaves the case.
 TEST(InflowOfHead, HasTheEnergyOfTheHeadAndTheCharacteristicFromInside) {
   const double g = 9.81;
   const double head = 0.4;

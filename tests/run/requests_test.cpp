@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Waits for the look at the files that comes next; they are rare.
+/// Repeats the look at the files until it finds a request; the files are looked at only rarely.
 Asked asked_soon(Requests& requests) {
   for (int looks = 0; looks < 10000; ++looks) {
     const Asked asked = requests.look();
@@ -65,7 +65,7 @@ TEST(Requests, TheWallTimeAsksBeforeItIsUp) {
   const auto now = std::chrono::steady_clock::now();
   Requests early(run, {}, {now, std::chrono::hours(1)});
   EXPECT_FALSE(early.look().stop);
-  // Of an hour 36 s are kept.
+  // 36 s of an hour are reserved.
   Requests late(run, {}, {now - std::chrono::minutes(59) - std::chrono::seconds(30), std::chrono::hours(1)});
   EXPECT_TRUE(late.look().stop);
 }
@@ -88,12 +88,12 @@ TEST(RequestSender, AsksOnlyARunThatHasBegunSince) {
     RequestSender sender(run.path());
     EXPECT_FALSE(sender.ask_for_stop());
     EXPECT_FALSE(fs::exists(run.stop()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // file systems know times to some milliseconds
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // file systems store times to some milliseconds
     write_text_file(run.summary(), "");
     EXPECT_TRUE(sender.ask_for_stop());
     EXPECT_TRUE(fs::exists(run.stop()));
   }
-  EXPECT_FALSE(fs::exists(run.stop()));  // nobody has obeyed
+  EXPECT_FALSE(fs::exists(run.stop()));  // no run has answered the request
 }
 
 TEST(RequestSender, SaysWhenItCannotAsk) {

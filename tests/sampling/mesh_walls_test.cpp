@@ -32,7 +32,7 @@ TEST(MeshWall, OfABoxHasTheWallParticlesOfABox) {
     const WallParticles<3> box = walls_of(spec);
     spec.walls = {folder.wall(unit_box(), side)};
     const WallParticles<3> mesh = walls_of(spec);
-    // Beyond an edge of the tank the mesh leaves out what is farther from the wall than the layers are deep.
+    // Beyond an edge of the tank the mesh omits particles that are farther from the wall than the depth of the layers.
     std::size_t shared = 0;
     PointGrid<3> places(1e-6);
     std::vector<int> rows;
@@ -42,7 +42,7 @@ TEST(MeshWall, OfABoxHasTheWallParticlesOfABox) {
       places.visit_near(mesh.position[i], [&](int k) { same = k; });
       ASSERT_GE(same, 0) << mesh.position[i].transpose();
       ++shared;
-      if (side == FluidSide::outside) continue;  // in a body's edges, which wall is nearest is a tie
+      if (side == FluidSide::outside) continue;  // at the edges of a body, several walls are equally near
       EXPECT_LT((mesh.normal[i] - box.normal[same]).norm(), 1e-6) << mesh.position[i].transpose();
       EXPECT_LT((mesh.blocked[i] - box.blocked[same]).norm(), 1e-6) << mesh.position[i].transpose();
     }
@@ -51,7 +51,7 @@ TEST(MeshWall, OfABoxHasTheWallParticlesOfABox) {
   }
 }
 
-// Of two spheres that overlap, whose particles compete for cells.
+// Two overlapping spheres, whose particles compete for cells.
 TEST(MeshWall, HasTheSameParticlesInShares) {
   const MeshFolder folder;
   CaseSpec spec = empty_case(0.1, 3);
@@ -89,7 +89,7 @@ TEST(MeshWall, FillsTheSpaceBehindIt) {
   const WallParticles<3> walls = walls_of(spec);
   const Vec<3> centre(0.03, 0.02, 0.01);
   double volume = 0.0;
-  double moment = 0.0;  // of inertia, of all parts as points
+  double moment = 0.0;  // moment of inertia of all parts as points
   const auto add = [&](const Vec<3>& x, double part) {
     volume += part;
     moment += part * (x - centre).squaredNorm();
@@ -99,15 +99,16 @@ TEST(MeshWall, FillsTheSpaceBehindIt) {
     const Vec<3> x = Vec<3>(n % 20, n / 20 % 20, n / 400) * 0.1 - Vec<3>::Constant(0.95);
     if (boundary.nearest(x, infinite).signed_distance < -0.3) add(x, 1e-3);  // deeper in the sphere than the layers
   }
-  // A third of a cell, p wide, is cut by a plane, and the sphere falls away from a plane by p^2/(6 R) in the mean.
+  // A third of a cell of width p is cut by a plane, and the sphere deviates from a plane by p^2/(6 R) on average.
   const double exact = volume_of(sphere_mesh(centre, 0.55, 24));
   const double bound = 4.0 * std::numbers::pi * 0.55 * 0.55 * 0.1 * 0.1 / (9.0 * 6.0 * 0.55);
   EXPECT_NEAR(volume, exact, bound);
-  // A point has none of the moment of its cell, dx^2/4 times its volume.
+  // A point lacks the moment of its own cell, dx^2/4 times its volume.
   const double moment_of_sphere = 0.6 * 0.55 * 0.55 * exact;
   EXPECT_GT(moment, moment_of_sphere - 0.1 * 0.1 / 4.0 * exact - 0.55 * 0.55 * bound);
   EXPECT_LT(moment, moment_of_sphere + 0.55 * 0.55 * bound);
-  // The share of the lattice that is not water is the sphere's, to the noise of counting nodes on its surface.
+  // The fraction of the lattice that is not water is that of the sphere, up to the noise of counting nodes on its
+  // surface.
   EXPECT_NEAR((8000.0 - static_cast<double>(fluid.position.size())) * 1e-3, exact, 0.02 * exact);
   for (const Vec<3>& x : fluid.position) EXPECT_GT(boundary.nearest(x, infinite).signed_distance, 0.0249);
 }

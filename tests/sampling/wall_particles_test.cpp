@@ -19,7 +19,7 @@ using namespace testing_cases;
 
 constexpr double round_off = 1e-12;
 
-/// Without those beyond the free ends of walls.
+/// Dummy particles without those beyond the free ends of walls.
 WallParticles<2> dummies_behind(Boundary<2> boundary, double spacing) {
   boundary.ends.clear();
   return make_dummy_particles<2>(boundary, spacing, 3);
@@ -56,14 +56,14 @@ int count_on_wall(const WallParticles<Dim>& particles) {
 
 template <int Dim>
 void expect_behind_walls(const WallParticles<Dim>& particles, Boundary<Dim> boundary, double spacing) {
-  boundary.ends.clear();  // beyond a free end nothing is behind
+  boundary.ends.clear();  // beyond a free end nothing is behind the wall
   for (const Vec<Dim>& x : particles.position) {
     EXPECT_LE(boundary.nearest(x, 1e9).signed_distance, -(0.5 - 1e-6) * spacing) << x.transpose();
   }
   EXPECT_GE(least_distance(particles), (0.5 - 1e-6) * spacing);
 }
 
-// The wall is drawn on by the depth of its layers beyond each end at which no wall of the same body stands.
+// The wall is extended by the depth of its layers beyond each end at which no wall of the same body stands.
 TEST(Dummies, ContinueAWallBeyondItsFreeEnds) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {polyline({{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.0, 0.0}, {1.0, 1.0}})};
@@ -123,7 +123,7 @@ TEST(Dummies, DoNotDependOnHowTheWallIsWritten) {
   }
 }
 
-// A block of 1.0 x 0.8 m standing in the water: its inside filled with rings, which shrink at its convex corners.
+// A block of 1.0 x 0.8 m in the water: its interior is filled with rings, which shrink at its convex corners.
 TEST(Dummies, ShrinkAtConvexCorners) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {box_wall({0, 0}, {1.0, 0.8}, {}, FluidSide::outside)};
@@ -333,8 +333,8 @@ TEST(SurfaceParticles, CoverTheClosedFacesOfABoxIn3D) {
   EXPECT_LT((nodes.blocked[corner] - Mat<3>::Identity()).norm(), round_off);
 }
 
-// Of a block on a bed: its sides and its top see each other's normals over 3 dx from the edge on. In the corners
-// between bed and block, and in those of the tank, there is nothing to see; nor is there in a round body.
+// A block on a bed: particles behind its sides and its top have the normals of both up to 3 dx from the edge. The
+// corners between bed and block, those of the tank, and a round body have no convex edge.
 TEST(Dummies, KnowTheWallsBeyondConvexEdges) {
   CaseSpec spec = tank();
   const double top = 0.5;
@@ -355,8 +355,8 @@ TEST(Dummies, KnowTheWallsBeyondConvexEdges) {
   for (const Mat<2>& beyond : round.beyond_edges) EXPECT_TRUE(beyond.isZero(0.0));
 }
 
-// A crest of 60 degrees, whose first mitre is a whole dx behind it: water that stands dx/2 before the tip finds a
-// particle dx/2 behind it. A right angle keeps its lattice.
+// A crest of 60 degrees, whose first mitre is a whole dx behind it: water dx/2 in front of the tip has a particle dx/2
+// behind the tip. A right angle keeps its lattice.
 TEST(Dummies, FillTheTipOfASharpCrest) {
   CaseSpec spec = empty_case(0.1);
   const double half = 0.6 / std::numbers::sqrt3;
@@ -372,8 +372,8 @@ TEST(Dummies, FillTheTipOfASharpCrest) {
   EXPECT_EQ(dummies_behind(make_boundary<2>(spec), 0.1).size(), 100u - 16u);
 }
 
-/// Shares of space, in cubes of 8 dx, together have the particles of all space, each once and as it is there; but those
-/// of walls that move are in each.
+/// Parts of space, in cubes of 8 dx, together have all particles, each once and unchanged; particles of moving walls
+/// are in every part.
 template <int Dim>
 void expect_shares_to_be_all(const Boundary<Dim>& boundary, double dx, bool starts_on_wall, int shares) {
   const auto make = [&](const SpaceShare& share) {

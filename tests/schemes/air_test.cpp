@@ -1,5 +1,5 @@
-// Pockets of air that water compresses. A column of water, h high, on a closed column of air, a high, without gravity
-// moves in one dimension:
+// Pockets of air that water compresses. A column of water of height h on a closed column of air of height a, without
+// gravity, moves in one dimension:
 //
 //   rho h y'' = P(y),    P = p_0 ((a/y)^n - 1)
 //
@@ -35,7 +35,7 @@ constexpr Order orders[] = {{SchemeName::farzin2014, Integrator::explicit_projec
                             {SchemeName::farzin2014, Integrator::implicit_projection},
                             {SchemeName::farmani2020, Integrator::explicit_projection}};
 
-/// The water stands on the air, and moves down with `speed`.
+/// The water lies on the air and moves down with `speed`.
 template <int Dim>
 CaseSpec column(double dx, double width, const Order& order, double speed) {
   CaseSpec spec = tank_case<Dim>(dx, width, 1.0);
@@ -52,8 +52,8 @@ CaseSpec column(double dx, double width, const Order& order, double speed) {
   return spec;
 }
 
-/// The same between sides that repeat, without walls: it moves in one dimension. A ledge far above the water tells how
-/// high the air reaches.
+/// The column between periodic sides, without walls: it moves in one dimension. A ledge far above the water determines
+/// the height of the air.
 template <int Dim>
 CaseSpec free_column(double dx, double width, const Order& order, double speed) {
   CaseSpec spec = column<Dim>(dx, width, order, speed);
@@ -85,7 +85,7 @@ double mean_velocity(const Flow<Dim>& flow) {
   return sum / count;
 }
 
-/// The same motion by the differential equation, in steps so short that they do not matter.
+/// The motion of the column by the differential equation, with negligibly short steps.
 struct Exact {
   double period = 0.0;            ///< s
   double largest_pressure = 0.0;  ///< Pa
@@ -115,13 +115,14 @@ Exact exact_motion(double speed) {
 struct Motion {
   double period = 0.0;            ///< s
   double kept = 0.0;              ///< of the largest velocity, per period
-  double energy_rise = 0.0;       ///< of water and gas, over what they had at the start
+  double energy_rise = 0.0;       ///< of water and gas, over their initial energy
   double largest_pressure = 0.0;  ///< Pa
   double impulse_time = 0.0;      ///< s; with more than `half_pressure`
 };
 
-/// J; of water and gas, with what was lost in vents and without what setting volumes right has brought. Where water
-/// moves with its new velocity, its place is half a step of dt ahead: the potential energy is that of half a step ago.
+/// Energy [J] of water and gas, including the energy lost in vents, without that added by volume corrections. Where
+/// water moves with its new velocity, its position is half a step of dt ahead: the potential energy is that of half a
+/// step before.
 template <int Dim>
 double energy_of_all(const Flow<Dim>& flow, double dt) {
   const double ahead = flow.setup.formulation.moves_with_mean_velocity ? 0.0 : 0.5 * dt * mean_velocity(flow);
@@ -163,8 +164,8 @@ template <class D>
 class AirColumn : public testing::Test {};
 TYPED_TEST_SUITE(AirColumn, Dimensions);
 
-// The force on the water is P times the area, and the volume of the air is what the water leaves. Water and gas gain
-// nothing; largest velocities are read every dt, which misses (omega dt)^2/8 at most.
+// The force on the water is P times the area, and the volume of the air is the rest of the tank. Water and gas gain no
+// energy; largest velocities are read every dt, which misses (omega dt)^2/8 at most.
 TYPED_TEST(AirColumn, OscillatesAsTheGasLawSays) {
   constexpr int Dim = TypeParam::value;
   constexpr double dx = Dim == 2 ? 0.025 : 0.05;
@@ -185,9 +186,9 @@ TYPED_TEST(AirColumn, OscillatesAsTheGasLawSays) {
   }
 }
 
-// Where a wall meets the surface, dummies above the water have the air's pressure drawn on from the water below, and
-// still hold back some 0.2 % of the force. The volume follows the force, so all of it is in the period, and water and
-// gas gain nothing.
+// Where a wall meets the surface, the air pressure of dummies above the water is extrapolated from the water below,
+// which reduces the force by some 0.2 %. The volume follows the force, so the whole difference appears in the period,
+// and water and gas gain no energy.
 TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
   constexpr int Dim = TypeParam::value;
   constexpr double dx = 0.025;
@@ -207,8 +208,8 @@ TYPED_TEST(AirColumn, OscillatesBetweenWalls) {
 }
 
 // Bagnold's (1939) cushion: the column falls onto the air, at the speeds of falls from 0.2 to 5 m. A pocket that begins
-// while water closes it at full speed may bring no energy. The fastest is thrown back at 65 g, at which any disturbance
-// grows: with 400 steps in place of 800 it gains 4e-4 after its turn.
+// while water closes it at full speed may add no energy. The fastest column rebounds at 65 g, at which any disturbance
+// grows: with 400 steps instead of 800 it gains 4e-4 after its turn.
 TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
   for (const double speed : {2.0, 6.0, 10.0}) {
     for (const Order& order : orders) {
@@ -232,7 +233,7 @@ TEST(AirCushion, HasThePressureAndTheDurationOfBagnolds) {
   }
 }
 
-/// The column falls on air that leaves through a vent, by P = zeta/2 rho_a u^2 for the velocity u in it.
+/// The column falls onto air that leaves through a vent, by P = zeta/2 rho_a u^2 for the velocity u in the vent.
 struct Fall {
   double velocity = 0.0;  ///< m/s
   double height = air_height;
@@ -248,8 +249,8 @@ struct Fall {
 };
 
 // The air is compressible and the vent small: the column bounces, and then sinks at the speed at which its weight
-// drives the air out. What it loses is what is lost in the vent, and with that water and gas gain nothing: 1e-4 of
-// the energy at hand, which is that of a fall by half of the water's height (pressure/energy.cpp).
+// drives the air out. Its energy loss is that in the vent. Including this loss, water and gas gain no more than 1e-4 of
+// the available energy, which is that of a fall by half of the water's height (pressure/energy.cpp).
 TEST(VentedColumn, SinksAsTheDifferentialEquationSays) {
   constexpr double width = 0.2;
   constexpr double area = 2e-3;
@@ -296,8 +297,8 @@ TEST(VentedColumn, SinksAsTheDifferentialEquationSays) {
   }
 }
 
-// Air above water in a closed tank is at rest with it. A lattice that settles lifts the surface by no more than dx/10,
-// from where on a run warns of its energy.
+// Air above water at rest in a closed tank is at rest as well. A lattice that settles lifts the surface by no more than
+// dx/10, above which a run warns of its energy.
 TYPED_TEST(AirColumn, RestsAboveWaterAtRest) {
   constexpr int Dim = TypeParam::value;
   for (const Order& order : orders) {

@@ -1,4 +1,5 @@
-// Beds with a hump whose crest and toes are sharp: still water stays so, a bore passes, nobody is trapped or lost.
+// Beds with a hump whose crest and toes are sharp: still water stays still, a bore passes, no particle is trapped or
+// lost.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +15,7 @@ constexpr double crest = 0.08;
 constexpr double toe = 0.7;
 constexpr double half_width_at(double slope) { return crest / slope; }
 
-/// Channel with a symmetric triangular hump of this slope, which goes on for some metres behind it.
+/// Channel with a symmetric triangular hump of this slope, which continues for `behind` metres after it.
 CaseSpec channel_with_hump(double slope, double behind) {
   const double half = half_width_at(slope);
   const double end = toe + 2.0 * half + behind;
@@ -39,7 +40,7 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
   water.points.back()[1] = depth;
   spec.fluid = {water};
   Flow<2> flow = make_flow<2>(spec);
-  // Rows cut by the slope do not fit: nobody falls farther than a spacing to its place.
+  // Rows cut by the slope do not fit the lattice: particles fall to their positions, by less than a spacing.
   const double settling = std::sqrt(2.0 * g * dx);
   while (flow.state.time < 1.0) {
     EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
@@ -50,7 +51,8 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
     if (!flow.state.particles.is_fluid(i)) continue;
     const Vec<2>& x = flow.state.particles.position[i];
     EXPECT_GT(flow.walls.boundary.nearest(x, 1.0).signed_distance, 0.0);
-    // p = 0 is known to dx, the level to another: the polygon holds its area to a particle per row beside the slopes.
+    // p = 0 is known to dx, and the level to another dx: the area of the polygon differs by up to a particle per row
+    // beside the slopes.
     EXPECT_LT(std::abs(flow.state.particles.pressure[i] - flow.setup.liquid.density * g * (depth - x[1])), 2.0 * unit)
         << x.transpose();
   }
@@ -58,7 +60,7 @@ TEST_P(Hump, StillWaterStaysStillAndHydrostatic) {
 
 TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   const double depth = 0.3;
-  // Nobody gets to the end: the first contact of a film with a wall is no bore.
+  // The water does not reach the end: the first contact of a film with a wall is not a bore.
   CaseSpec spec = channel_with_hump(GetParam(), 5.0);
   FluidTable water;
   water.min = {0.0, 0.0};
@@ -69,7 +71,8 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
   const double bore = 2.0 * std::sqrt(g * depth);  // at most
   std::size_t stopped_at_walls = 0;
   std::size_t steps = 0;
-  // A particle is stopped in the time in which it passes its own length, whatever dt: pressures count as means over it.
+  // A particle is stopped within the time in which it passes its own length, for any dt: pressures are averaged over
+  // this time.
   const double passage = dx / bore;
   double highest_pressure = 0.0;
   double impulse = 0.0;
@@ -96,9 +99,9 @@ TEST_P(Hump, ABorePassesAndNobodyIsTrappedOrLost) {
     }
   }
   EXPECT_GT(beyond, 20u);
-  // Stopped and turned back the bore pushes with twice its momentum flux, 8 rho g h.
+  // A bore that is stopped and turned back exerts twice its momentum flux, 8 rho g h.
   EXPECT_LT(highest_pressure, 8.0 * reservoir);
-  // A particle that lies on a wall is stopped there every step: none is for as long as a tenth of the run.
+  // A particle that lies on a wall is stopped there in every step: no particle does so for a tenth of the run.
   EXPECT_LT(stopped_at_walls, steps / 10);
 }
 

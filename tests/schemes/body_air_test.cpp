@@ -19,7 +19,7 @@ namespace {
 
 constexpr double atmosphere = 101325.0;
 
-/// Adds the hull, and the body that it is of, as the reader does.
+/// Adds the hull and its body, as the reader does.
 void add_body(CaseSpec& spec, WallTable hull, double mass, const Coordinates& centre, double inertia,
               const std::vector<std::string>& free) {
   hull.name = "hull";
@@ -59,13 +59,13 @@ const BodyState<Dim>& body_of(const Flow<Dim>& flow) {
 
 constexpr Integrator integrators[] = {Integrator::explicit_projection, Integrator::implicit_projection};
 
-// A box as broad as its shaft closes the air below it, which carries it: it goes up and down as a mass m on the spring
-// n p A^2/V of the gas, with the pressure p that carries it. The water below cannot give way.
+// A box as wide as its shaft encloses the air below it, which supports it. The box oscillates as a mass m on the spring
+// n p A^2/V of the gas, with the supporting pressure p. The water below cannot move.
 TEST(BodyOnAir, BouncesAsTheGasLawSays) {
   constexpr double dx = 0.025;
   constexpr double width = 0.2;
   constexpr double air = 0.4;
-  constexpr double gap = 0.001;  // narrower than half a cell of the air's
+  constexpr double gap = 0.001;  // narrower than half a cell of the air
   constexpr double area = width - 2.0 * gap;
   constexpr double mass = 100.0;
   constexpr double speed = 0.02;
@@ -95,8 +95,8 @@ TEST(BodyOnAir, BouncesAsTheGasLawSays) {
   }
 }
 
-// Air of any pressure above all the water of a closed tank is nothing but a pressure more everywhere: a box stays at
-// its draught, though half of its surface is in the water and half in the air.
+// Air of any pressure above all water of a closed tank only adds a uniform pressure: a box stays at its draught,
+// although half of its surface is in water and half in air.
 template <class D>
 class BodyBelowAir : public testing::Test {};
 TYPED_TEST_SUITE(BodyBelowAir, Dimensions);
@@ -136,14 +136,14 @@ TYPED_TEST(BodyBelowAir, StaysAtItsDraught) {
   }
 }
 
-/// A bell that is open below, afloat on the air that it holds: legs of `thickness` on both sides of it.
+/// A bell that is open below and floats on its enclosed air: legs of `thickness` on both sides of it.
 struct Bell {
   double dx = 0.025;
   double width = 0.3;
   double thickness = 0.15;
   double bottom = 0.4;
-  double surface = 0.6;  ///< of the water around it
-  double level = 0.5;    ///< of the water in it
+  double surface = 0.6;  ///< of the water around the bell
+  double level = 0.5;    ///< of the water in the bell
   double roof = 0.8;
 
   double overpressure() const { return 1000.0 * g * (surface - level); }
@@ -174,7 +174,7 @@ struct Bell {
   }
 };
 
-// Afloat where Archimedes and the gas law say.
+// The equilibrium by Archimedes' principle and the gas law.
 TEST(Bell, StaysAtItsDraught) {
   const Bell bell;
   for (const Integrator integrator : integrators) {
@@ -204,7 +204,7 @@ TEST(Bell, StaysAtItsDraught) {
   }
 }
 
-// A vent in its roof goes along and lets the air out: the bell goes down, and the water in it up.
+// A vent in the roof moves with the bell and lets the air out: the bell sinks, and the water in it rises.
 TEST(Bell, SinksWithAVentInItsRoof) {
   const Bell bell;
   CaseSpec spec = bell.spec();
@@ -224,13 +224,12 @@ TEST(Bell, SinksWithAVentInItsRoof) {
   EXPECT_GT(air.gas_vented, 0.2 * gas);
 }
 
-// A piston drives water and air together in a closed tank. Water keeps its volume, so the air gives way by all that the
-// piston takes, beside the water too; and it gets the energy that the piston brings, but for what it lifts of the
-// water.
+// A piston displaces water and air in a closed tank. Water keeps its volume, so the volume of the air decreases by the
+// whole volume of the piston's displacement, including the part beside the water.
 TEST(Piston, PressesTheAirBesideTheWaterItDrives) {
   constexpr double dx = 0.025;
   constexpr double height = 0.4;
-  constexpr double gap = 0.001;  // narrower than half a cell of the air's
+  constexpr double gap = 0.001;  // narrower than half a cell of the air
   constexpr double speed = 0.1;
   for (const Integrator integrator : integrators) {
     CaseSpec spec = tank_case<2>(dx, 0.6, 0.5 * height);

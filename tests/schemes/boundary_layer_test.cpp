@@ -1,4 +1,4 @@
-// Boundary layers of walls with friction, as a step lets them grow.
+// Growth of boundary layers at walls with friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace boundary_layer_test {
 
 constexpr double dx = 0.01;
 
-/// Water that glides at 1 m/s over a bed, 16 dx deep, periodic along it.
+/// Water that moves uniformly at 1 m/s over a bed, 16 dx deep, periodic along the bed.
 template <int Dim>
 CaseSpec gliding_water(Slip slip) {
   constexpr double length = 8.0 * dx;
@@ -50,7 +50,8 @@ TYPED_TEST(BoundaryLayerTest, BeginsAtTheWallAndEndsWhereItHasNotCome) {
     if (!particles.is_fluid(i)) continue;
     const double y = particles.position[i][Dim - 1];
     if (particles.layer_viscosity[i] > 0.0) {
-      // Along the water the way to the wall is not quite straight: by 4 % in the worst direction of a lattice.
+      // Along pairs of particles the path to the wall is not straight: it is up to 4 % longer, in the worst direction
+      // of a lattice.
       EXPECT_NEAR(particles.wall_distance[i], y, 0.05 * y + 0.1 * dx);
     }
     if (y < dx) {
@@ -85,7 +86,7 @@ TYPED_TEST(BoundaryLayerTest, IsNotThereWithoutFrictionNorInLaminarFlow) {
 }
 
 TEST(BoundaryLayer, ALaminarFilmKeepsItsParabola) {
-  // Ten rows, Re = 128: the noise viscosity is 4.5 times the water's own, and must see no noise in the shear.
+  // Ten rows, Re = 128: the noise viscosity is 4.5 times the water's own, and must not act on the shear.
   const double h = 0.4;
   const double nu = 0.005;
   const double pull = 0.1;
@@ -116,8 +117,8 @@ TEST(BoundaryLayer, ALaminarFilmKeepsItsParabola) {
 }
 
 TEST(BoundaryLayer, GrowsAsTheBalanceOfMomentumAsks) {
-  // d delta/dt = kappa u_tau while the layer is thinner than dx; the model's production gives c_b1/kappa u_tau, 0.81 of
-  // it, and a little more diffuses upwards.
+  // d delta/dt = kappa u_tau while the layer is thinner than dx. The production of the model gives c_b1/kappa u_tau,
+  // 0.81 of this, and a little more diffuses upwards.
   Flow<2> flow = make_flow<2>(gliding_water<2>(Slip::no_slip));
   const auto thickness = [&] {
     double sum = 0.0;

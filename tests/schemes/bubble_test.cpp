@@ -1,7 +1,7 @@
-// A half cylinder of air at a wall, under water: what is left behind a wave that breaks onto it pulsates so (Topliss,
-// Cooker and Peregrine 1992). The water around it moves as around a line source at the wall, at the depth d below a
-// surface that keeps its pressure and above a floor, H deep. Of such a source of the strength q in the half plane the
-// images make the potential, at the small distance R,
+// A half cylinder of air at a wall, under water, pulsates like the air that a breaking wave encloses (Topliss, Cooker
+// and Peregrine 1992). The water around it moves as around a line source at the wall, at the depth d below a surface
+// that keeps its pressure and above a floor, H deep. The images of such a source of strength q in the half plane give
+// the potential at the small distance R,
 //
 //   phi = -q/pi ln(4 H/(pi R) tan(pi d/(2 H))),
 //
@@ -28,7 +28,7 @@ using std::numbers::pi;
 constexpr double dx = 1.0 / 60.0;
 constexpr double radius = 6.0 * dx;
 constexpr double water_depth = 0.6;
-constexpr double length = 0.9;  ///< m; with images by the far wall too the logarithm is 2 % more
+constexpr double length = 0.9;  ///< m; images by the far wall would increase the logarithm by 2 %
 
 CaseSpec bubble_at_wall(double depth) {
   CaseSpec spec = tank_case<2>(dx, length, water_depth);
@@ -58,7 +58,7 @@ double exact_frequency(double volume, double depth) {
   return std::sqrt(1.4 * 101325.0 * pi / (1000.0 * volume * log));
 }
 
-/// Over the exact one, less 1.
+/// Ratio to the exact frequency, less 1.
 double error_of_frequency(const CaseSpec& spec, double depth) {
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
@@ -74,7 +74,7 @@ double error_of_frequency(const CaseSpec& spec, double depth) {
   return oscillation.turns() == 2 ? period / oscillation.period() - 1.0 : -1.0;
 }
 
-// Within 10 %; the source is small beside the depth.
+// Within 10 %; the source is small compared with the depth.
 TEST(BubbleAtWall, PulsatesWithTheWaterAroundIt) {
   for (const double depth : {0.2, 0.4}) {
     const double error = error_of_frequency(bubble_at_wall(depth), depth);

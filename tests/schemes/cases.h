@@ -21,7 +21,7 @@ bool has_part(const Flow<Dim>& flow) {
                              [](const auto& part) { return dynamic_cast<const P*>(part.get()) != nullptr; });
 }
 
-/// No walls, no gravity, no numerical viscosity.
+/// A case without walls, gravity and numerical viscosity.
 inline CaseSpec free_case(double spacing) {
   CaseSpec spec;
   spec.particles.spacing = spacing;
@@ -31,7 +31,7 @@ inline CaseSpec free_case(double spacing) {
   return spec;
 }
 
-/// The same, with water that fills a square of 1 m, periodic both ways: no surface, and every particle counts.
+/// A free case with water that fills a square of 1 m, periodic in both directions: no surface, and all particles count.
 inline CaseSpec periodic_square(double spacing) {
   CaseSpec spec = free_case(spacing);
   spec.domain.periodic_x = {0.0, 1.0};
@@ -43,7 +43,7 @@ inline CaseSpec periodic_square(double spacing) {
   return spec;
 }
 
-/// Water of width and depth in a box that is open above; 3D: as broad as wide.
+/// Water of given width and depth in a box that is open above; in 3D as broad as wide.
 template <int Dim>
 CaseSpec tank_case(double spacing, double width, double depth) {
   CaseSpec spec;
@@ -88,7 +88,7 @@ std::size_t count_fluid(const Flow<Dim>& flow) {
   return count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
 }
 
-/// Sorts now and then, as a run does, and takes the largest allowed step.
+/// Takes the largest allowed step; sorts particles every few steps, as a run does.
 template <int Dim>
 StepReport step(Flow<Dim>& flow) {
   constexpr int steps_between_sorts = 10;

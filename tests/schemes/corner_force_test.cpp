@@ -1,4 +1,4 @@
-// Forces on the walls of corners and edges: each wall has its own, whatever the angle (docs/theory/probes.md).
+// Forces on the walls of corners and edges: each wall has its own force, at any angle (docs/theory/probes.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ Vec<3> hydrostatic(const CaseSpec& spec, std::size_t which) {
   const double pb = weight * (level - b[1]);
   const Vec<2> out(b[1] - a[1], a[0] - b[0]);  // across the wall, times its length
   const Vec<2> force = 0.5 * (pa + pb) * out;
-  // Across the wall a force p has the moment arm along it; Simpson's rule is exact.
+  // A pressure p on the wall has the moment arm along the wall; Simpson's rule is exact.
   const Vec<2> along = (b - a).normalized();
   const double from = (a - corner).dot(along);
   const double to = (b - corner).dot(along);
@@ -58,7 +58,7 @@ Vec<3> hydrostatic(const CaseSpec& spec, std::size_t which) {
   return {force[0], force[1], -arm * (b - a).norm()};
 }
 
-/// Means of what all probes read over the second half of `steps` from rest.
+/// Means of all probe readings over the second half of `steps` steps from rest.
 template <int Dim>
 std::vector<Row> mean_forces(const CaseSpec& spec, int steps) {
   Flow<Dim> flow = make_flow<Dim>(spec);
@@ -82,7 +82,7 @@ std::vector<Row> mean_forces(const CaseSpec& spec, int steps) {
 
 class LeaningWall : public testing::TestWithParam<double> {};
 
-/// 20 rows of water at rest below a wall that leans over it: 1 %.
+/// 20 rows of water at rest below a wall that leans over it: error 1 %.
 TEST_P(LeaningWall, HasTheForceOfWaterAtRest) {
   const double angle = GetParam() * std::numbers::pi / 180.0;
   const double length = 0.6 / std::tan(angle) + 0.2;
@@ -101,7 +101,8 @@ TEST_P(LeaningWall, HasTheForceOfWaterAtRest) {
 INSTANTIATE_TEST_SUITE_P(Angles, LeaningWall, testing::Values(60.0, 45.0, 30.0),
                          [](const auto& angle) { return std::to_string(static_cast<int>(angle.param)); });
 
-/// A sill with a slope of 30 degrees up and an upright face down: its edges are of the body, its feet of the water.
+/// A sill with a slope of 30 degrees on one side and a vertical face on the other: convex edges at its top, concave
+/// corners at its feet.
 TEST(Sill, EachFaceHasTheForceOfWaterAtRest) {
   const double toe = 0.4 + 0.2 / std::tan(std::numbers::pi / 6.0);
   const CaseSpec spec = chain_of_walls(0.02, 0.4,
@@ -122,8 +123,8 @@ TEST(Sill, EachFaceHasTheForceOfWaterAtRest) {
   }
 }
 
-/// Across a gap of three rows of water each wall has its own force: it does not act through the water between them,
-/// where the forces on both would cancel.
+/// Across a gap of three rows of water each wall has its own force. The forces must not act through the water between
+/// the walls, where they would cancel.
 TEST(NarrowGap, BothWallsHaveTheirForce) {
   const double dx = 0.1;
   const double p = 3000.0;
@@ -133,12 +134,12 @@ TEST(NarrowGap, BothWallsHaveTheirForce) {
   locate(flow);
   flow.wall_forces.reset(flow.state.particles.owned);
   add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
-  // What the open end lacks is the same for both (p <r>/pi).
+  // The deficit of the open end is the same for both (p <r>/pi).
   EXPECT_NEAR(Reader<2>(spec, flow, 0).force()[0], -p * 1.0, 0.35 * p * dx);
   EXPECT_NEAR(Reader<2>(spec, flow, 2).force()[0], p * 1.0, 0.35 * p * dx);
 }
 
-/// Ten rows of water at rest between two side walls, below a mesh that leans over it by 60 degrees. At ten rows 2 %.
+/// Ten rows of water at rest between two side walls, below a mesh that leans over it by 60 degrees: error 2 %.
 TEST(LeaningMesh, HasTheForceOfWaterAtRest) {
   const double dx = 0.04;
   const double level = 0.4;
@@ -169,9 +170,9 @@ TEST(LeaningMesh, HasTheForceOfWaterAtRest) {
   EXPECT_NEAR(means[0][2], across * slope, 0.02 * scale);
 }
 
-/// A block in the middle of a tank full of water: its faces meet in edges and in corners of three. Of a uniform
-/// pressure each has its area's share, but for the quadrature of the kernel and the indifference of a patch, 0.1 %
-/// each.
+/// A block in the middle of a tank full of water: its faces meet in edges and in corners of three. A uniform pressure
+/// gives each face the force on its area. Errors are those of the quadrature of the kernel and of patches that belong
+/// to several faces, 0.1 % each.
 TEST(Block, EachFaceHasItsShareOfAUniformPressure) {
   const double dx = 0.04;
   const double p = 3000.0;

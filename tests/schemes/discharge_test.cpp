@@ -1,4 +1,4 @@
-// The discharge probe: what it reads has the mean of what is counted, also where the flow bends.
+// The discharge probe: the mean of its readings equals that of the counted volume, also where the flow bends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-/// A shooting flow falls over the end of its bed, a spacing behind which it is below the section.
+/// A supercritical flow falls over the end of its bed; one spacing behind the end it is below the section.
 TEST(Discharge, HasTheRightMeanOverABrink) {
   const double depth = 0.2;
   const double speed = 2.0;
@@ -57,7 +57,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
     const double before = flow.state.time;
     pass_and_step(flow);
     const Row row = read();
-    if (before < 2.0) {  // four times what it is smoothed over: the flux that it began with is forgotten
+    if (before < 2.0) {  // four times the smoothing time: the initial flux has decayed
       first_time = flow.state.time;
       first_volume = row[1];
       continue;
@@ -71,7 +71,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
   EXPECT_NEAR(mean, counted, 0.02 * counted);
 }
 
-/// Water that glides round and round in a period of 1 m; a section as high as the water at each end, and between them.
+/// Water that circulates in a period of 1 m, with a section as high as the water at each end and between the ends.
 TEST(Discharge, IsTheSameAtBothEndsOfAPeriodAndBetweenThem) {
   CaseSpec spec = free_case(0.05);
   spec.domain.periodic_x = {0.0, 1.0};

@@ -1,6 +1,6 @@
-// A round drop that starts with u = (-A x, A y) and nothing around it: it becomes an ellipse with semi-axes a, b that
-// follow an ordinary differential equation (after Monaghan 1994). With p = rho C/2 (1 - x^2/a^2 - y^2/b^2) the two
-// momentum equations are A^2 - A' = C/a^2 and A^2 + A' = C/b^2.
+// A round drop that starts with u = (-A x, A y) in empty space. It becomes an ellipse with semi-axes a, b that follow
+// an ordinary differential equation (after Monaghan 1994). With p = rho C/2 (1 - x^2/a^2 - y^2/b^2) the two momentum
+// equations are A^2 - A' = C/a^2 and A^2 + A' = C/b^2.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ CaseSpec round_drop(double dx, Integrator integrator) {
   return spec;
 }
 
-/// Of a uniform ellipse <x^2> = a^2/4.
+/// Semi-axes from mean squares: a uniform ellipse has <x^2> = a^2/4.
 Vec<2> semi_axes(const Particles<2>& particles) {
   Vec<2> squares = Vec<2>::Zero();
   for (std::size_t i = 0; i < particles.owned; ++i) squares += particles.position[i].cwiseAbs2();
@@ -78,8 +78,8 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
     double shape_error = 0.0;
     while (flow.state.time < 1.0) {
       const double dt = step(flow).dt;
-      // Nothing adds energy but the start, whose velocity belongs to t = 0 and not to half a step before it: dt grad p
-      // = dt A u once, so (A dt)^2 of the energy, A = 1. Then the tolerance of the pressure solve in every step.
+      // Only the start adds energy, because its velocity belongs to t = 0 and not to half a step before: once dt grad p
+      // = dt A u, which is (A dt)^2 of the energy, A = 1. Then each step adds the tolerance of the pressure solve.
       ASSERT_LT(measure(flow).kinetic_energy,
                 energy_at_start * (1.0 + dt * dt + PressureSolverTable{}.tolerance * flow.state.step));
       const Ellipse exact = exact_ellipse(flow.state.time);
@@ -87,7 +87,8 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
       error = std::max(error, (axes - Vec<2>(exact.a, exact.b)).norm());
       shape_error = std::max(shape_error, std::abs(std::log(axes[0] / axes[1] * exact.b / exact.a)));
     }
-    // The surface, and with it the area, is known no better than to one spacing; the motion, which the shape shows, is.
+    // The surface, and hence the area, is known to one spacing only; the motion, measured by the shape, is known
+    // better.
     EXPECT_LT(error, dx);
     EXPECT_LT(shape_error, previous_error);
     previous_error = shape_error;
@@ -98,8 +99,8 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
   }
 }
 
-/// Two particles 1.1 dx apart that meet head-on would be at one place after a step of 0.55 dx. They come nearer by 0.9
-/// dx at most. Only the speed along the line between them counts, and only towards each other.
+/// Two particles 1.1 dx apart that meet head-on would be at one position after a step of 0.55 dx. The step lets them
+/// approach by 0.9 dx at most. Only the speed along the line between them counts, and only towards each other.
 TEST(TimeStep, LeavesParticlesThatMeetApart) {
   constexpr double dx = 0.05;
   CaseSpec spec = free_case(dx);
@@ -124,7 +125,7 @@ TEST(TimeStep, LeavesParticlesThatMeetApart) {
   EXPECT_DOUBLE_EQ(step_with({1.0, 0.0}, {0.9, 0.0}), spec.scheme.courant * dx);
 }
 
-/// A column that is endless along gravity, and a drop, in a domain that repeats itself in every direction.
+/// A column that is endless along gravity, and a drop, in a domain that is periodic in every direction.
 template <int Dim>
 CaseSpec falling_water(double dx, double height) {
   CaseSpec spec = free_case(dx);
@@ -141,7 +142,7 @@ CaseSpec falling_water(double dx, double height) {
   return spec;
 }
 
-/// Water beside nothing but air has no pressure, so all of it falls with g, to the solver's tolerance.
+/// Water with no other boundary than air has no pressure, so all of it falls with g, to the solver's tolerance.
 template <int Dim>
 void expect_free_fall(const CaseSpec& spec) {
   Flow<Dim> flow = make_flow<Dim>(spec);

@@ -1,4 +1,4 @@
-// The books of the energy: what walls and viscosity do, and what that leaves to the density source.
+// The energy balance: the work of walls and viscosity, and the rest, which limits the density source.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,7 +11,7 @@ namespace {
 
 double energy(const Flow<2>& flow) { return measure(flow).energy(); }
 
-/// What the steps of a stretch of time booked.
+/// Sums of the energy balance over several steps.
 struct Books {
   double wall_work = 0.0;
   double viscous_work = 0.0;
@@ -33,7 +33,7 @@ Books run_to(Flow<2>& flow, double end) {
   return books;
 }
 
-/// Largest rise of the energy, over its start, of a dam break to T = t sqrt(g/H).
+/// Largest rise of the energy, over its initial value, in a dam break to T = t sqrt(g/H).
 double rise_of_dam_break(const CaseSpec& spec, double T) {
   Flow<2> flow = make_flow<2>(spec);
   const double start = energy(flow);
@@ -58,13 +58,13 @@ class Energy : public testing::TestWithParam<Integrator> {};
 
 TEST(DensitySource, SpendsNoMoreEnergyThanWasDissipated) {
   CaseSpec spec = zhou_case(0.012, Integrator::explicit_projection);
-  spec.particles.jitter = 0.15;  // too close by their kernel sums
+  spec.particles.jitter = 0.15;  // particles are too close by their kernel sums
   spec.scheme.pair_vectors = PairVectors::kernel;
   spec.scheme.courant = 0.25;
-  // The slack's default is 1e-4 of m g L/2 plus the kinetic energy, and m g L/2 is the energy of the start.
+  // The default slack is 1e-4 of m g L/2 plus the kinetic energy, and m g L/2 is the initial energy.
   EXPECT_LT(rise_of_dam_break(spec, 0.25), 1e-4);
-  // Without a limit the rise of the kernel's own pair vectors is 1.9e-4 (observed, not derived): the start of this test
-  // does put the limit to use. With corrected ones it would be 3e-6.
+  // Without a limit, the kernel's own pair vectors cause a rise of 1.9e-4 (observed, not derived). The limit is
+  // therefore active in this test. With corrected pair vectors the rise would be 3e-6.
   spec.study.energy_slack = 1e3;
   EXPECT_GT(rise_of_dam_break(spec, 0.25), 1.5e-4);
 }
@@ -80,12 +80,13 @@ TEST(DensitySource, PullsTogetherWhateverTheEnergy) {
     flow.state.energy_rise = 1e9;  // J/m
     ASSERT_EQ(step(flow).density_share, 0.0);
   }
-  // While water at sqrt(2 g L) goes dx, 1.5 density_relaxation = 0.075 of what is too light is taken: of 1.6 s, 100
-  // such times, e^-7.5 = 0.0006 would be left. More is allowed, since the outermost rows do not pull.
+  // While water at sqrt(2 g L) moves by dx, the density source removes 1.5 density_relaxation = 0.075 of the density
+  // deficit. 1.6 s are 100 such times, after which e^-7.5 = 0.0006 would remain. The bound is larger, since the
+  // outermost rows sustain no tension.
   EXPECT_GT(measure(flow).density_error_mean, 0.2 * start);
 }
 
-/// Each step takes a share in proportion to its length, so half as long steps take as much in the same time.
+/// The correction per step is proportional to the step, so steps of half the length correct as much in the same time.
 TEST(DensitySource, CorrectsAsFastWhateverTheStep) {
   std::array<double, 2> left{};
   for (std::size_t n = 0; n < left.size(); ++n) {
@@ -100,16 +101,16 @@ TEST(DensitySource, CorrectsAsFastWhateverTheStep) {
     while (flow.state.time < 0.12) step(flow);
     left[n] = measure(flow).density_error_mean / start;
   }
-  EXPECT_NEAR(left[0], left[1], 0.1);  // with one share for every step 0.36, not 0.60
+  EXPECT_NEAR(left[0], left[1], 0.1);  // with a correction independent of the step 0.36, not 0.60
 }
 
 TEST(DensitySource, GivesNoEnergyToAStartThatHitsItsWalls) {
   constexpr double dx = 0.012;
   CaseSpec spec = zhou_case(dx, Integrator::implicit_projection);
   apply_formulation(spec.scheme);
-  for (double& corner : spec.fluid[0].min) corner += 0.5 * dx;  // off the walls, which it hits after some steps
+  for (double& corner : spec.fluid[0].min) corner += 0.5 * dx;  // away from the walls, which the water hits later
   for (double& corner : spec.fluid[0].max) corner += 0.5 * dx;
-  // What the second projection leaves, and gives to the water, depends on the solver.
+  // The error of the second projection, and the energy that it adds, depend on the solver.
   for (const PreconditionerName preconditioner : {PreconditionerName::ssor, PreconditionerName::cell_multigrid}) {
     spec.pressure_solver.preconditioner = preconditioner;
     EXPECT_LT(rise_of_dam_break(spec, 0.15), 1e-4) << name_of(preconditioner);  // the energy_slack, as above
@@ -127,7 +128,7 @@ TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
   FluidTable water;
   water.min = {0.0, 0.0};
   water.max = {0.4, 0.4};
-  water.velocity = {2.0, 0.0};  // off the wall, which cannot hold it
+  water.velocity = {2.0, 0.0};  // away from the wall, which sustains no tension
   spec.fluid = {water};
   Flow<2> flow = make_flow<2>(spec);
   const double start = energy(flow);
@@ -135,7 +136,8 @@ TEST_P(Energy, IsKeptByWaterThatLeavesAWall) {
     step(flow);
     ASSERT_LT(energy(flow), start);
   }
-  // Observed, not derived: 0.978 (explicit). With walls that pull in the equation but not in the force it was 0.89.
+  // Observed, not derived: 0.978 (explicit). It was 0.89 with walls that sustain tension in the equation but not in the
+  // force.
   EXPECT_GT(energy(flow), 0.96 * start);
 }
 
@@ -154,17 +156,17 @@ TEST_P(Energy, OfAPistonIsItsWork) {
   water.max = {1.0, 0.3};
   spec.fluid = {water};
   Flow<2> flow = make_flow<2>(spec);
-  step(flow);  // the lattice finds its level
+  step(flow);  // the lattice settles
   const double start = energy(flow);
   const Books books = run_to(flow, 1.0);
-  // The sum over the kernel misses (dx/depth)^2 of the force, 4 % here; what is dissipated is far less.
+  // The sum over the kernel misses (dx/depth)^2 of the force, 4 % here; the dissipation is far smaller.
   EXPECT_GT(energy(flow) - start, 20.0);  // J/m; rho g H^2/2 times half the way is 44
-  // 4 %, and 2 % for what is dissipated, which is observed and not derived.
+  // 4 %, and 2 % for the dissipation, which is observed and not derived.
   EXPECT_NEAR(books.wall_work, energy(flow) - start, 0.06 * books.wall_work);
-  EXPECT_GT(books.mean_share, 0.95);  // and the density source does not take it for a fault
+  EXPECT_GT(books.mean_share, 0.95);  // the density source is hardly limited
 }
 
-/// Water over a bed that has a period of 0.6 m.
+/// Water over a bed with a period of 0.6 m.
 CaseSpec water_over_a_period(double depth) {
   CaseSpec spec = free_case(0.05);
   spec.domain.periodic_x = {0.0, 0.6};
@@ -189,13 +191,13 @@ TEST_P(Energy, OfWaterDraggedAlongIsTheWorkOfViscosity) {
   const double start = energy(flow);
   const Books books = run_to(flow, 0.1);
   EXPECT_GT(books.viscous_work, 1.0);  // J/m
-  // Observed, not derived: what the settling lattice does is below 1 % of it (with twice the pull on light water 1.05
-  // %).
+  // Observed, not derived: the effect of the settling lattice is below 1 % of the work (1.05 % with twice the
+  // correction of too light water).
   EXPECT_NEAR(books.viscous_work, energy(flow) - start, 0.01 * books.viscous_work);
   EXPECT_GT(books.mean_share, 0.95);
 }
 
-// At 2 m/s in the end the water has gone through the seam of the period of 0.6 m more than once.
+// At the end, at 2 m/s, the water has crossed the seam of the period of 0.6 m more than once.
 TEST_P(Energy, OfWaterThatFallsAlongAPeriodIsTheWorkOfTheSlope) {
   CaseSpec spec = water_over_a_period(0.3);
   spec.scheme.integrator = GetParam();
@@ -212,7 +214,7 @@ TEST_P(Energy, OfWaterThatFallsAlongAPeriodIsTheWorkOfTheSlope) {
 TEST_P(Energy, ARiseFadesAndHoldsTheDensitySourceMeanwhile) {
   CaseSpec spec = tank_case<2>(0.05, 0.5, 0.5);
   spec.scheme.integrator = GetParam();
-  spec.study.energy_slack = 1.0;  // all that the settling lattice does is small
+  spec.study.energy_slack = 1.0;  // the effect of the settling lattice is small
   Flow<2> flow = make_flow<2>(spec);
   const double mass = flow.setup.liquid.density * 0.5 * 0.5;
   flow.state.energy_rise = 0.8 * mass * g * flow.setup.length / 2.0;

@@ -32,7 +32,7 @@ void add_body(CaseSpec& spec, const WallTable& hull, const BodyTable& body) {
   spec.bodies.push_back(body);
 }
 
-/// A box whose centre of mass is its own.
+/// A box whose centre of mass is its geometric centre.
 void add_box(CaseSpec& spec, const Coordinates& min, const Coordinates& max, double density,
              const std::string& name = "hull") {
   WallTable hull;
@@ -60,9 +60,9 @@ template <class D>
 class FloatingBodyTest : public testing::Test {};
 TYPED_TEST_SUITE(FloatingBodyTest, Dimensions);
 
-// Forces between particles are equal and opposite, and what is left undecided by the iteration is carried over, so the
-// momentum of water and body together changes by rounding only. Without gravity, a block of water hits a box off its
-// centre.
+// Forces between particles are equal and opposite, and the residual of the iteration is carried over to the next step.
+// The momentum of water and body together therefore changes by rounding only. Without gravity, a block of water hits a
+// box off its centre.
 TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
   constexpr int Dim = TypeParam::value;
   for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
@@ -97,13 +97,13 @@ TYPED_TEST(FloatingBodyTest, KeepsMomentumWithTheWater) {
     for (int n = 0; n < (Dim == 2 ? 40 : 14); ++n) step(flow);
     EXPECT_LT((momentum() - before).norm(), 1e-11 * before.norm());
     const BodyState<Dim>& body = flow.state.motion.bodies.each[0];
-    EXPECT_GT(body.velocity[0], 0.1);  // it was hit
+    EXPECT_GT(body.velocity[0], 0.1);  // the box was hit
     EXPECT_GT(body.angular_velocity().norm(), 0.01);
   }
 }
 
-// A box at its draught, as heavy as half or a tenth of the water it could displace. Pressure is that of a tank at rest,
-// with errors of the density within a row; the box moves by less than a tenth of dx.
+// A box at its draught, with half or a tenth of the density of water. The pressure is that of a tank at rest, with
+// density errors within a row; the box moves by less than a tenth of dx.
 TEST(FloatingBody, StaysAtItsDraught) {
   constexpr double dx = 0.025;
   for (const double lightness : {0.5, 0.1}) {
@@ -124,8 +124,8 @@ TEST(FloatingBody, StaysAtItsDraught) {
   }
 }
 
-// The same in a flume 6 dx wide that the box spans from side wall to side wall. Water presses under its edges at wall
-// particles of the side walls as well, by 7 % of its weight.
+// A box at its draught in a flume 6 dx wide, which it spans from side wall to side wall. Under its edges the pressure
+// of the water also acts on wall particles of the side walls, with 7 % of the weight of the box.
 TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
   constexpr double dx = 0.025;
   CaseSpec spec = tank_case<3>(dx, 0.6, 0.3);
@@ -141,9 +141,9 @@ TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
   }
 }
 
-// A box as heavy as the water it displaces, in a closed tank that is full. From the first step on it feels the pressure
-// that the water has, which is lifted until none of it pulls: with the one before that the walls above it would push
-// with nothing, and it would begin to sink with a tenth of gravity.
+// A box as heavy as the water it displaces, in a full closed tank. From the first step on, the pressure of the current
+// step acts on the box, raised until no water has tension. With the pressure of the previous step, no force would act
+// on the top of the box, and the box would begin to sink with a tenth of gravity.
 TEST(FloatingBody, HoversInATankThatIsFull) {
   constexpr double dx = 0.025;
   CaseSpec spec = tank_case<2>(dx, 0.6, 0.4);
@@ -160,10 +160,10 @@ TEST(FloatingBody, HoversInATankThatIsFull) {
   }
 }
 
-// A box is let go half a spacing above its draught in a narrow tank, with short steps. Water that pulls is held back
-// from the second step on, and the inertia that the box has beside it is a quarter of that beside water that is not:
-// the box must not be thrown up by it, since then all water would pull, would be held back, and would fall with the
-// box.
+// A box is released half a spacing above its draught in a narrow tank, with short steps. From the second step on,
+// tension is limited, and beside water with limited tension the added inertia of the box is a quarter of its normal
+// value. The box must not be thrown up by this: all water would then have tension, would be limited, and would fall
+// with the box.
 TEST(FloatingBody, IsNotThrownByWaterThatWasHeldBack) {
   constexpr double dx = 0.015;
   CaseSpec spec = tank_case<2>(dx, 0.42, 0.375);
@@ -176,10 +176,9 @@ TEST(FloatingBody, IsNotThrownByWaterThatWasHeldBack) {
   EXPECT_LT(std::abs(flow.state.motion.bodies.each[0].linear_velocity()[1]), 0.2 * g * flow.state.time);
 }
 
-// A cylinder far below the surface, a tenth as heavy as water, let go: its mass and that of the water that goes with
-// it, which is as much as it displaces, are accelerated by its buoyancy. The water is so deep, in particles, that its
-// pressure needs a few steps to be there (softness, robust/rows.cpp). Images in walls and surface are (R/2h)^2 = 0.6 %
-// each.
+// A cylinder far below the surface, with a tenth of the density of water, is released: its buoyancy accelerates its
+// mass and its added mass, which equals the displaced mass. The water is so deep, in particles, that its pressure needs
+// a few steps to develop (softness, robust/rows.cpp). Images in walls and surface are (R/2h)^2 = 0.6 % each.
 TEST(FloatingBody, IsAcceleratedWithItsAddedMass) {
   constexpr double dx = 0.02;
   constexpr double R = 0.12;
@@ -201,7 +200,7 @@ TEST(FloatingBody, IsAcceleratedWithItsAddedMass) {
   EXPECT_NEAR(flow.state.motion.bodies.each[0].acceleration[0], 0.0, 0.01 * expected);
 }
 
-// Four times as heavy as water. It goes through the water to the bed, and no further.
+// A box four times as heavy as water sinks through the water to the bed, and no further.
 TEST(FloatingBody, SinksToTheBedAndLiesThere) {
   constexpr double dx = 0.05;
   CaseSpec spec = tank_case<2>(dx, 1.2, 0.25);
@@ -221,8 +220,9 @@ TEST(FloatingBody, SinksToTheBedAndLiesThere) {
   EXPECT_LT(std::abs(angle_of<2>(body.placement.linear)[0]), 1e-6);
 }
 
-// A box half as heavy as water lies on the bed, and no particle is beneath it. Water gets there all the same: it stays
-// as long as the water beside it is shallower than half its height, and comes off the bed where it is deeper.
+// A box half as heavy as water lies on the bed, without particles beneath it. The pressure of the water acts there
+// nevertheless: the box stays as long as the water beside it is shallower than half its height, and rises from the bed
+// where the water is deeper.
 TYPED_TEST(FloatingBodyTest, LiesOnTheBedUntilTheWaterIsDeepEnough) {
   constexpr int Dim = TypeParam::value;
   constexpr double dx = 0.025;
@@ -252,8 +252,8 @@ TYPED_TEST(FloatingBodyTest, LiesOnTheBedUntilTheWaterIsDeepEnough) {
   }
 }
 
-// The same box, in the same way under twice its height of water. It comes up and heaves about its draught: the mean
-// over the last two of its periods of about 0.7 s is that of Archimedes.
+// A box half as heavy as water, on the bed under twice its height of water. It rises and heaves about its draught: the
+// mean over the last two of its periods of about 0.7 s is that of Archimedes.
 TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
   constexpr double dx = 0.025;
   CaseSpec spec = tank_case<2>(dx, 1.2, 0.3);
@@ -278,12 +278,12 @@ TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
   EXPECT_NEAR(draught, 0.1, 0.2 * dx);
 }
 
-// A box comes down on a film of two rows and dams the water that comes in, until it floats on what has run over it.
-// Until then it hovers where a row of particles has just no room. When it comes off is chance: at 3.5 to 4.6 s in nine
-// starts (on the lattice, and with jitter 0.001 and 0.1 dx). From then on it heaves with a period of 1 s about its
-// draught of 0.1 m. Its mean over the last such period is that of Archimedes but for a spacing: in those starts it was
-// 0.009 to 0.0125 m lower, ever less as the waves die out. A box that lies on its film would be 0.2 m lower, and water
-// that it squeezed too dense by 10 % and more.
+// A box sinks onto a film of two rows and dams the inflow, until it floats on the water that has run over it. Until
+// then it hovers at a height where a row of particles just does not fit. The time of lift-off is random: 3.5 to 4.6 s
+// in nine runs (on the lattice, and with jitter 0.001 and 0.1 dx). Afterwards the box heaves with a period of 1 s about
+// its draught of 0.1 m. Its mean over the last period equals that of Archimedes to a spacing: in those runs it was
+// 0.009 to 0.0125 m lower, with a difference that decreases as the waves decay. A box that lies on its film would be
+// 0.2 m lower, and water that it compresses would be too dense by 10 % and more.
 TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
   constexpr double dx = 0.02;
   CaseSpec spec = tank_case<2>(dx, 1.2, 0.3);
@@ -295,7 +295,7 @@ TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
   start(flow);
   const BodyState<2>& body = flow.state.motion.bodies.each[0];
   const auto bottom = [&] { return body.centre[1] - 0.1; };
-  const double length = 1.2 + flow.walls.boundary.ducts[0].length;  // of the water's surface
+  const double length = 1.2 + flow.walls.boundary.ducts[0].length;  // length of the water's surface
   const auto bottom_at_rest = [&] { return (1.2 * 2.0 * dx + 0.05 * flow.state.time + 0.4 * 0.1) / length - 0.1; };
   double lowest = dx;
   double duration = 0.0;
@@ -314,7 +314,7 @@ TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
   EXPECT_NEAR(measure(flow).density_error_mean, 0.0, 0.02);
 }
 
-// Beside a tank, in the air: the step is that of the water, of first order in time.
+// In the air beside a tank. The step is that of the water, and the errors are of first order in time.
 TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   constexpr double dx = 0.05;
   CaseSpec spec = tank_case<2>(dx, 0.4, 0.2);
@@ -328,7 +328,7 @@ TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
     EXPECT_NEAR(body.velocity[1], -g * t, 1e-9);
     EXPECT_NEAR(body.centre[1], 5.1 - 0.5 * g * t * t, 0.5 * g * t * longest * 1.001);
   }
-  // A spring without length, fastened to the centre, so stiff that the period is 0.5 s.
+  // A spring of zero length, fastened to the centre, so stiff that the period is 0.5 s.
   const double mass = spec.bodies[0].mass;
   const double omega = 2.0 * std::numbers::pi / 0.5;
   spec.bodies[0].free = {"x"};
@@ -346,8 +346,9 @@ TEST(FloatingBody, FallsFreelyAndSwingsOnALine) {
   EXPECT_NEAR(flow.state.motion.bodies.each[0].centre[0], expected, 0.1 * omega * longest);
 }
 
-// In the air beside a tank: two boxes run into each other, and a piston into both. They do not rebound, so each time
-// they go on with the velocity that their momentum says, or that the piston has, and touch to rounding.
+// In the air beside a tank: two boxes collide, and a piston collides with both. They do not rebound. After each
+// collision they move with the velocity that follows from their momentum, or with that of the piston, and touch to
+// rounding.
 TEST(FloatingBody, MeetsOthersWithoutPassingOrRebounding) {
   CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);
   add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0, "a");
@@ -383,7 +384,7 @@ TEST(FloatingBody, MeetsOthersWithoutPassingOrRebounding) {
   EXPECT_NEAR(bodies[0].centre[0] - 0.1 - (1.9 + 0.5 * flow.state.time), 0.0, 1e-9);
 }
 
-// Two barges drift together in a basin and stay two.
+// Two barges drift together in a basin and do not overlap.
 TEST(FloatingBody, MeetsAnotherInTheWater) {
   constexpr double dx = 0.05;
   CaseSpec spec = tank_case<2>(dx, 2.0, 0.4);
@@ -404,8 +405,8 @@ TEST(FloatingBody, MeetsAnotherInTheWater) {
   EXPECT_LT(least, dx);  // they have met
 }
 
-// A line between two boxes in free fall: they fall as one, and swing about each other at the frequency of their reduced
-// mass. Of first order in the step.
+// A line between two boxes in free fall: they fall as one, and oscillate about each other at the frequency of their
+// reduced mass, with errors of first order in the step.
 TEST(FloatingBody, IsTiedToAnotherByALine) {
   CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);
   add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0, "a");
@@ -432,8 +433,8 @@ TEST(FloatingBody, IsTiedToAnotherByALine) {
   EXPECT_NEAR(bodies[1].centre[0] - bodies[0].centre[0], expected, 0.1 * omega * longest);
 }
 
-// A line that is damped a million times more than a step can bear explicitly lets its body down as slowly as its weight
-// stretches it, m g/c, and does not shake it.
+// A line whose damping exceeds the limit of an explicit step a million times lowers its body at the speed at which its
+// weight stretches the line, m g/c, without oscillations.
 TEST(FloatingBody, HangsOnALineOfAnyDamping) {
   CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);
   add_box(spec, {2.0, 5.0}, {2.2, 5.2}, 500.0);
@@ -450,7 +451,7 @@ TEST(FloatingBody, HangsOnALineOfAnyDamping) {
   Flow<2> flow = make_flow<2>(spec);
   while (flow.state.time < 0.3) step(flow);
   const BodyState<2>& body = flow.state.motion.bodies.each[0];
-  EXPECT_NEAR(body.centre[1], 5.05, 0.01);  // fallen until the line was straight, to the way of a step
+  EXPECT_NEAR(body.centre[1], 5.05, 0.01);  // fallen until the line is straight, to the displacement in a step
   EXPECT_NEAR(body.velocity[1], -spec.bodies[0].mass * g / line.damping, 1e-7);
 }
 

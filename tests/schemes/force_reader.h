@@ -1,4 +1,4 @@
-// What force probes read of a flow.
+// Readings of force probes of a flow.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline ProbeTable force_probe(Coordinates about, std::vector<std::string> walls 
   return probe;
 }
 
-/// What probe `which` of the case reads of the last step.
+/// Reads probe `which` of the case after the last step.
 template <int Dim>
 class Reader {
  public:

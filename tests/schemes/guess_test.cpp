@@ -1,4 +1,4 @@
-// What the pressure solves of a step begin with.
+// Initial guesses of the pressure solves of a step.
 #include <gtest/gtest.h>
 
 #include "schemes/cases.h"
@@ -8,7 +8,7 @@ namespace {
 
 constexpr int steps = 12;
 
-/// Iterations of the last half of the steps of a dam break, and the pressure after it. Calls before_step(particles)
+/// Iterations in the second half of the steps of a dam break, and the pressure after it. Calls before_step(particles)
 /// before each step.
 template <class BeforeStep>
 std::pair<int, std::vector<double>> run_steps(Integrator integrator, PreconditionerName preconditioner,

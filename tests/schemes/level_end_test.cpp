@@ -1,4 +1,4 @@
-// Open ends that hold a level, and what the flow through them is.
+// Open ends that hold a level, and the flow through them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace level_end_test {
 
 constexpr double dx = end_spacing;
 
-/// Mean depth [m] of the water in a 2D channel or tank that is so long. Each particle is a cell as wide as a column, of
-/// which the part inside counts.
+/// Mean depth [m] of the water in a 2D channel or tank of this length. Each particle is a cell as wide as a column;
+/// only the part of the cell inside the channel counts.
 double mean_depth(const Flow<2>& flow, double length) {
   const Particles<2>& particles = flow.state.particles;
   double volume = 0.0;
@@ -31,8 +31,8 @@ double mean_depth(const Flow<2>& flow, double length) {
   return volume / length;
 }
 
-/// Depth [m] of the water in the half of a tank that is away from its open end, by a weight that counts columns of
-/// particles evenly: 1 near the closed end, and from there linearly down to 0 in the middle.
+/// Depth [m] of the water in the half of a tank away from its open end, with a weight that counts columns of particles
+/// evenly: 1 near the closed end, then linearly down to 0 in the middle.
 template <int Dim>
 double depth_away_from_end(const Flow<Dim>& flow) {
   const OpenEnd<Dim>& end = flow.template part<OpenEnds<Dim>>().ends()[0];
@@ -55,8 +55,8 @@ CaseSpec tank_with_level(double depth, const Varying& level) {
   return spec;
 }
 
-/// An end at which nothing flows holds its level from both sides: a tank fills or empties to it, however far off it
-/// begins, and stays there.
+/// An end without flow holds its level from both sides: a tank fills or empties to the level from any initial depth,
+/// and stays there.
 TEST(OpenEnd, ATankComesToTheLevelBeyond) {
   for (const double level : {0.25, 0.8}) {
     Flow<2> flow = make_flow<2>(tank_with_level(0.5, level));
@@ -71,7 +71,7 @@ TEST(OpenEnd, ATankComesToTheLevelBeyond) {
   }
 }
 
-/// A tank that has no water of its own fills to the level beyond, too.
+/// An initially dry tank also fills to the level beyond.
 TEST(OpenEnd, ADryTankFillsToTheLevelBeyond) {
   CaseSpec spec = tank_with_level(0.5, 0.4);
   spec.fluid.clear();
@@ -85,10 +85,10 @@ TEST(OpenEnd, ADryTankFillsToTheLevelBeyond) {
   }
 }
 
-/// Runs a tank beside an end whose level changes by at most `rate` [m/s] for `duration`, and then rests.
-/// Its depth lags by what lets the flow u = r L/h in, u c/g = r L/c, by what the level rises while the tank
-/// answers, in L/c, and while the end takes its mean over the time L/c, as much again each; and it is there when the
-/// level has come to rest.
+/// Runs a tank beside an end whose level changes by at most `rate` [m/s] for `duration` and then rests. The lag of the
+/// depth has three parts, each at most u c/g = r L/c for the flow u = r L/h that enters: the slope that drives this
+/// flow, the rise of the level during the response of the tank, L/c, and the averaging of the end over the time L/c.
+/// The depth equals the level after it has come to rest.
 template <int Dim>
 void expect_follows(const CaseSpec& spec, const Varying& level, double rate, double duration, double at_rest) {
   CaseSpec with_level = spec;
@@ -97,7 +97,7 @@ void expect_follows(const CaseSpec& spec, const Varying& level, double rate, dou
   start(flow);
   const double length = flow.template part<OpenEnds<Dim>>().ends()[0].reach;
   const TimeFunction asked(level, {});
-  double least = asked.at(0.0);  // m; of the levels so far
+  double least = asked.at(0.0);  // m; lowest level so far
   while (flow.state.time < duration) {
     pass_and_step(flow);
     const double now = asked.at(flow.state.time);
@@ -118,7 +118,7 @@ void expect_follows(const CaseSpec& spec, const Varying& level, double rate, dou
   EXPECT_LT(state_of_end(flow, 0).miss.since, 0.0) << "not missed for long";
 }
 
-/// Any series of levels takes the water along: up, down, and as a wave.
+/// The water follows any series of levels: up, down, and as a wave.
 TEST(OpenEnd, ATankFollowsAnySeriesOfLevels) {
   const CaseSpec spec = tank_with_level(0.5, 0.5);
   expect_follows<2>(spec, Varying("0.5 + 0.3*min(1, t/3)"), 0.1, 3.0, 0.8);
@@ -126,8 +126,8 @@ TEST(OpenEnd, ATankFollowsAnySeriesOfLevels) {
   expect_follows<2>(spec, Varying("0.5 + 0.1*sin(1.5*min(t, 8*atan(1)/1.5))"), 0.15, 6.0, 0.5);
 }
 
-/// A level that steps in the middle of a run, up and far down, and lets waves out: the tank overshoots, comes back to
-/// it within three seconds, which are some six ways of a wave through it, and stays.
+/// A level that steps during a run, up and far down, with an end that absorbs waves: the tank overshoots, returns to
+/// the level within three seconds, about six travel times of a wave through the tank, and stays.
 TEST(OpenEnd, ATankComesToALevelThatSteps) {
   const TimeFunction asked(Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4"), {});
   CaseSpec spec = tank_with_level(0.5, Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4"));
@@ -144,7 +144,7 @@ TEST(OpenEnd, ATankComesToALevelThatSteps) {
   }
 }
 
-/// The opening may end just above the water, not only far above it, and bring the water from either side.
+/// The opening may end just above the water, and water may enter from either side.
 TEST(OpenEnd, ATankFollowsWhateverTheOpening) {
   const Varying rise("0.4 + 0.3*min(1, t/3)");
   CaseSpec spec = tank_with_level(0.4, 0.4);
@@ -157,7 +157,7 @@ TEST(OpenEnd, ATankFollowsWhateverTheOpening) {
   expect_follows<2>(from_left, rise, 0.1, 3.0, 0.7);
 }
 
-/// Both integrators of scheme F and scheme B hold it, in 3D too.
+/// Both integrators of scheme F and scheme B hold the level, also in 3D.
 TEST(OpenEnd, ATankFollowsWithEveryFormulation) {
   const Varying rise("0.4 + 0.2*min(1, t/2)");
   CaseSpec spec = tank_with_level(0.4, 0.4);
@@ -176,9 +176,9 @@ TEST(OpenEnd, ATankFollowsIn3D) {
   expect_follows<3>(spec, Varying("0.3 + 0.1*min(1, t)"), 0.1, 1.0, 0.4);
 }
 
-/// A channel whose discharge ends keeps its tailwater. While the water slows down, u L/T tilts its surface by u L/(g
-/// T), half of it in the mean, and what is set free by the end of that swings as far beyond: so the mean depth is never
-/// off by more than that and a spacing.
+/// A channel whose discharge ends keeps its tailwater. The deceleration of the water, u/T, tilts the surface by u L/(g
+/// T), half of it on average. When the deceleration ends, the surface swings by as much to the other side. The mean
+/// depth therefore differs by at most this tilt and a spacing.
 TEST(OpenEnd, AChannelWhoseDischargeEndsKeepsItsTailwater) {
   const double length = 2.0;
   const double depth = 0.3;
@@ -203,8 +203,8 @@ TEST(OpenEnd, AChannelWhoseDischargeEndsKeepsItsTailwater) {
   EXPECT_NEAR(mean / count, depth, 0.5 * dx);
 }
 
-/// Without a level the channel goes on: a discharge that rises or falls sends a simple wave down it, in which u - 2
-/// sqrt(g h) is what it was, and which leaves.
+/// Without a level the channel continues: a change of the discharge sends a simple wave down the channel, which leaves.
+/// Behind the wave u - 2 sqrt(g h) is unchanged.
 TEST(OpenEnd, AChannelThatGoesOnTakesADischargeThatChanges) {
   const double length = 1.5;
   const double depth = 0.4;
@@ -227,7 +227,7 @@ TEST(OpenEnd, AChannelThatGoesOnTakesADischargeThatChanges) {
 }
 
 /// Potential flow from water at rest over a free brink is critical: two thirds of the head deep, q = (2/3)^1.5 sqrt(g)
-/// H^1.5. A column of particles is half a percent of what is counted.
+/// H^1.5. A column of particles is half a percent of the counted volume.
 TEST(OpenEnd, AReservoirGivesTheDischargeOfPotentialFlow) {
   const double head = 10.0 * dx;
   CaseSpec spec = channel<2>(1.5, head);
@@ -245,9 +245,9 @@ TEST(OpenEnd, AReservoirGivesTheDischargeOfPotentialFlow) {
   EXPECT_NEAR(discharge / (std::pow(2.0 / 3.0 * head, 1.5) * std::sqrt(g)), 1.0, 0.01);
 }
 
-/// In linear theory a tank that is D below a level beyond its open end, which is held, has risen by 2 D after the time
-/// 2 L/c, half a period, and is back after 4 L/c. What enters loses some of that. A level that absorbs lets the wave
-/// out: the tank is at the level by then and stays.
+/// In linear theory a tank that is D below a fixed level beyond its open end rises by 2 D within the time 2 L/c, half a
+/// period, and is back after 4 L/c. Entrance losses reduce the rise. An absorbing level lets the wave out: the tank is
+/// at the level by then and stays.
 TEST(OpenEnd, AHeldLevelReflectsAndAnAbsorbingOneDoesNot) {
   const double length = 2.0;
   const double above = 2.0 * dx;
@@ -273,7 +273,7 @@ TEST(OpenEnd, AHeldLevelReflectsAndAnAbsorbingOneDoesNot) {
   }
 }
 
-/// A river that runs into a rising sea fills its reach with the level of the sea, and no water piles up at its end.
+/// A river that flows into a rising sea fills its reach to the level of the sea, and no water accumulates at its end.
 TEST(OpenEnd, ARiverRunsIntoARisingSea) {
   const double length = 2.0;
   const double depth = 0.4;
@@ -301,8 +301,8 @@ TEST(OpenEnd, ARiverRunsIntoARisingSea) {
   }
 }
 
-/// Two layers that run past each other leave and enter through the same openings. The shear between them mixes a third
-/// of each within the time; a buffer that moved with one speed would let nothing pass.
+/// Two layers with opposite velocities leave and enter through the same openings. The shear between them mixes a third
+/// of each within the time; a buffer zone with a single velocity would let nothing pass.
 TEST(OpenEnd, LayersPassInOppositeDirections) {
   const double speed = 0.5;
   const double depth = 0.4;
@@ -327,8 +327,8 @@ TEST(OpenEnd, LayersPassInOppositeDirections) {
   }
 }
 
-/// A tank behind a pipe or a shaft that is full, below the level beyond: it comes to that level, from above or below,
-/// wherever the opening is.
+/// A tank behind a full pipe or shaft, below the level beyond: the tank reaches that level, from above or below, for
+/// any position of the opening.
 TEST(OpenEnd, ATankComesToTheLevelBeyondAFullSection) {
   const std::string pipe =
       "[[wall]]\npoints = [[0, 1], [0, 0], [1.1, 0]]\n[[wall]]\npoints = [[1.1, 0.2], [0.6, 0.2], [0.6, 1]]\n"
@@ -362,7 +362,7 @@ TEST(OpenEnd, ATankComesToTheLevelBeyondAFullSection) {
   }
 }
 
-/// A stage-discharge relation: the level is that of the discharge which leaves, so a discharge that comes in finds its
+/// A stage-discharge relation: the level is a function of the discharge that leaves, so a given inflow reaches its
 /// level.
 TEST(OpenEnd, AStageDischargeRelationFindsItsLevel) {
   const double discharge = 0.2;
@@ -377,7 +377,8 @@ TEST(OpenEnd, AStageDischargeRelationFindsItsLevel) {
   EXPECT_NEAR(state_of_end(flow, 1).mean_discharge, discharge, 0.05 * discharge);
 }
 
-/// A shooting flow passes below a tailwater that is too low to hold it up: the level is missed, and that is told.
+/// A supercritical flow passes below a tailwater that is too low to dam it: the level is missed, and the run reports
+/// it.
 TEST(OpenEnd, ALevelThatIsNotHeldIsTold) {
   const double depth = 0.2;
   const double speed = 4.0;
@@ -397,7 +398,7 @@ TEST(OpenEnd, ALevelThatIsNotHeldIsTold) {
   EXPECT_LT(state_of_end(flow, 0).miss.since, 0.0);
 }
 
-/// Whatever the profile, the rows of the lattice bring the discharge.
+/// The rows of the lattice deliver the discharge for any profile.
 TEST(OpenEnd, ASteepProfileBringsTheDischarge) {
   const double depth = 0.4;
   const double speed = 0.5;
@@ -414,8 +415,8 @@ TEST(OpenEnd, ASteepProfileBringsTheDischarge) {
   EXPECT_NEAR(arrived_at(flow, 0).volume, asked, 0.02 * asked + dx * depth);
 }
 
-/// The published formulations have open ends too: still water between them does not run away, whatever their pressure
-/// makes of its ends. It is slower than a wave.
+/// Open ends work in the published formulations too: still water between them does not accelerate, for any errors of
+/// their pressure at the ends. It stays slower than a wave.
 TEST(OpenEnd, ThePublishedFormulationsHaveThem) {
   for (const SchemeName name : {SchemeName::farzin2014, SchemeName::farmani2020}) {
     CaseSpec spec = channel<2>(1.0, 0.4);

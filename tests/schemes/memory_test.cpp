@@ -1,5 +1,5 @@
-// What a flow holds per particle when its matrix is assembled: of arrays with an entry per pair only the neighbours and
-// the weights.
+// Memory of a flow per particle when its matrix is assembled: of arrays with an entry per pair, only the neighbours and
+// the weights remain.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -18,7 +18,7 @@ double bytes_on_heap() {
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
-// Fields take 460 bytes in 2D and 720 in 3D; another array of 4 bytes by pair would add 92 and 202.
+// Fields take 460 bytes in 2D and 720 in 3D; another array of 4 bytes per pair would add 92 and 202.
 TYPED_TEST(MemoryTest, OfArraysByPairAMatrixKeepsTheNeighboursAndTheWeights) {
   constexpr int Dim = TypeParam::value;
   constexpr int edge = Dim == 2 ? 60 : 16;

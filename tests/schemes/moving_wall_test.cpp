@@ -1,5 +1,4 @@
-// Walls that move: they sweep what the water leaves, drag nothing along, push with their inertia, and let nobody
-// through.
+// Moving walls: they displace water, drag none along, exert inertial pressure, and let no particle through.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +58,7 @@ double kinetic_energy(const Flow<Dim>& flow) {
   return measure(flow).kinetic_energy;
 }
 
-/// Nobody is behind a wall.
+/// Asserts that no particle is behind a wall.
 template <int Dim>
 void expect_all_in_front(const Flow<Dim>& flow) {
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
@@ -94,10 +93,10 @@ TEST_P(MovingWall, WhatAPistonSweepsTheWaterRises) {
     highest = std::max(highest, flow.state.particles.position[i][1]);
     nearest = std::min(nearest, flow.state.particles.position[i][0]);
   }
-  // The water beside the piston has gone as far as the piston: first row and slosh within dx.
+  // The water beside the piston has moved as far as the piston: first row and sloshing within dx.
   EXPECT_NEAR(nearest, way + 0.5 * dx, 0.5 * dx);
-  // 1 m of water on 0.8 m. The piston is fastest at pi/4 way/duration * 2, slow against sqrt(g h): waves of its speed
-  // times sqrt(h/g), 0.014 m, and a level known to a half row on either side.
+  // 1 m of water on 0.8 m. The piston is fastest at pi/4 way/duration * 2, which is slow compared with sqrt(g h). Its
+  // waves have the height of its speed times sqrt(h/g), 0.014 m, and the level is known to half a row on either side.
   const double wave = 0.1 * std::numbers::pi / duration * std::sqrt(depth / g);
   EXPECT_NEAR(highest + 0.5 * dx, depth / (1.0 - way), 0.5 * dx + wave);
   const FlowMeasures measures = measure(flow);
@@ -111,7 +110,7 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
   WallTable tank = chain({{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
   tank.displacement = {"0.125*g*t^2", 0.0};
   spec.walls = {tank};
-  FluidTable water;  // the level of the accelerated frame, normal to (-a, -g)
+  FluidTable water;  // the level in the accelerated frame, normal to (-a, -g)
   water.shape = BlockShape::polygon;
   water.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.3}, {0.0, 0.55}};
   spec.fluid = {water};
@@ -125,7 +124,7 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
       if (!flow.state.particles.is_fluid(i)) continue;
       const Vec<2> x = flow.state.particles.position[i] - Vec<2>(displacement, 0.0);
       const double exact = flow.setup.liquid.density * (g * (0.55 - x[1]) - a * x[0]);
-      // The surface of a lattice of squares is known to half a diagonal more than a level one.
+      // The error of an inclined surface of a lattice of squares is larger than that of a level one by half a diagonal.
       EXPECT_LT(std::abs(flow.state.particles.pressure[i] - exact), 1.7 * flow.setup.liquid.density * felt * dx)
           << "at " << x.transpose();
     }
@@ -133,7 +132,7 @@ TEST_P(MovingWall, TankAcceleratedAsAWholeIsAtRestInItsFrame) {
   expect_hydrostatic(0.0);
   for (int n = 0; n < 50; ++n) {
     EXPECT_EQ(step(flow).interventions.stopped_at_walls, 0u);
-    // Velocities are those of the end of the step, or of its middle.
+    // Velocities are those at the end of the step, or in its middle.
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
       if (!flow.state.particles.is_fluid(i)) continue;
       const Vec<2> relative = flow.state.particles.velocity[i] - Vec<2>(a * flow.state.time, 0.0);
@@ -163,7 +162,7 @@ TEST_P(MovingWall, ABedThatSlidesUnderStillWaterDragsNothing) {
     if (flow.state.particles.is_fluid(i))
       momentum += flow.state.particles.velocity[i][0] * flow.state.particles.volume[i];
   }
-  EXPECT_LT(std::abs(momentum / depth), 0.01 * 2.0);  // mean velocity against the bed's
+  EXPECT_LT(std::abs(momentum / depth), 0.01 * 2.0);  // mean velocity compared with that of the bed
 }
 
 TEST_P(MovingWall, ARoughOneTakesTheWaterAlong) {
@@ -186,7 +185,7 @@ TEST_P(MovingWall, ARoughOneTakesTheWaterAlong) {
   while (flow.state.time < height * height / spec.physics.viscosity) step(flow);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.state.particles.is_fluid(i)) continue;
-    // The place of a wall is known to a small part of dx; the profile has the slope 1/H.
+    // The position of a wall is known to a small part of dx; the profile has the slope 1/H.
     EXPECT_NEAR(flow.state.particles.velocity[i][0], flow.state.particles.position[i][1] / height, 0.2 * dx / height);
   }
 }
@@ -200,7 +199,7 @@ TEST_P(MovingWall, AGateLiftedBetweenEqualLevelsLeavesThemSo) {
                 gate({0.5, 0.0}, {0.65, 0.8}, {0.0, "2*max(0, t - 0.05)"})};
   spec.fluid = {water_box({0.0, 0.0}, {0.5, depth}), water_box({0.65, 0.0}, {1.15, depth})};
   Flow<2> flow = make_flow<2>(spec);
-  // What the water can win is the fall into the room of the gate.
+  // The water can gain the energy of its fall into the volume of the gate.
   const double won = flow.setup.liquid.density * g * depth * thickness * 0.5 * depth;
   std::size_t stopped_at_walls = 0;
   while (flow.state.time < 1.5) {
@@ -245,7 +244,7 @@ void expect_clean_lock_gate(const Way& way) {
       front = std::max(front, flow.state.particles.position[i][0]);
     }
   }
-  EXPECT_GT(front, 0.65);  // the bore is on its way
+  EXPECT_GT(front, 0.65);  // the bore has formed
 }
 
 TEST_P(MovingWall, AGateLiftedFromALockLetsTheWaterGoAndNobodyThroughItself) { expect_clean_lock_gate<2>(GetParam()); }
@@ -294,7 +293,7 @@ TEST(MovingWallStep, ASlowWallLeavesTheStepAsLongAsTheWaterAllows) {
 
 TEST(MovingWallStep, AWallThatGoesOutAndBackWithinAStepIsSeen) {
   const double step_of_water = 0.55 * 2.0 / std::sqrt(2.0 * g * 12.0);
-  // After a whole step of the water it would be back.
+  // After a whole step of the water the wall would be back.
   const Flow<3> flow = ships_tank({fmt::format("3*sin(pi*t/{:.17g})", step_of_water), 0.0, 0.0});
   const double dt = next_time_step(flow);
   EXPECT_LE(3.0 * std::sin(std::numbers::pi * dt / step_of_water), 0.55 * 2.0 + 1e-9);
@@ -325,7 +324,7 @@ CaseSpec absorber_case(double at) {
 }
 
 TEST(WaveMaker, GivesWayByTheElevationInFrontOfIt) {
-  // The tent counts the lattice exactly, wherever the plate stands. In long waves the gain is sqrt(g/h).
+  // The linear weights count the lattice exactly, for any position of the plate. For long waves the gain is sqrt(g/h).
   for (const double at : {0.0, 0.013}) {
     Flow<2> flow = make_flow<2>(absorber_case(at));
     flow.part<WaveMakers<2>>().begin_step(flow, 2e-3);

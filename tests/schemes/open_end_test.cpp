@@ -1,6 +1,5 @@
-// Open ends. Taking out, letting in and counting are exact. What stands before an outlet behaves as if the channel went
-// on, up to the resolution of the level, which is known no better than half a spacing. An inlet brings what is asked
-// for, to the particle.
+// Open ends. Outflow, inflow and counts are exact. Water before an outlet behaves as if the channel continued, up to
+// the resolution of the level, which is half a spacing. An inlet delivers the prescribed discharge to one particle.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,9 +20,9 @@ template <class D>
 class OpenEndTest : public testing::Test {};
 TYPED_TEST_SUITE(OpenEndTest, Dimensions);
 
-/// A wall particle counts as wet from a kernel sum of 1e-6 W(0) on (wet_walls.cpp), where 1 - r/R = 0.02. Its share of
-/// a divergence is there dx^2 |W'| = 1.6e-5/dx, and a plug that glides past feels such particles come and go to that
-/// degree. Steps of 0.25 or 0.5 dx pass no wall particle at such a distance.
+/// A wall particle counts as wet from a kernel sum of 1e-6 W(0) on (wet_walls.cpp), where 1 - r/R = 0.02. Its
+/// contribution to a divergence is there dx^2 |W'| = 1.6e-5/dx, and a plug that slips along the wall changes by this
+/// amount as such particles become wet and dry. Steps of 0.25 or 0.5 dx pass no wall particle at such a distance.
 constexpr double unfelt = 1.6e-5;
 
 template <int Dim>
@@ -35,8 +34,8 @@ std::multiset<std::int64_t> fluid_ids(const Particles<Dim>& particles) {
   return ids;
 }
 
-/// Without gravity a plug that glides along the walls feels nothing: it leaves as it came, column by column, and the
-/// empty case goes on.
+/// Without gravity no force acts on a plug that slips along the walls: it leaves unchanged, column by column, and the
+/// empty case continues.
 TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
   constexpr int Dim = TypeParam::value;
   constexpr double speed = 2.0;
@@ -45,8 +44,8 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
     spec.walls[0].open.emplace_back("-x");
     spec.physics.gravity = Coordinates(Dim, 0.0);
     spec.scheme.integrator = integrator;
-    spec.study.shifting = 0.0;            // it would round the plug's ends off
-    spec.study.density_relaxation = 0.0;  // they have too few neighbours
+    spec.study.shifting = 0.0;            // shifting would round the ends of the plug
+    spec.study.density_relaxation = 0.0;  // particles at the ends have too few neighbours
     spec.study.length = 0.2;
     spec.fluid[0].velocity.assign(Dim, 0.0);
     spec.fluid[0].velocity[0] = speed;
@@ -72,8 +71,8 @@ TYPED_TEST(OpenEndTest, APlugLeavesUnchangedAndIsCounted) {
   }
 }
 
-/// Still water stays, but for what an error of half a spacing in the level beyond drives: u = (g/c) dx/2. Over a brink
-/// it would leave at 8/27 sqrt(g h) h, six times as much. A column leaves at a time.
+/// Still water stays, except for the flow that an error of half a spacing in the level beyond causes: u = (g/c) dx/2.
+/// Over a brink it would leave at 8/27 sqrt(g h) h, six times as much. A whole column leaves at once.
 TYPED_TEST(OpenEndTest, StillWaterIsNotDrawnDown) {
   constexpr int Dim = TypeParam::value;
   const double width = Dim == 2 ? 1.0 : 0.4;
@@ -94,7 +93,7 @@ TYPED_TEST(OpenEndTest, StillWaterIsNotDrawnDown) {
   }
 }
 
-/// A pressing stretch of water keeps no memory of how it is oriented: the mirrored channel does the same, mirrored.
+/// Water that flows towards an outlet behaves equally in both directions: the mirrored channel has the mirrored flow.
 TEST(Outlet, LeftIsRightMirrored) {
   CaseSpec right = open_tank<2>(0.8, 0.4);
   right.fluid[0].velocity = {1.0, 0.0};
@@ -114,11 +113,12 @@ TEST(Outlet, LeftIsRightMirrored) {
   }
   EXPECT_GT(state_of_end(flow_right, 0).departed.particles, 0);
   EXPECT_EQ(state_of_end(flow_right, 0).departed.particles, state_of_end(flow_left, 0).departed.particles);
-  // As near as the solver's tolerance of 1e-4 leaves them.
+  // As near as the solver's tolerance of 1e-4 allows.
   EXPECT_NEAR(measure(flow_right).kinetic_energy / measure(flow_left).kinetic_energy, 1.0, 1e-2);
 }
 
-/// A level that comes by is that of a channel that goes on: the pressure in the end stretch is hydrostatic below it.
+/// The level of an outlet without a level is that of a continuing channel: the pressure in the buffer zone is
+/// hydrostatic below it.
 TEST(Outlet, EndStretchIsHydrostatic) {
   CaseSpec spec = open_tank<2>(1.0, 0.5);
   spec.pressure_solver.tolerance = 1e-12;
@@ -134,7 +134,7 @@ TEST(Outlet, EndStretchIsHydrostatic) {
   EXPECT_EQ(leaving, 4 * 10) << "the support and a spacing, in the whole depth";
 }
 
-/// Gravity along the normal presses on nothing: water falls through a hole in the floor as in air.
+/// Gravity along the normal causes no pressure: water falls through a hole in the floor as in air.
 TEST(Outlet, HoleInTheFloor) {
   CaseSpec spec = open_tank<2>(0.4, 0.4);
   spec.walls[0].open = {"+y", "-y"};
@@ -148,7 +148,7 @@ TEST(Outlet, HoleInTheFloor) {
     remove_outflow(flow);
     step(flow);
   }
-  // Nothing holds it: what stood below g t^2/2, less a spacing and half, has fallen out.
+  // No force holds the water: the part that was below g t^2/2, less one spacing and a half, has fallen out.
   const double fallen = 0.5 * g * flow.state.time * flow.state.time;
   EXPECT_GE(state_of_end(flow, 0).departed.volume, 0.5 * 0.4 * (fallen - 1.5 * dx));
   EXPECT_LE(state_of_end(flow, 0).departed.volume, 0.4 * (fallen + 1.5 * dx));
@@ -156,7 +156,7 @@ TEST(Outlet, HoleInTheFloor) {
             at_start);
 }
 
-/// Without gravity nothing acts on water that comes in at one speed: it stands on the lattice of its entrance, to
+/// Without gravity no force acts on water that enters at a uniform speed: it stays on the lattice of its entrance, to
 /// round-off, and every particle is counted once.
 TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
   constexpr int Dim = TypeParam::value;
@@ -183,8 +183,8 @@ TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
     ASSERT_EQ(static_cast<std::size_t>(arrived.particles), now);
     ASSERT_NEAR(arrived.volume, static_cast<double>(now) * power<Dim>(dx), 1e-12);
     const double asked = speed * flow.state.time * height * breadth;
-    // The first column stands dx/2 behind the opening, and the next enters when it has gone dx/2 farther: the number of
-    // columns is the integer part of 3/2 + way/dx.
+    // The first column stands dx/2 behind the opening, and the next enters after another dx/2: the number of columns is
+    // the integer part of 3/2 + way/dx.
     ASSERT_LE(arrived.volume - asked, 1.5 * dx * height * breadth + 1e-12);
     ASSERT_GE(arrived.volume - asked, -dx * height * breadth - 1e-12) << "a column enters between two steps";
   }
@@ -207,8 +207,9 @@ TYPED_TEST(OpenEndTest, APlugEntersOnALatticeAndIsCounted) {
   }
 }
 
-/// Even flow through a channel: the discharge that comes in is the prescribed one to a layer, what passes both ends and
-/// what is inside add up to the particle, and a section in the middle is passed by as much, but for what is between.
+/// Uniform flow through a channel. The inflow is the prescribed one to a layer. The counts of both ends and of the
+/// water inside balance to the particle. The volume that passes a section in the middle differs only by the water
+/// between.
 TYPED_TEST(OpenEndTest, WhatEntersIsWhatIsAskedFor) {
   constexpr int Dim = TypeParam::value;
   const double width = Dim == 2 ? 1.5 : 0.7;
@@ -251,7 +252,7 @@ TYPED_TEST(OpenEndTest, WhatEntersIsWhatIsAskedFor) {
   }
 }
 
-/// A discharge below 0 takes water out through the inlet.
+/// A negative discharge takes water out through the inlet.
 TEST(OpenEnd, AnInletThatIsReversedTakesWaterOut) {
   const double depth = 0.4;
   const double speed = 0.3;
@@ -272,8 +273,8 @@ TEST(OpenEnd, AnInletThatIsReversedTakesWaterOut) {
             static_cast<std::int64_t>(count_fluid(flow)) + inlet.departed.particles + outlet.departed.particles);
 }
 
-/// Water at rest between an inlet that brings nothing and a tailwater at its level stays there: no more of it moves
-/// than half a spacing of error in the level drives.
+/// Water at rest between an inlet without discharge and a tailwater at its level stays at rest, except for the flow
+/// that an error of half a spacing in the level causes.
 TEST(OpenEnd, AChannelAtRestStaysAtRest) {
   const double depth = 0.4;
   CaseSpec spec = channel<2>(1.0, depth);
@@ -290,8 +291,8 @@ TEST(OpenEnd, AChannelAtRestStaysAtRest) {
   EXPECT_NEAR(state_of_end(flow, 0).depth, depth, 0.5 * dx);
 }
 
-/// Water that circulates is neither lost nor made: at any moment what is inside and what waits is what was there, in
-/// number and volume, and a channel whose reserve is used up gets no more than has left it.
+/// Circulating water is neither lost nor created: at any time, the water inside and in the reserve equals the initial
+/// water, in number and volume. A channel whose reserve is exhausted receives no more than has left it.
 TYPED_TEST(OpenEndTest, WaterThatCirculatesIsTheSame) {
   constexpr int Dim = TypeParam::value;
   const double width = Dim == 2 ? 1.5 : 0.5;
@@ -333,7 +334,7 @@ TYPED_TEST(OpenEndTest, WaterThatCirculatesIsTheSame) {
   }
 }
 
-/// The profile of an inlet is what the particles have as they enter, with the mean that is asked for.
+/// Particles enter with the velocity of the profile, whose mean is the prescribed velocity.
 TEST(OpenEnd, AProfileHasTheMeanThatIsAskedFor) {
   CaseSpec spec = channel<2>(1.0, 0.4);
   spec.fluid.clear();
@@ -356,7 +357,7 @@ TEST(OpenEnd, AProfileHasTheMeanThatIsAskedFor) {
   EXPECT_NEAR(sum / 8.0, 1.5, 1e-6);
 }
 
-/// A dry channel floods from a reservoir, with water no deeper than the level and not slower than critical at first.
+/// A dry channel floods from a reservoir, with water no deeper than the level and initially not slower than critical.
 TEST(OpenEnd, AReservoirFloodsADryChannel) {
   CaseSpec spec = channel<2>(1.5, 0.4);
   spec.fluid.clear();

@@ -33,8 +33,8 @@ template <class D>
 class PlateTest : public testing::Test {};
 TYPED_TEST_SUITE(PlateTest, Dimensions);
 
-// The water of the other side is replaced by wall particles at the same places, so that not a single kernel value
-// changes, neither at the foot nor beside the end of the plate.
+// The water of the other side is replaced by wall particles at the same positions, so that no kernel value changes,
+// neither at the foot nor near the end of the plate.
 TYPED_TEST(PlateTest, FillsEachSupportOnce) {
   constexpr int Dim = TypeParam::value;
   constexpr double depth = 0.5;
@@ -56,7 +56,7 @@ TYPED_TEST(PlateTest, FillsEachSupportOnce) {
     }
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const Vec<Dim>& y = particles.position[pairs.j[k]];
-      // Within dx of the edge of the plate pairs fade.
+      // Within dx of the edge of the plate the separation of pairs fades.
       if (!particles.is_fluid(pairs.j[k]) || std::max(x[Dim - 1], y[Dim - 1]) > 0.3 - dx) continue;
       EXPECT_EQ(x[0] < 0.5 * width, y[0] < 0.5 * width) << x.transpose() << " to " << y.transpose();
       ++apart;
@@ -66,7 +66,7 @@ TYPED_TEST(PlateTest, FillsEachSupportOnce) {
   EXPECT_GT(apart, 500u);
 }
 
-// Bounds as for a tank without a plate (tank_test.cpp), with the larger depth of the two.
+// Bounds as for a tank without a plate (tank_test.cpp), with the larger of the two depths.
 TYPED_TEST(PlateTest, HoldsWaterOfTwoDepthsApart) {
   constexpr int Dim = TypeParam::value;
   for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {
@@ -95,7 +95,7 @@ TYPED_TEST(PlateTest, HoldsWaterOfTwoDepthsApart) {
   }
 }
 
-// A particle that would jump through the plate in one step is stopped in front of the side from which it came.
+// A particle that would jump through the plate in one step is stopped on the side from which it came.
 TYPED_TEST(PlateTest, IsNotPassed) {
   constexpr int Dim = TypeParam::value;
   for (const double side : {-1.0, 1.0}) {
@@ -114,7 +114,7 @@ TYPED_TEST(PlateTest, IsNotPassed) {
     particles.position[jumping][0] -= side * 1.3 * dx;
     EXPECT_EQ(keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, dx, {}, before, particles, {}), 1u);
     EXPECT_GT(side * (particles.position[jumping][0] - 0.5 * width), 0.0);
-    // Above the plate the way is free.
+    // Above the plate the path is free.
     particles.position[jumping] = before[jumping];
     particles.position[jumping][Dim - 1] = 0.35;
     const Vec<Dim> above = particles.position[jumping];
@@ -127,7 +127,7 @@ TYPED_TEST(PlateTest, IsNotPassed) {
   }
 }
 
-/// A sheet of triangles across the tank, from below its bed to above its rim; `x_at(y, z)` in shares of the tank.
+/// A sheet of triangles across the tank, from below its bed to above its rim; `x_at(y, z)` in fractions of the tank.
 template <class Place>
 WallTable sheet_across(const testing_cases::MeshFolder& folder, double height, Place&& x_at) {
   TriangleMesh mesh = testing_cases::sheet_mesh(8, [](double, double) { return 0.0; });
@@ -147,7 +147,7 @@ CaseSpec two_depths(const WallTable& plate, double deep, double shallow) {
   return spec;
 }
 
-// The same particles at the same places: pressures differ only by the order in which sums are taken.
+// Particles at identical positions: pressures differ only by the order of summation.
 TEST(MeshPlateAtRest, HasThePressuresOfTheRectangle) {
   const testing_cases::MeshFolder folder;
   constexpr double deep = 0.4;
@@ -169,7 +169,7 @@ TEST(MeshPlateAtRest, HasThePressuresOfTheRectangle) {
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-4 * unit);
 }
 
-// A bulging sheet that stands on the bed and in both side walls. Bounds as above.
+// A curved sheet that stands on the bed and in both side walls. Bounds as above.
 TEST(MeshPlateAtRest, HoldsWaterApartWhenItBulges) {
   const testing_cases::MeshFolder folder;
   constexpr double depth = 0.4;

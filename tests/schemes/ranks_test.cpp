@@ -1,12 +1,13 @@
-// The same flow on one rank and on several. What differs is the order of sums and, within the tolerance of the pressure
-// solve, its answer.
+// Identical flows on one rank and on several ranks. They differ by the order of sums and, within the tolerance of the
+// pressure solve, by its solution.
 //
 // Bound. With rows scaled to unit diagonal the solve leaves |r|_2 <= tau |b|_2. The inverse is not negative and its row
 // sums are at most those of the discrete Laplacian over the depth, so |A^-1|_inf |b|_inf is of the size of the largest
 // pressure P, and |dp|_inf <= |A^-1|_inf |r|_2 <= tau sqrt(n) P over n unknowns, up to a factor of shape. A step turns
-// dp into dt/(rho dx) 4 dp of velocity at most (the weights of a row of the gradient add up to less than 4/dx), and N
-// steps into N times that, as long as they do not amplify: a hundredfold is granted. Pairs are computed in single
-// precision: where the answers differ at all, a pair may be rounded to the next number, and pressures differ by that.
+// dp into dt/(rho dx) 4 dp of velocity at most (the weights of a row of the gradient add up to less than 4/dx). N steps
+// turn dp into N times that, as long as they do not amplify: a hundredfold amplification is allowed. Pairs are computed
+// in single precision: where the solutions differ at all, a pair may be rounded to the next number, and pressures
+// differ by that.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,7 +62,7 @@ void run(Flow<Dim>& flow, int count) {
   for (int n = 0; n < count; ++n) pass_and_step(flow);
 }
 
-/// Probes and the next step read what ghosts have after a step.
+/// Checks the ghosts after a step, since probes and the next step read them.
 template <int Dim>
 void expect_ghosts_up_to_date(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
@@ -71,7 +72,7 @@ void expect_ghosts_up_to_date(Flow<Dim>& flow) {
   EXPECT_EQ(particles.pressure, before.pressure);
 }
 
-/// Runs the case on all ranks and on one, the root, from velocities set by `prepare`, and compares there.
+/// Runs the case on all ranks, and on the root alone, from velocities set by `prepare`, and compares the results.
 template <int Dim, class Prepare>
 void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   spec.pressure_solver.tolerance = tau;
@@ -96,7 +97,7 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
   const double dp = (granted * (tau * std::sqrt(unknowns) + single_eps) + std::sqrt(tau)) * P;
   const double du = steps * 4.0 * dt / (1000.0 * spec.particles.spacing) * dp;
   EXPECT_NEAR(shared.state.time, alone.state.time,
-              alone.state.time * du);  // steps go with the largest speed, 1 m/s or more
+              alone.state.time * du);  // steps depend on the largest speed, 1 m/s or more
   const std::vector<Particle<Dim>> expected = fluid_of(alone);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -104,7 +105,7 @@ void expect_same(CaseSpec spec, double depth, Prepare&& prepare) {
     EXPECT_LT((found[k].velocity - expected[k].velocity).norm(), du) << "particle " << found[k].id;
     EXPECT_LT((found[k].position - expected[k].position).norm(), alone.state.time * du) << "particle " << found[k].id;
     EXPECT_LT(std::abs(found[k].pressure - expected[k].pressure), dp + P * du / speed_scale);
-    // It goes from neighbour to neighbour, one in a step.
+    // The distance propagates from neighbour to neighbour, one per step.
     EXPECT_NEAR(found[k].wall_distance, expected[k].wall_distance, 2.0 * steps * alone.state.time * du);
     EXPECT_EQ(found[k].is_inside, expected[k].is_inside) << "particle " << found[k].id;
   }
@@ -146,8 +147,8 @@ TYPED_TEST(RanksTest, PublishedFormulations) {
   expect_same<Dim>(spec, 0.3, as_it_is);
 }
 
-// Half of the force of a pair acts through its water particle, which may be of another rank than its wall particle, and
-// so does friction. The cut between two ranks passes through the corner in which the walls meet.
+// Half of the force of a pair acts through its water particle, which may be on another rank than its wall particle;
+// friction does as well. The cut between two ranks passes through the corner where the walls meet.
 TEST(RanksTest, ForcesOnWallsThatMeetAreTheSame) {
   CaseSpec spec = jittered_tank<2>();
   spec.walls.clear();
@@ -170,7 +171,7 @@ TEST(RanksTest, ForcesOnWallsThatMeetAreTheSame) {
   water.velocity = {0.0, -1.5};
   spec.fluid = {water};
   spec.pressure_solver.tolerance = tau;
-  for (const bool moves : {false, true}) {  // walls at rest keep what they have found once
+  for (const bool moves : {false, true}) {  // walls at rest keep their first result
     for (WallTable& wall : spec.walls) {
       if (moves) wall.displacement = {"0.1*t", "0"};
     }
@@ -178,7 +179,7 @@ TEST(RanksTest, ForcesOnWallsThatMeetAreTheSame) {
     Flow<2> shared = make_flow<2>(spec, Communicator::world());
     run(alone, 2);
     run(shared, 2);
-    // An error dp of the pressure everywhere turns into less than 2 dp on each unit of a wall.
+    // An error dp of the pressure everywhere causes less than 2 dp on each unit of a wall.
     const double P = 1000.0 * (g * 0.4 + (std::sqrt(2.0 * g * 0.4) + 1.0) * (std::sqrt(2.0 * g * 0.4) + 1.0));
     const double unknowns = static_cast<double>(alone.state.particles.owned);
     const double dp = (granted * (tau * std::sqrt(unknowns) + single_eps) + std::sqrt(tau)) * P;
@@ -190,7 +191,7 @@ TEST(RanksTest, ForcesOnWallsThatMeetAreTheSame) {
   }
 }
 
-// The cut between ranks and the plate are at the same place.
+// The cut between ranks and the plate are at the same position.
 TYPED_TEST(RanksTest, WaterOnBothSidesOfAPlate) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = jittered_tank<Dim>();
@@ -273,7 +274,7 @@ TYPED_TEST(RanksTest, PeriodicVortex) {
   });
 }
 
-/// What is left of the last step in ghosts does not matter: their water is asked anew.
+/// Values of the last step in ghosts have no effect, since ghosts of water are updated.
 TEST(RanksTest, StaleGhostsChangeNothing) {
   const auto pressure_after = [](double left) {
     Flow<2> flow = make_flow<2>(jittered_tank<2>(), Communicator::world());
@@ -289,7 +290,7 @@ TEST(RanksTest, StaleGhostsChangeNothing) {
   EXPECT_EQ(pressure_after(0.0), pressure_after(1e6));
 }
 
-/// A piston, and where parts meet at the surface a drum that turns and past which the water runs.
+/// A piston, and a rotating drum where parts meet at the surface, past which the water flows.
 TEST(RanksTest, MovingWalls) {
   CaseSpec spec = jittered_tank<2>();
   WallTable piston;
@@ -348,7 +349,7 @@ TEST(RanksTest, WaterThatEntersIsMadeOnceAndBookedOnAllRanks) {
   expect_same<2>(spec, 0.3, as_it_is);
 }
 
-/// A level beyond an open end lets water in or out: it is above the water, or below it.
+/// A level beyond an open end, above or below the water, lets water in or out.
 TEST(RanksTest, ALevelBeyondIsHeldTogether) {
   for (const double level : {0.4, 0.2}) {
     CaseSpec spec = jittered_tank<2>();
@@ -391,11 +392,11 @@ TYPED_TEST(RanksTest, APocketOfAirAcrossTheCuts) {
   spec.pockets[0].overpressure = 2000.0;
   expect_same<Dim>(spec, 0.8, as_it_is);
   if (Dim == 3) return;
-  spec.scheme.integrator = Integrator::implicit_projection;  // its second solve is without the air
+  spec.scheme.integrator = Integrator::implicit_projection;  // the second solve is without the air
   expect_same<Dim>(spec, 0.8, as_it_is);
 }
 
-/// Water is thrown about in a closed tank, whose air has one reference pocket on all ranks.
+/// Sloshing water in a closed tank, whose air has one reference pocket on all ranks.
 TYPED_TEST(RanksTest, ASealedTankAcrossTheCuts) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 1.0 : 0.4, 0.4);
@@ -412,7 +413,7 @@ TYPED_TEST(RanksTest, ASealedTankAcrossTheCuts) {
   expect_same<Dim>(spec, 0.5, as_it_is);
 }
 
-/// All ranks know what waits in the sump, though each has let only its own particles go.
+/// All ranks know the water in the sump, though each rank has removed only its own particles.
 TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
   CaseSpec spec = jittered_tank<2>();
   OutletTable& end = open_end(spec);
@@ -429,7 +430,7 @@ TEST(RanksTest, WaterThatCirculatesIsTheSameOnAllRanks) {
   EXPECT_EQ(flow.setup.ranks.sum(count_fluid(flow)) + static_cast<std::size_t>(sump_of(flow, 1).particles), at_start);
 }
 
-/// Fewer particles than ranks: some have nothing to do.
+/// Fewer particles than ranks: some ranks have none.
 TYPED_TEST(RanksTest, RanksWithoutParticlesWork) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = free_case(dx);
@@ -444,11 +445,11 @@ TYPED_TEST(RanksTest, RanksWithoutParticlesWork) {
   expect_same<Dim>(spec, 1.0, as_it_is);
 }
 
-/// Through the collapse and the impact; chance decides after it. In scheme B particles move, and ghosts with them,
-/// between the prediction and its divergence.
+/// From the collapse to the impact, after which the flow is chaotic. In scheme B particles and ghosts move between the
+/// prediction and its divergence.
 TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
   const double end = 2.0 * std::sqrt(0.6 / g);
-  constexpr int most_steps = 500;  // it takes far fewer; water that explodes would take ever smaller ones
+  constexpr int most_steps = 500;  // far more than needed; with a water explosion the steps would become ever smaller
   const auto energy_at_end = [&](Flow<2>& flow) {
     start(flow);
     while (flow.state.time < end && flow.state.step < most_steps) pass_and_step(flow);
@@ -469,7 +470,7 @@ TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
   }
 }
 
-/// Work is measured in pairs; the parts follow the water, however it moves.
+/// Work is measured in pairs; the parts follow the motion of the water.
 TEST(RanksTest, WorkStaysSharedEvenly) {
   CaseSpec spec = zhou_case(0.02, Integrator::explicit_projection);
   Flow<2> flow = make_flow<2>(spec, Communicator::world());
@@ -478,7 +479,7 @@ TEST(RanksTest, WorkStaysSharedEvenly) {
   for (int n = 0; n < 60; ++n) {
     if (n % 5 == 0) {
       const Repartition result = repartition(flow);
-      // Less than a column of the lattice's 60 x 30 can be cut no finer than the column: 1 in 60 of all the work.
+      // A cut cannot divide a column of the lattice of 60 x 30, which is 1 in 60 of all the work.
       if (n > 5) {
         EXPECT_LT(result.imbalance, spec.parallel.imbalance + flow.setup.ranks.size() / 60.0);
       }
@@ -487,7 +488,7 @@ TEST(RanksTest, WorkStaysSharedEvenly) {
   }
 }
 
-// In a tank most of which is dry a rank has the rows whose home it is, and those of its particles and ghosts.
+// In a mostly dry tank, a rank has the wall rows of its home region, and those of its particles and ghosts.
 TYPED_TEST(RanksTest, HaveAShareOfTheWallsAndThoseTheyNeed) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = jittered_tank<Dim>();
@@ -515,7 +516,7 @@ TYPED_TEST(RanksTest, HaveAShareOfTheWallsAndThoseTheyNeed) {
 TYPED_TEST(RanksTest, BodyFloats) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 0.8 : 0.6, 0.3);
-  spec.particles.jitter = 0.1;  // on a lattice rounding decides which cells are air
+  spec.particles.jitter = 0.1;  // on a lattice, rounding decides which cells are air
   WallTable hull;
   hull.name = "hull";
   hull.shape = WallShape::box;
@@ -556,8 +557,8 @@ TYPED_TEST(RanksTest, BodyFloats) {
   expect_same<Dim>(spec, 0.15, as_it_is);
 }
 
-/// Water under a body that lies on the bed with the underside rising past the cut between two ranks: some of it is
-/// held, with a pressure that is found from the water at both ends of the gap.
+/// Water under a body on the bed, whose underside rises across the cut between two ranks. Some of the water is
+/// stagnant, with a pressure computed from the water at both ends of the gap.
 TEST(RanksTest, WaterIsHeldInTheNarrowGapUnderABody) {
   CaseSpec spec = tank_case<2>(dx, 0.8, 0.3);
   spec.particles.jitter = 0.1;

@@ -1,4 +1,4 @@
-// The second projection: what it takes away, and what it must not touch, whatever the particles.
+// The second projection: the divergence that it removes, and its invariants for any particles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace tailwater {
 namespace reproject_test {
 namespace {
 
-/// Nothing is even.
+/// A case without any symmetry of the particles.
 CaseSpec jittered_square() {
   CaseSpec spec = periodic_square(0.1);
   spec.particles.jitter = 0.2;
@@ -51,7 +51,7 @@ TEST(Reproject, TakesMostOfTheDivergenceAndNoMomentum) {
   };
   const Vec<2> before = momentum();
   reproject_here(flow);
-  // Not all of it: the Laplacian is not D G. Without the correction, or with one of twice its size, all would be left.
+  // Not all of it: the Laplacian is not D G. Without the correction, or with one of twice its size, all would remain.
   EXPECT_LT(rms_divergence(flow), 0.5 * start);
   EXPECT_LT((momentum() - before).norm(), 1e-12 * flow.state.particles.owned);
 }
@@ -61,7 +61,7 @@ TEST(Reproject, LeavesAUniformVelocityAlone) {
   const Vec<2> uniform{1.0, -2.0};
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) flow.state.particles.velocity[i] = uniform;
   reproject_here(flow);
-  // Its divergence is a sum over differences, 0 but for the ghosts' round-off.
+  // Its divergence is a sum over differences, 0 up to the ghosts' round-off.
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     EXPECT_LT((flow.state.particles.velocity[i] - uniform).norm(), 1e-12);
   }

@@ -1,6 +1,5 @@
-// Water at rest. Below the surface p is linear, which the operators differentiate exactly on a lattice up to a factor;
-// what is not exact is the place where p = 0, known no better than dx. So every pressure is within rho g dx of the
-// hydrostatic one.
+// Water at rest. Below the surface p is linear, which the operators differentiate exactly on a lattice up to a factor.
+// The position of p = 0 is known only to dx, so every pressure is within rho g dx of the hydrostatic one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,8 +43,8 @@ TYPED_TEST(TankTest, StaysAtRestForFiftySteps) {
     if (name == SchemeName::farmani2020) apply_formulation(spec.scheme);
     Flow<Dim> flow = make_flow<Dim>(spec);
     const std::size_t count = flow.state.particles.owned;
-    // Only the rows whose support the surface cuts, 3 of them, can be out of balance, by g at most, for a quarter of
-    // the shortest wave's period, omega^2 = g pi/dx: speed g/omega.
+    // Only the three rows whose support the surface cuts can be unbalanced, by g at most, for a quarter of the shortest
+    // wave's period, omega^2 = g pi/dx: speed g/omega.
     const double settling = std::sqrt(g * dx / std::numbers::pi);
     const double mass = flow.setup.liquid.density * depth * std::pow(width, Dim - 1);
     const double kinetic_bound = 0.5 * mass * settling * settling * 3.0 * dx / depth;
@@ -65,9 +64,9 @@ TYPED_TEST(TankTest, StaysAtRestForFiftySteps) {
   }
 }
 
-// Disorder weakens the pressure of water, but the matrix must not make more of it than the force does: with the missing
-// weights of disordered rows as air, the pressure at the bottom was 2.5 or 2.0 times the weight at this time, after it
-// had been next to nothing.
+// Disorder weakens the pressure of water, but the matrix must not amplify this beyond the effect on the force. With the
+// missing weights of disordered rows as air, the pressure at the bottom was 2.5 or 2.0 times the weight at this time,
+// after it had been almost 0.
 TEST(JitteredTank, CarriesItsWeightAfterAFewSteps) {
   constexpr double depth = 1.0;
   constexpr double spacing = 0.01;
@@ -86,10 +85,11 @@ TEST(JitteredTank, CarriesItsWeightAfterAFewSteps) {
       pressure += flow.state.particles.pressure[i];
       ++count;
     }
-    // Observed, not derived: 1.00 of the weight (explicit), still settling; the failure above is what the bar excludes.
+    // Observed, not derived: 1.00 of the weight (explicit), still settling; the target excludes the failure above.
     EXPECT_NEAR(pressure / count, flow.setup.liquid.density * g * depth, 0.5 * flow.setup.liquid.density * g * depth);
-    // Observed, not derived: shifting and the pull on light water let a disordered block sink by 1.5e-3 of its energy;
-    // with disorder as air, before the matrix took its diagonal from the force, it was 1.9e-3. The bar lies between.
+    // Observed, not derived: shifting and the correction of too light water lower the energy of a disordered block by
+    // 1.5e-3. With disorder as air, before the matrix took its diagonal from the force, it was 1.9e-3. The target lies
+    // between.
     EXPECT_GT(measure(flow).energy(), (1.0 - 1.7e-3) * energy_at_start);
   }
 }
@@ -108,7 +108,7 @@ TEST(PublishedTank, StaysHydrostatic) {
       if (integrator == Integrator::explicit_projection) {
         ASSERT_EQ(report.passes, 1);
       } else {                        // the whole step is repeated until the pressure settles to 1e-3, 30 times at most
-        ASSERT_GE(report.passes, 2);  // the first pass cannot know that it has settled
+        ASSERT_GE(report.passes, 2);  // the first pass cannot detect that it has settled
         ASSERT_LE(report.passes, 30);
         if (report.passes < 30) {
           ASSERT_LT(report.pressure_change, 1e-3);
@@ -120,8 +120,8 @@ TEST(PublishedTank, StaysHydrostatic) {
   }
 }
 
-// Water that fills its box has no surface that would fix its pressure: it depends on nothing and stays that of water at
-// rest, with its least value 0. The speed stays below that with which a tank with a surface settles.
+// Water that fills its box has no surface that would fix its pressure. The pressure stays that of water at rest, with
+// its minimum 0. The speed stays below the settling speed of a tank with a surface.
 TYPED_TEST(TankTest, FullOfWaterStaysAtRest) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = tank_case<Dim>(0.1, 1.0, 1.0);
