@@ -268,12 +268,12 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
     """Runs a case at several spacings and estimates intervals for its results. `out` is the folder, by default
     NAME_study; a further call completes a study that was interrupted.
 
-    `spacings`: three or more, in m. By default they are seven, from twice the spacing of the case down to that spacing;
-    with a `budget` in seconds of CPU time, down to the finest spacing within it. Intermediate spacings are adjusted so
-    that whole rows of particles fit the water, where such spacings are near. At the second coarsest spacing, `starts`
-    runs have other random initial displacements of the particles, and one run has half of the time step if `step`.
-    `quantities(run)` returns your own numbers instead of the probes' results, as {(name, quantity): (value, unit)}.
-    Throws InputError before anything is run; DataError if a run fails."""
+    `spacings`: three or more, in m. By default they are seven, from twice the spacing of the case down to that spacing.
+    With a `budget` in seconds of CPU time, they go down to the finest spacing within it. Intermediate spacings are
+    adjusted so that whole rows of particles fit the water, where such spacings are near. At the second coarsest
+    spacing, `starts` runs have other random initial displacements of the particles, and one run has half of the time
+    step if `step`. `quantities(run)` returns your own numbers instead of the probes' results, as {(name, quantity):
+    (value, unit)}. Throws InputError before anything is run; DataError if a run fails."""
     out = Path(out or f"{case.file.stem}_study")
     require_folder_for_study(out)
     runner = {"jobs": jobs, "ranks": ranks, "progress": progress}

@@ -114,8 +114,8 @@ class BitForBit(Resumed):
         assert_same_results(self, "part0", "whole0")
 
     def test_a_time_step_that_collapses_is_compared_with_the_first(self):
-        """The gate accelerates and then jumps away. The first step is 0.01 s, that at half time 2 ms, the last 9 us:
-        compared with the step at half time, the last one would never be too small."""
+        """The gate accelerates and then jumps away. The first step is 0.01 s, that at half time 2 ms, the last 9 us.
+        Compared with the step at half time, the last step would never be too small."""
         gate = ("--set", "particles.spacing=0.0025", "--set", "fluid[0].max=[0.02, 0.02]", "--set",
                 "physics.gravity=[0, -0.01]", "--set", 'wall=[{points=[[0, 0.2], [0, 0], [0.6, 0], [0.6, 0.2]]}, '
                 '{points=[[0.1, 0], [0.1, 0.2]], displacement=["0", "2*t^2 + 145*max(0, t - 0.3)"]}]')

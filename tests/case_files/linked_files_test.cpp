@@ -1,5 +1,5 @@
-// Files that a case names: accepted forms of a CSV file of points, messages for bad files, and an effective case that
-// does not need the folder of the original case.
+// Files that a case names: accepted forms of a CSV file of points and messages for bad files. The effective case does
+// not need the folder of the original case.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -41,8 +41,8 @@ template <class Dimension>
 class SpaceCutsTest : public testing::Test {};
 TYPED_TEST_SUITE(SpaceCutsTest, Dimensions);
 
-/// A cut passes between points, so the weight of a part is off by up to the weight of one point at each of its cuts, or
-/// by the tolerance given to Zoltan, 1 %.
+/// A cut passes between points. The weight of a part is therefore off by up to the weight of one point at each of its
+/// cuts, or by the tolerance given to Zoltan, 1 %.
 TYPED_TEST(SpaceCutsTest, PartsGetEqualWeight) {
   constexpr int Dim = TypeParam::value;
   const Cloud<Dim> cloud;

@@ -16,8 +16,8 @@ class WallPressureTest : public testing::Test {
   static constexpr int dimension = Dimension::value;
   using TankOf = Tank<dimension>;
 
-  /// Every term of the sum equals the pressure at the wall up to rounding: some 1e2 operations on numbers of size rho g
-  /// H, each with a relative error of 1.1e-16.
+  /// Every term of the sum equals the pressure at the wall up to rounding. There are some 1e2 operations on numbers of
+  /// size rho g H, each with a relative error of 1.1e-16.
   static constexpr double rounding = 1e-13 * TankOf::rho * TankOf::g;
 
   static Row pressure(const TankOf& tank, const Coordinates& at) {

@@ -95,7 +95,7 @@ TEST(BodyOnAir, BouncesAsTheGasLawSays) {
   }
 }
 
-// Air of any pressure above all water of a closed tank only adds a uniform pressure: a box stays at its draught,
+// Air of any pressure above all water of a closed tank only adds a uniform pressure. A box stays at its draught,
 // although half of its surface is in water and half in air.
 template <class D>
 class BodyBelowAir : public testing::Test {};

@@ -78,8 +78,9 @@ TEST_P(StretchingDrop, FollowsTheEllipse) {
     double shape_error = 0.0;
     while (flow.state.time < 1.0) {
       const double dt = step(flow).dt;
-      // Only the start adds energy, because its velocity belongs to t = 0 and not to half a step before: once dt grad p
-      // = dt A u, which is (A dt)^2 of the energy, A = 1. Then each step adds the tolerance of the pressure solve.
+      // Only the start adds energy, because its velocity belongs to t = 0 and not to half a step before. It adds dt
+      // grad p = dt A u once, which is (A dt)^2 of the energy, A = 1. Then each step adds the tolerance of the pressure
+      // solve.
       ASSERT_LT(measure(flow).kinetic_energy,
                 energy_at_start * (1.0 + dt * dt + PressureSolverTable{}.tolerance * flow.state.step));
       const Ellipse exact = exact_ellipse(flow.state.time);

@@ -221,8 +221,8 @@ TEST(FloatingBody, SinksToTheBedAndLiesThere) {
 }
 
 // A box half as heavy as water lies on the bed, without particles beneath it. The pressure of the water acts there
-// nevertheless: the box stays as long as the water beside it is shallower than half its height, and rises from the bed
-// where the water is deeper.
+// nevertheless. The box stays as long as the water beside it is shallower than half its height, and rises where the
+// water is deeper.
 TYPED_TEST(FloatingBodyTest, LiesOnTheBedUntilTheWaterIsDeepEnough) {
   constexpr int Dim = TypeParam::value;
   constexpr double dx = 0.025;
@@ -281,9 +281,9 @@ TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
 // A box sinks onto a film of two rows and dams the inflow, until it floats on the water that has run over it. Until
 // then it hovers at a height where a row of particles just does not fit. The time of lift-off is random: 3.5 to 4.6 s
 // in nine runs (on the lattice, and with jitter 0.001 and 0.1 dx). Afterwards the box heaves with a period of 1 s about
-// its draught of 0.1 m. Its mean over the last period equals that of Archimedes to a spacing: in those runs it was
-// 0.009 to 0.0125 m lower, with a difference that decreases as the waves decay. A box that lies on its film would be
-// 0.2 m lower, and water that it compresses would be too dense by 10 % and more.
+// its draught of 0.1 m. Its mean over the last period equals that of Archimedes to a spacing. In those runs it was
+// 0.009 to 0.0125 m lower, and the difference decreases as the waves decay. A box that lies on its film would be 0.2 m
+// lower, and water that it compresses would be too dense by 10 % and more.
 TEST(FloatingBody, FloatsOffAFilmAsTheWaterRises) {
   constexpr double dx = 0.02;
   CaseSpec spec = tank_case<2>(dx, 1.2, 0.3);
@@ -405,7 +405,7 @@ TEST(FloatingBody, MeetsAnotherInTheWater) {
   EXPECT_LT(least, dx);  // they have met
 }
 
-// A line between two boxes in free fall: they fall as one, and oscillate about each other at the frequency of their
+// A line between two boxes in free fall. The boxes fall as one and oscillate about each other at the frequency of their
 // reduced mass, with errors of first order in the step.
 TEST(FloatingBody, IsTiedToAnotherByALine) {
   CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);
@@ -433,7 +433,7 @@ TEST(FloatingBody, IsTiedToAnotherByALine) {
   EXPECT_NEAR(bodies[1].centre[0] - bodies[0].centre[0], expected, 0.1 * omega * longest);
 }
 
-// A line whose damping exceeds the limit of an explicit step a million times lowers its body at the speed at which its
+// A line whose damping is a million times the limit of an explicit step. It lowers its body at the speed at which the
 // weight stretches the line, m g/c, without oscillations.
 TEST(FloatingBody, HangsOnALineOfAnyDamping) {
   CaseSpec spec = tank_case<2>(0.05, 0.4, 0.2);

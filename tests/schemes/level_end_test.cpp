@@ -31,8 +31,8 @@ double mean_depth(const Flow<2>& flow, double length) {
   return volume / length;
 }
 
-/// Depth [m] of the water in the half of a tank away from its open end, with a weight that counts columns of particles
-/// evenly: 1 near the closed end, then linearly down to 0 in the middle.
+/// Depth [m] of the water in the half of a tank away from its open end. The weight counts columns of particles evenly:
+/// 1 near the closed end, then linearly down to 0 in the middle.
 template <int Dim>
 double depth_away_from_end(const Flow<Dim>& flow) {
   const OpenEnd<Dim>& end = flow.template part<OpenEnds<Dim>>().ends()[0];
@@ -86,9 +86,9 @@ TEST(OpenEnd, ADryTankFillsToTheLevelBeyond) {
 }
 
 /// Runs a tank beside an end whose level changes by at most `rate` [m/s] for `duration` and then rests. The lag of the
-/// depth has three parts, each at most u c/g = r L/c for the flow u = r L/h that enters: the slope that drives this
-/// flow, the rise of the level during the response of the tank, L/c, and the averaging of the end over the time L/c.
-/// The depth equals the level after it has come to rest.
+/// depth has three parts, each at most u c/g = r L/c, where u = r L/h is the flow that enters. They are the slope that
+/// drives this flow, the rise of the level during the response of the tank, L/c, and the averaging of the end over the
+/// time L/c. The depth equals the level after it has come to rest.
 template <int Dim>
 void expect_follows(const CaseSpec& spec, const Varying& level, double rate, double duration, double at_rest) {
   CaseSpec with_level = spec;
@@ -126,7 +126,7 @@ TEST(OpenEnd, ATankFollowsAnySeriesOfLevels) {
   expect_follows<2>(spec, Varying("0.5 + 0.1*sin(1.5*min(t, 8*atan(1)/1.5))"), 0.15, 6.0, 0.5);
 }
 
-/// A level that steps during a run, up and far down, with an end that absorbs waves: the tank overshoots, returns to
+/// A level that steps during a run, up and far down, with an end that absorbs waves. The tank overshoots, returns to
 /// the level within three seconds, about six travel times of a wave through the tank, and stays.
 TEST(OpenEnd, ATankComesToALevelThatSteps) {
   const TimeFunction asked(Varying("t < 1 ? 0.5 : t < 5.5 ? 0.7 : 0.4"), {});
@@ -245,9 +245,9 @@ TEST(OpenEnd, AReservoirGivesTheDischargeOfPotentialFlow) {
   EXPECT_NEAR(discharge / (std::pow(2.0 / 3.0 * head, 1.5) * std::sqrt(g)), 1.0, 0.01);
 }
 
-/// In linear theory a tank that is D below a fixed level beyond its open end rises by 2 D within the time 2 L/c, half a
-/// period, and is back after 4 L/c. Entrance losses reduce the rise. An absorbing level lets the wave out: the tank is
-/// at the level by then and stays.
+/// In linear theory, a tank that is D below a fixed level beyond its open end rises by 2 D. This takes the time 2 L/c,
+/// half a period; the tank is back after 4 L/c. Entrance losses reduce the rise. An absorbing level lets the wave out:
+/// the tank is at the level by then and stays.
 TEST(OpenEnd, AHeldLevelReflectsAndAnAbsorbingOneDoesNot) {
   const double length = 2.0;
   const double above = 2.0 * dx;

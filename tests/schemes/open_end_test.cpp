@@ -273,8 +273,8 @@ TEST(OpenEnd, AnInletThatIsReversedTakesWaterOut) {
             static_cast<std::int64_t>(count_fluid(flow)) + inlet.departed.particles + outlet.departed.particles);
 }
 
-/// Water at rest between an inlet without discharge and a tailwater at its level stays at rest, except for the flow
-/// that an error of half a spacing in the level causes.
+/// Water at rest between an inlet without discharge and a tailwater at its level stays at rest. Only the flow that an
+/// error of half a spacing in the level causes is allowed.
 TEST(OpenEnd, AChannelAtRestStaysAtRest) {
   const double depth = 0.4;
   CaseSpec spec = channel<2>(1.0, depth);

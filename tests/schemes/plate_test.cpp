@@ -33,7 +33,7 @@ template <class D>
 class PlateTest : public testing::Test {};
 TYPED_TEST_SUITE(PlateTest, Dimensions);
 
-// The water of the other side is replaced by wall particles at the same positions, so that no kernel value changes,
+// The water of the other side is replaced by wall particles at the same positions. Therefore no kernel value changes,
 // neither at the foot nor near the end of the plate.
 TYPED_TEST(PlateTest, FillsEachSupportOnce) {
   constexpr int Dim = TypeParam::value;

@@ -1,13 +1,13 @@
 // Identical flows on one rank and on several ranks. They differ by the order of sums and, within the tolerance of the
 // pressure solve, by its solution.
 //
-// Bound. With rows scaled to unit diagonal the solve leaves |r|_2 <= tau |b|_2. The inverse is not negative and its row
-// sums are at most those of the discrete Laplacian over the depth, so |A^-1|_inf |b|_inf is of the size of the largest
-// pressure P, and |dp|_inf <= |A^-1|_inf |r|_2 <= tau sqrt(n) P over n unknowns, up to a factor of shape. A step turns
-// dp into dt/(rho dx) 4 dp of velocity at most (the weights of a row of the gradient add up to less than 4/dx). N steps
-// turn dp into N times that, as long as they do not amplify: a hundredfold amplification is allowed. Pairs are computed
-// in single precision: where the solutions differ at all, a pair may be rounded to the next number, and pressures
-// differ by that.
+// Bound. With rows scaled to unit diagonal the solve leaves |r|_2 <= tau |b|_2. The inverse is not negative, and its
+// row sums are at most those of the discrete Laplacian over the depth. So |A^-1|_inf |b|_inf is of the size of the
+// largest pressure P, and |dp|_inf <= |A^-1|_inf |r|_2 <= tau sqrt(n) P over n unknowns, up to a factor of shape. A
+// step turns dp into dt/(rho dx) 4 dp of velocity at most (the weights of a row of the gradient add up to less than
+// 4/dx). N steps turn dp into N times that, as long as they do not amplify: a hundredfold amplification is allowed.
+// Pairs are computed in single precision. Where the solutions differ at all, a pair may be rounded to the next number,
+// and pressures differ by that.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Walls that turn while water runs along them: curved ones, and those that rotate.
+// Walls whose direction changes along the path of the water: curved walls and rotating walls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A round wall of so many flat faces, of radius 1 about the origin.
+/// A round wall of `faces` flat faces, with radius 1 about the origin.
 WallTable round_wall(int faces, FluidSide side) {
   WallTable wall;
   for (int k = 0; k <= faces; ++k) {
@@ -29,7 +29,7 @@ WallTable round_wall(int faces, FluidSide side) {
   return wall;
 }
 
-/// Full of water, without gravity and viscosity.
+/// A round tank full of water, without gravity and viscosity.
 CaseSpec round_tank() {
   CaseSpec spec = free_case(0.05);
   FluidTable water;
@@ -48,8 +48,8 @@ void set_velocity(Flow<2>& flow, const Velocity& of_place) {
   }
 }
 
-/// Share of its kinetic energy that water loses in half a turn, as a rigid body, in a round tank without friction or
-/// gravity.
+/// Fraction of its kinetic energy that water in rigid rotation loses in half a turn, in a round tank without friction
+/// or gravity.
 double loss_in_half_a_turn(Integrator integrator, double courant) {
   CaseSpec spec = round_tank();
   spec.scheme.integrator = integrator;
@@ -61,20 +61,20 @@ double loss_in_half_a_turn(Integrator integrator, double courant) {
   return 1.0 - measure(flow).kinetic_energy / start;
 }
 
-// A wall whose tangent the water leaves along takes from it the energy dt |grad p|^2/rho of the rows beside it: 11 % in
-// a turn with explicit steps of 0.55 dx. Walls taken at mid-step leave less than a fifth of that.
+// If water leaves a wall along its tangent, the wall takes the energy dt |grad p|^2/rho of the rows beside it: 11 % per
+// turn with explicit steps of 0.55 dx. With walls evaluated at mid-step the loss is less than a fifth of that.
 TEST(TurningWall, TakesLittleEnergyFromWaterAlongIt) {
   const double loss = loss_in_half_a_turn(Integrator::explicit_projection, 0.55);
   EXPECT_LT(loss, 0.01);
   EXPECT_GT(loss, -0.0005);
-  // The rest falls with the step.
+  // The remaining loss decreases with the step.
   const double at_half_the_step = loss_in_half_a_turn(Integrator::explicit_projection, 0.275);
   EXPECT_LT(at_half_the_step, loss);
   EXPECT_GT(at_half_the_step, -0.0005);
 }
 
-/// What the wall asks of the water at its wet dummies, towards the centre [m/s^2], in a step of dt from a chord: the
-/// mean over both senses of the turn, since faces are not quite across the way to the centre.
+/// Accelerations [m/s^2] towards the centre that the wall imposes at its wet dummies, in a step of dt along a chord.
+/// They are averaged over both senses of rotation, since faces are not exactly perpendicular to the radius.
 struct Asked {
   std::vector<double> by_rows, by_images;
 
@@ -104,7 +104,7 @@ struct Asked {
   }
 };
 
-/// Of what is not 0.
+/// Mean of all values other than 0.
 double mean(const std::vector<double>& values) {
   const auto zeros = std::ranges::count(values, 0.0);
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(std::ssize(values) - zeros);
@@ -116,8 +116,9 @@ double rms_difference(const std::vector<double>& a, const std::vector<double>& b
   return std::sqrt(squares / static_cast<double>(a.size()));
 }
 
-// Water that circles with Omega = 1 is turned by r of the water in reach, between 0.85 and 1 m: by the rows r^2/R, by
-// the images what is missing, r - r^2/R; the curvature is known to 5 %. Nothing of it is of first order in the step.
+// Water that rotates with Omega = 1 needs the acceleration r, averaged over the water within the support, between 0.85
+// and 1 m. The rows give r^2/R, and the images the remainder r - r^2/R; the curvature is known to 5 %. Neither has an
+// error of first order in the step.
 TEST(TurningWall, TurnsTheWaterToSecondOrderInTheStep) {
   const std::array<Asked, 3> asked{Asked(0.08), Asked(0.04), Asked(0.02)};
   EXPECT_GT(mean(asked[2].by_rows), 0.95 * 0.85 * 0.85);
@@ -130,7 +131,7 @@ TEST(TurningWall, TurnsTheWaterToSecondOrderInTheStep) {
   }
 }
 
-/// The mean of the curvatures of all rows is `sign`/`radius` in each direction.
+/// Asserts that the mean of the curvatures of all rows is `sign`/`radius` in each direction.
 template <int Dim>
 void expect_curvature(const CaseSpec& spec, double radius, double sign, double tolerance) {
   const Flow<Dim> flow = make_flow<Dim>(spec);
@@ -149,7 +150,7 @@ TEST(TurningWall, HasTheCurvatureOfItsArc) {
   CaseSpec spec = free_case(0.05);
   spec.walls = {round_wall(96, FluidSide::left)};
   expect_curvature<2>(spec, 1.0, -1.0, 0.05);
-  spec.walls = {round_wall(24, FluidSide::right)};  // faces of 5 dx: most rows see none of their corners
+  spec.walls = {round_wall(24, FluidSide::right)};  // faces of 5 dx: most rows have no corner within the support
   expect_curvature<2>(spec, 1.0, 1.0, 0.3);
 }
 
@@ -171,8 +172,8 @@ TEST(TurningWall, HasNoCurvatureAtItsCorners) {
   EXPECT_FALSE(make_flow<2>(spec).walls.is_curved);
 }
 
-// Water that runs round a wall must be drawn to it, which a row that takes the gap behind it for a surface is not. Then
-// the gap grows.
+// Water that flows around a wall must be accelerated towards it. A row that treats the gap behind it as a free surface
+// is not, and the gap then grows.
 TEST(TurningWall, IsNoSurfaceForWaterThatHasLeftItByPartOfARow) {
   const double dx = 0.05;
   CaseSpec spec = round_tank();
@@ -201,8 +202,9 @@ TEST(TurningWall, IsNoSurfaceForWaterThatHasLeftItByPartOfARow) {
   EXPECT_GT(least, 0.7);
 }
 
-// Water glides at speed s along a plate that turns with omega about the origin, so it must gain 2 omega s across the
-// plate (Coriolis), which is in the rows. The images mirror it at the velocity that it comes with, omega s dt.
+// Water slips at speed s along a plate that rotates with omega about the origin. It must therefore gain 2 omega s
+// across the plate (Coriolis), which is in the rows. The images mirror the water with its incoming velocity, omega s
+// dt.
 TEST(TurningWall, GivesTheWaterAlongATurningPlateItsCoriolisAcceleration) {
   const double omega = 0.5;
   const double slip_velocity = 1.5;
@@ -233,7 +235,8 @@ TEST(TurningWall, GivesTheWaterAlongATurningPlateItsCoriolisAcceleration) {
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (flow.state.particles.is_fluid(i) || flow.surroundings.is_wet[i] == 0) continue;
     ++wet;
-    // The mean of the water in reach, 0.1 m above, glides slower by what the plate turns faster there.
+    // The mean of the water within the support, 0.1 m above the plate, slips more slowly, because the plate moves
+    // faster there.
     EXPECT_NEAR(flow.wall_turn_acceleration[i][1], 2.0 * omega * slip_velocity, 0.1 * omega * slip_velocity);
     EXPECT_LT(std::abs(flow.wall_turn_acceleration[i][0]), 1e-9);
     EXPECT_LT((velocity[i] - plain[i] + dt * flow.wall_turn_acceleration[i]).norm(), 1e-12);

@@ -53,8 +53,8 @@ TYPED_TEST(TwoStepTest, LeavesAMovingLatticeAlone) {
   }
 }
 
-/// Where the lattice is too dense by delta the source is rho delta/dt^2, where it is right 0: particles of a block
-/// that is squeezed evenly are under pressure, and that of the middle is the highest.
+/// Where the lattice is too dense by delta the source is rho delta/dt^2, and 0 where the density is right. Particles of
+/// a uniformly compressed block have positive pressure, the highest in the middle.
 TEST(TwoStep, PressesApartWhatIsTooDense) {
   CaseSpec spec = free_case(0.1);
   FluidTable water;
@@ -84,8 +84,8 @@ TEST(TwoStep, PressesApartWhatIsTooDense) {
   EXPECT_LT((place - Vec<2>::Constant(0.49)).norm(), 0.1);
 }
 
-/// Pair by pair no force is left over, whatever the pressure: what the steps change in the total momentum is round-off
-/// of sums over some 30 neighbours of terms that are at most the momentum that moves.
+/// Forces of a pair cancel for any pressure. The total momentum changes only by the round-off of sums over some 30
+/// neighbours, whose terms are at most the momentum that moves.
 TEST(TwoStep, ConservesMomentum) {
   CaseSpec spec = free_case(0.1);
   FluidTable water;
@@ -115,11 +115,11 @@ TEST(TwoStep, ConservesMomentum) {
   EXPECT_LT((momentum().first - before).norm(), steps * 100.0 * eps * largest);
 }
 
-/// Gravity is in the prediction and the walls feel it only through the water that comes down on them: with the
-/// velocity's divergence for a source, which a lattice differentiates exactly up to a factor, the water's first
-/// pressure is hydrostatic but for the place where p = 0, known no better than dx. Gravity twice would be twice as
-/// much. (The row's own pressure is that of half a spacing above it: the compression under the first row of water is
-/// shared by both.)
+/// Gravity is in the prediction, and walls are loaded by it only through the water that moves towards them. With the
+/// velocity's divergence as the source, which a lattice differentiates exactly up to a factor, the first pressure of
+/// the water is hydrostatic. Only the position of p = 0 is uncertain, by dx. Gravity counted twice would double the
+/// pressure. (The pressure of the row itself is that of half a spacing above it: the row and the first row of water
+/// share the compression between them.)
 TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   constexpr int Dim = TypeParam::value;
   const double dx = 0.05;
@@ -157,8 +157,8 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   EXPECT_GT(tested, 0);
 }
 
-/// The published scheme on a dam break until after the impact, coarse: every particle stays in the tank, and the
-/// pressure equation, which corrects the whole density error in each step, leaves little of it.
+/// The published scheme on a coarse dam break until after the impact: every particle stays in the tank. The pressure
+/// equation corrects the whole density error in each step, so little of the error remains.
 TEST(TwoStep, RunsTheDamBreakAsPublished) {
   const double dx = 0.06;
   CaseSpec spec = zhou_case(dx, Integrator::explicit_projection);
@@ -178,7 +178,7 @@ TEST(TwoStep, RunsTheDamBreakAsPublished) {
       front = std::max(front, x[0]);
     }
   }
-  EXPECT_GT(front, 3.22 - 2.0 * dx);  // the next place is the wall's own row
+  EXPECT_GT(front, 3.22 - 2.0 * dx);  // the next position is the wall's own row
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Enclosed spaces whose air comes and goes through vents, or starts at another pressure than the atmosphere's.
+// Enclosed spaces with vents, or with an initial pressure other than that of the atmosphere.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace tailwater {
 namespace vent_test {
 namespace {
 
-/// What there was of the gas is in pockets, was lost, or has gone through vents.
+/// Asserts that all of the gas is in pockets, was lost, or has passed through vents.
 void expect_gas_is_booked(const AirState& air) {
   double gas = air.gas_lost + air.gas_vented;
   for (const AirPocket& pocket : air.pockets) gas += pocket.gas;
@@ -33,8 +33,8 @@ VentTable vent_at(const Coordinates& at, double area) {
   return vent;
 }
 
-/// The overpressure [Pa] of air in a rigid space after `time` [s], by the textbook's flow through a nozzle,
-/// m = a p_1/sqrt(R T_1) sqrt(2 gamma/(gamma-1) (r^(2/gamma) - r^((gamma+1)/gamma))).
+/// The overpressure [Pa] of air in a rigid space after `time` [s], by the textbook's flow through a nozzle, m = a
+/// p_1/sqrt(R T_1) sqrt(2 gamma/(gamma-1) (r^(2/gamma) - r^((gamma+1)/gamma))).
 class RigidSpace {
  public:
   RigidSpace(double volume, double overpressure, double opening, double exponent)
@@ -61,7 +61,7 @@ class RigidSpace {
   double volume_;
   double opening_;
   double exponent_;
-  double share_;  ///< of the gas in that at the atmosphere's pressure
+  double share_;  ///< gas over that at the atmosphere's pressure
   double time_ = 0.0;
 };
 
@@ -69,8 +69,8 @@ template <class D>
 class VentedSpace : public testing::Test {};
 TYPED_TEST_SUITE(VentedSpace, Dimensions);
 
-// A closed tank, half full of water at rest, whose air starts above or below the atmosphere's pressure, the highest at
-// the speed of sound in the vent. Steps of dt miss some 1 % of the flow.
+// A closed tank, half full of water at rest, with air that starts above or below the atmosphere's pressure. At the
+// highest pressure, the flow in the vent is at the speed of sound. Steps of dt miss some 1 % of the flow.
 TYPED_TEST(VentedSpace, ComesToThePressureOfTheAtmosphereAsTheDifferentialEquationSays) {
   constexpr int Dim = TypeParam::value;
   constexpr double width = 0.4;
@@ -138,7 +138,7 @@ constexpr double bottle_height = 0.3;
 constexpr double neck_top = 0.42;
 constexpr double neck_width = 0.12;
 
-/// A bottle below a funnel full of water, joined by a neck that water fills.
+/// A bottle below a funnel full of water, connected by a neck that is full of water.
 CaseSpec bottle() {
   constexpr double left = 0.5 * (bottle_width - neck_width);
   constexpr double right = left + neck_width;
@@ -170,7 +170,7 @@ CaseSpec bottle() {
   return spec;
 }
 
-/// Lets the water run for 0.4 s. Returns the water that is in the bottle and its neck, m^2.
+/// Runs the flow for 0.4 s. Returns the volume of water in the bottle and its neck, m^2.
 double fill_bottle(Flow<2>& flow) {
   start(flow);
   while (flow.state.time < 0.4) step(flow);
@@ -180,8 +180,8 @@ double fill_bottle(Flow<2>& flow) {
   });
 }
 
-// Without a vent the air holds the water up, but for what changes places with it in the neck. With one the water drives
-// it out. What has run in and the air fill bottle and neck, but for what air there is beside the jet in the neck, which
+// Without a vent the air supports the water, except for water and air that exchange places in the neck. With a vent the
+// water drives the air out. Inflow and air fill bottle and neck, except for the air beside the jet in the neck, which
 // is thinner than a cell, 1.7 %.
 TEST(Bottle, IsFilledThroughItsNeck) {
   constexpr double neck = neck_width * (neck_top - bottle_height);

@@ -1,5 +1,5 @@
-// Taylor-Green vortex in a doubly periodic square of edge 1, U = 1, Re = 100: u = e^(-2 nu k^2 t) (sin kx cos ky,
-// - cos kx sin ky), k = 2 pi, so the kinetic energy falls as exp(-4 nu k^2 t).
+// Taylor-Green vortex in a doubly periodic square of edge 1, U = 1, Re = 100: u = e^(-2 nu k^2 t) (sin kx cos ky, - cos
+// kx sin ky), k = 2 pi, so the kinetic energy falls as exp(-4 nu k^2 t).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,8 +30,8 @@ double decay_rate_error(double dx) {
   const double start = measure(flow).kinetic_energy;
   while (flow.state.time < end) step(flow);
 
-  // All forces act in pairs, so the sum of the velocities stays what it was, 0 by symmetry: round-off of some 30 terms
-  // of size U per particle and step.
+  // All forces act in pairs, so the sum of the velocities stays at its initial value, 0 by symmetry. Its round-off is
+  // that of some 30 terms of size U per particle and step.
   Vec<2> momentum = Vec<2>::Zero();
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) momentum += flow.state.particles.velocity[i];
   const double round_off =
@@ -41,10 +41,10 @@ double decay_rate_error(double dx) {
 }
 
 TEST(TaylorGreen, KineticEnergyDecaysAtTheViscousRate) {
-  // Smoothing with the kernel, whose radius is R = 3 dx and whose mean square along an axis is 5/72 R^2, takes
-  // 5/72 (k R)^2 of this wave, and viscosity and pressure are both smoothed: the rate is wrong by less than twice that,
-  // 0.014 on the finest set. The time step is first order, dt 4 nu k^2/2 < 0.006 there. Shifting by each particle's own
-  // speed lets the particles line up at the stagnation points until the run dies (docs/theory/closures.md).
+  // Smoothing with the kernel, with radius R = 3 dx and mean square 5/72 R^2 along an axis, reduces this wave by 5/72
+  // (k R)^2. Viscosity and pressure are both smoothed, so the error of the rate is less than twice that, 0.014 for the
+  // finest set. The time step is of first order, dt 4 nu k^2/2 < 0.006 there. Shifting by each particle's own speed
+  // would let the particles line up at the stagnation points until the run fails (docs/theory/closures.md).
   double coarser = std::numeric_limits<double>::infinity();
   for (const double cells : {20.0, 40.0, 60.0}) {
     const double error = std::abs(decay_rate_error(1.0 / cells));

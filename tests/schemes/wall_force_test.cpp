@@ -1,4 +1,4 @@
-// Forces on walls: what the water's momentum loses to them, each wall's own part, and the work of those that move.
+// Forces on walls: the momentum that the water loses to them, the force on each wall, and the work of moving walls.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@
 namespace tailwater {
 namespace {
 
-/// Relative; what is left of sums of 1e5 forces of pairs, each up to 1e2 times as large as a particle's weight, in
-/// units of the whole weight of 1e2 particles at least: eps 1e5 1e2/1e2, and ten times that.
+/// Relative round-off of sums of 1e5 pair forces, each up to 1e2 times a particle's weight. The reference is the total
+/// weight of at least 1e2 particles: eps 1e5 1e2/1e2, and ten times that.
 constexpr double rounding = 2e-10;
 
 template <class D>
@@ -42,7 +42,7 @@ Momentum<Dim> momentum_of(const Flow<Dim>& flow) {
   return sum;
 }
 
-/// Whether the last guard has kept water off a wall in this step.
+/// Whether the last guard has kept water away from a wall in this step.
 template <int Dim>
 bool has_contact(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -76,7 +76,7 @@ const Scheme schemes[] = {
 
 class WallForce : public testing::TestWithParam<Scheme> {};
 
-/// Water that falls onto the bed of its tank, slides along and rises at the walls.
+/// Water that falls onto the bed of its tank, slips along it and rises at the walls.
 template <int Dim>
 void expect_balance_of_momentum(const Scheme& scheme, double dx, double width, double depth, int steps) {
   CaseSpec spec = tank_case<Dim>(dx, width, depth);
@@ -101,10 +101,10 @@ void expect_balance_of_momentum(const Scheme& scheme, double dx, double width, d
     largest = largest.cwiseMax(force.cwiseAbs());
     any_contact = any_contact || has_contact(flow);
   }
-  // The balance is of something: the walls stop the water.
+  // The balance has significant terms, since the walls stop the water.
   EXPECT_GT(largest[Dim - 1], 2.0 * momentum_of(flow).mass * g);
   EXPECT_GT(largest[0], 0.1 * momentum_of(flow).mass * g);
-  // Water does not come near a wall that has a row of its equation's particles on it.
+  // Water does not touch a wall with a row of particles that take part in the pressure equation.
   EXPECT_EQ(any_contact, spec.scheme.formulation == Formulation::robust);
 }
 
@@ -141,7 +141,7 @@ TEST(WallForceParts, AddUpToTheWholeAndMomentsToo) {
   const Coordinates about{0.3, 0.2};
   spec.probes = {force_probe(about)};
   for (const WallTable& wall : spec.walls) spec.probes.push_back(force_probe(about, {wall.name}));
-  // The bed again, in two parts whose border no patch respects.
+  // The bed again, in two parts whose border lies within patches.
   for (const bool is_left : {true, false}) {
     ProbeTable part = force_probe(about, {"bed"});
     part.region_min = {is_left ? -0.1 : 0.437, -0.1};
@@ -163,10 +163,10 @@ TEST(WallForceParts, AddUpToTheWholeAndMomentsToo) {
   EXPECT_NE(whole[4], 0.0);  // friction
 }
 
-/// Every wall of a full box takes p times its length, whatever its neighbours: what acts through the wall particles
-/// behind a corner, p <r>/pi in each direction (docs/theory/probes.md), goes to the wall across which it acts. The rest
-/// is the kernel's quadrature, 0.0125 at most (its error of the first moment of a lattice), and e of what acts behind
-/// both corners.
+/// Every wall of a full box has the force p times its length, for any neighbours. The force through the wall particles
+/// behind a corner, p <r>/pi in each direction (docs/theory/probes.md), goes to the wall across which it acts. One
+/// remaining error is the kernel's quadrature, 0.0125 at most (its error of the first moment of a lattice). The other
+/// is the fraction epsilon of the force that acts behind both corners.
 TEST(WallForceParts, AUniformPressureGivesEachWallItsShare) {
   const double dx = 0.1;
   const double width = 1.0;
@@ -188,13 +188,13 @@ TEST(WallForceParts, AUniformPressureGivesEachWallItsShare) {
     const Reader<2> probe(spec, flow, wall);
     const Vec<2> expected = p * width * outwards[wall];
     EXPECT_LE((probe.force() - expected).norm(), 0.0125 * p * width) << spec.walls[wall].name;
-    // In the middle of its wall, about a corner of the box.
+    // The force acts in the middle of its wall; moments are about a corner of the box.
     const double arm = wall == 0 || wall == 3 ? 0.5 * width : -0.5 * width;
     EXPECT_NEAR(probe.row(0.0)[6], p * width * arm, 0.0125 * p * width * width) << spec.walls[wall].name;
   }
 }
 
-/// A cylinder or a square on its edge, 20 dx across, in water at rest: the weight of the water it displaces.
+/// A cylinder or a tilted square, 20 dx across, in water at rest: the force is the weight of the displaced water.
 void expect_buoyancy(const std::vector<Coordinates>& outline, double area) {
   const double dx = 0.05;
   CaseSpec spec = tank_case<2>(dx, 36.0 * dx, 36.0 * dx);
@@ -221,7 +221,7 @@ void expect_buoyancy(const std::vector<Coordinates>& outline, double area) {
   const double weight = flow.setup.liquid.density * g * area;
   EXPECT_NEAR(mean[1], weight, 0.01 * weight);
   EXPECT_NEAR(mean[0], 0.0, 0.01 * weight);
-  // All walls carry the water.
+  // All walls together carry the water.
   EXPECT_NEAR(-mean_all / impulse, momentum_of(flow).mass * g, 0.01 * weight);
 }
 
@@ -246,8 +246,8 @@ TEST(Buoyancy, OfATiltedSquare) {
   expect_buoyancy(outline, 4.0 * half * half);
 }
 
-/// A piston pushes the water of a tank together. What it gives is the rise of the energy and what the water loses,
-/// which the books of the viscosity say.
+/// A piston compresses the water of a tank horizontally. Its work is the rise of the energy plus the dissipation, which
+/// is the viscous work of the energy balance.
 TEST(WallForceOfAPiston, ItsPowerIsTheWorkOnTheWater) {
   const double dx = 0.05;
   CaseSpec spec = tank_of_three_walls(dx, 1.0, 0.5);
@@ -270,7 +270,7 @@ TEST(WallForceOfAPiston, ItsPowerIsTheWorkOnTheWater) {
   const double rise = fluid_sums_of_rank(flow).energy - start;
   EXPECT_GT(rise, 50.0);
   EXPECT_NEAR(work, rise + lost, 0.05 * rise);
-  // The books leave out what acts through the bed's particles below the piston.
+  // The energy balance omits the part that acts through the bed's particles below the piston.
   EXPECT_NEAR(work, booked, 0.1 * rise);
 }
 
@@ -299,7 +299,8 @@ TEST(WallForce, HasNoMomentWithoutAPointForIt) {
   for (const OutputColumn& column : reading.columns) EXPECT_NE(column.measure, Measure::moment) << column.name;
 }
 
-// A column of water falls onto a closed column of air. The floor, which looks at the air alone, bears its pressure.
+// A column of water falls onto a closed column of air. The floor, which is in contact with the air only, carries its
+// pressure.
 TYPED_TEST(WallForceOfAir, IsItsPressureTimesTheArea) {
   constexpr int Dim = TypeParam::value;
   constexpr double width = 0.4;

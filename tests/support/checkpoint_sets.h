@@ -1,4 +1,4 @@
-// What a checkpoint is made of, for those who make wrong ones.
+// The datasets of a checkpoint, for tests that make wrong checkpoints.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct Dataset {
   std::size_t columns;
 };
 
-/// Of a run in 2D.
+/// The datasets of a run in 2D.
 inline constexpr std::array<Dataset, 17> datasets{{{"position", Type::real, 2},
                                                    {"velocity", Type::real, 2},
                                                    {"pressure", Type::real, 1},

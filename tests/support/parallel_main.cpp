@@ -1,4 +1,5 @@
-// Entry point of the test programs of several ranks: all ranks do all tests; a test that fails on one has failed.
+// Entry point of the test programs for several ranks: all ranks run all tests; a test that fails on one rank has
+// failed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@
 namespace tailwater {
 namespace {
 
-/// What ranks other than the root print: failures.
+/// Prints failures of ranks other than the root.
 class ShowFailures : public testing::EmptyTestEventListener {
  public:
   explicit ShowFailures(int rank) : rank_(rank) {}

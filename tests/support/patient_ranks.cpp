@@ -1,6 +1,6 @@
-// In place of the C library's sched_yield, which a rank that waits calls again and again where Open MPI is told to
-// yield: it sleeps, the longer the longer it has waited. Four ranks that spin on two cores leave none to those that
-// they wait for.
+// Replaces the C library's sched_yield, which a waiting rank calls repeatedly if Open MPI is set to yield. The
+// replacement sleeps, for longer the longer the rank has waited. Four ranks that spin on two cores would leave no time
+// to those that they wait for.
 #include <sched.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ extern "C" int sched_yield() noexcept {
   using Clock = steady_clock;
   constexpr microseconds shortest{20};
   constexpr microseconds longest{2000};
-  constexpr microseconds looks{2};  // for what is waited for; who comes later has done something between
+  constexpr microseconds looks{2};  // time between two looks; a later call follows other work
   static Clock::time_point began;
   static Clock::time_point slept;
   const Clock::time_point now = Clock::now();

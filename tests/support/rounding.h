@@ -1,4 +1,4 @@
-// What rounding leaves, by the type of number.
+// Rounding errors by the type of number.
 #pragma once
 
 #include <limits>

@@ -13,8 +13,9 @@ namespace tailwater {
 
 inline constexpr double wetted_dx = 0.1;
 
-/// A cube of fluid above the plane y = 0 and two layers of wall particles under it (a third would be 3 dx away),
-/// plus one wall particle far from everything, last, which is dry. All of them block what `blocked` projects on.
+/// A cube of fluid above the plane y = 0 and two layers of wall particles under it (a third would be 3 dx away). The
+/// last wall particle is far from all others and dry. All wall particles block the directions that `blocked` projects
+/// on.
 template <int Dim>
 struct WettedWall {
   WettedWall(const Mat<Dim>& blocked, double friction, std::unique_ptr<const WallModel<Dim>> chosen)
@@ -63,7 +64,7 @@ struct WettedWall {
     return velocity;
   }
 
-  /// Of this velocity, walls included.
+  /// The acceleration by friction for this velocity, walls included.
   std::vector<Vec<Dim>> friction_acceleration(const FrictionLaw& law, const std::vector<Vec<Dim>>& velocity) const {
     std::vector<Vec<Dim>> no_slip(set.size(), Vec<Dim>::Zero());
     std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());

@@ -1,4 +1,4 @@
-"""Other codes beside ours: what is read of DFSPH, with a program that only pretends."""
+"""Other codes beside Tailwater: the results of DFSPH are read from a program that imitates it."""
 
 import json
 import sys
@@ -15,7 +15,7 @@ import beside
 import dfsph
 from tailwater_validation import peers
 
-# Ten steps, whose frames have still water on the right wall, four fifths of its pressure from one solve.
+# Ten steps with frames of still water on the right wall; one solve gives four fifths of its pressure.
 PRETENDER = """#!/usr/bin/python3
 import json, pathlib, sys
 import numpy as np
@@ -65,7 +65,7 @@ class Dfsph(unittest.TestCase):
             lines = [line.split() for line in (Path(folder) / "tank.obj").read_text().splitlines()]
         corners = np.array([line[1:] for line in lines if line[0] == "v"], float)
         a, b, c = corners[np.array([line[1:] for line in lines if line[0] == "f"], int).T - 1]
-        self.assertAlmostEqual(np.einsum("ij,ij", a, np.cross(b, c)) / 6, 24)  # of its volume
+        self.assertAlmostEqual(np.einsum("ij,ij", a, np.cross(b, c)) / 6, 24)  # the volume of the tank
 
 
 class Records(unittest.TestCase):

@@ -1,4 +1,4 @@
-"""The solutions that runs are held against, each by the equations it must satisfy, and the scores of made-up runs."""
+"""The exact solutions of the validation satisfy their equations, and made-up runs have the expected scores."""
 
 import cmath
 import json
@@ -15,7 +15,7 @@ from tailwater.run import Run
 from tailwater.tables import read_table
 from tailwater_validation import exact_flows, shallow_water
 
-FLOAT32 = 2.0**-23  # relative spacing of what field files hold
+FLOAT32 = 2.0**-23  # relative spacing of the numbers in field files
 
 
 class RunTest(unittest.TestCase):
@@ -111,7 +111,7 @@ spacing = 0.1
 """
 
     def test_field_solves_the_equations(self):
-        # Central differences of step h are wrong by h^2/6 times a third derivative: (2 pi)^3 U, and (4 pi)^3 for p.
+        # Central differences of step h have errors of h^2/6 times a third derivative: (2 pi)^3 U, and (4 pi)^3 for p.
         h, U, nu, rho = 1e-4, 2.0, 0.02, 1000.0
         x = np.array([[0.13, 0.41], [0.77, 0.05], [0.5, 0.9]])
         def at(dx=0.0, dy=0.0, dt=0.0):
@@ -123,7 +123,7 @@ spacing = 0.1
         gradient = np.stack([pe - pw, pn - ps], axis=1) / (2 * h)
         residual = ut + u[:, :1] * ux + u[:, 1:] * uy + gradient / rho - nu * laplacian
         tolerance = h**2 / 6 * U**2 * ((4 * math.pi) ** 3 + 2 * (2 * math.pi) ** 4)
-        np.testing.assert_allclose(residual, 0, atol=tolerance + 1e-6)  # the second is round-off of 1/h^2
+        np.testing.assert_allclose(residual, 0, atol=tolerance + 1e-6)  # the second term is round-off of 1/h^2
         np.testing.assert_allclose(ux[:, 0] + uy[:, 1], 0, atol=tolerance)
 
     def test_known_errors_come_back(self):
@@ -135,7 +135,7 @@ spacing = 0.1
                              {"probes/energy.csv": {"time_s": np.array([0.0, 0.5]),
                                                     "kinetic_J": np.array([1.0, math.exp(-0.5 * rate)])}})
         numbers = exact_flows.taylor_green(run)
-        # Positions are kept in single precision too: 2 pi/L times that.
+        # Positions are also stored in single precision: an error of 2 pi/L times their rounding.
         self.assertAlmostEqual(numbers["velocity_error"], 0.2, delta=50 * FLOAT32)
         self.assertAlmostEqual(numbers["pressure_error"], 0.1, delta=50 * FLOAT32)
         self.assertAlmostEqual(numbers["decay_error"], 0.1, places=9)
@@ -157,7 +157,7 @@ class StandingWave(unittest.TestCase):
                 left = (s + 2 * nu * k**2) ** 2 + self.G * k * math.tanh(k * h)
                 right = 4 * nu**2 * k**3 * m * math.tanh(k * h) / cmath.tanh(m * h)
                 self.assertLess(abs(left - right), 1e-12 * abs(s) ** 2)
-                # The right side is (nu k^2)^1.5 sqrt(s) at leading order, 4 of it, felt through 2 s.
+                # The right side is (nu k^2)^1.5 sqrt(s) at leading order, times 4, and acts through 2 s.
                 self.assertLess(abs(s.real + 2 * nu * k**2), 4 * (nu * k**2) ** 1.5 / abs(s) ** 0.5)
 
     def test_fit_finds_a_damped_oscillation_and_its_offset(self):
@@ -183,7 +183,7 @@ class Drop(unittest.TestCase):
         dx = 0.01
         position = lattice((-2, -1), (2, 1), dx)
         inside = (position[:, 0] / 2) ** 2 + position[:, 1] ** 2 < 1
-        # The cells that the outline cuts hold a share dx (perimeter)/area of the second moments at most.
+        # The cells cut by the outline hold at most the fraction dx (perimeter)/area of the second moments.
         np.testing.assert_allclose(exact_flows.semi_axes(position[inside]), [2, 1], rtol=dx)
 
 
@@ -210,7 +210,7 @@ spacing = 0.1
             # Truncation is d^2/12 of the fourth derivative, below 1e-6; round-off in the curvature about 1e-16/d^2.
             np.testing.assert_allclose(rate, self.FORCE + self.VISCOSITY * curvature, atol=1e-6)
             np.testing.assert_allclose(self.profile([0.0, self.GAP], time), 0, atol=1e-12)
-        # The first term left out is 4/pi^3 G L^2/nu/201^3 = 2e-7 at the start.
+        # The first omitted term is 4/pi^3 G L^2/nu/201^3 = 2e-7 at the start.
         np.testing.assert_allclose(self.profile(y, 0.0), 0, atol=1e-6)
         steady = 0.5 * self.FORCE / self.VISCOSITY * y * (self.GAP - y)
         np.testing.assert_allclose(self.profile(y, 1000.0), steady, rtol=1e-12)
@@ -251,7 +251,7 @@ spacing = 0.1
             curvature = (self.profile(y + d, time) - 2 * self.profile(y, time) + self.profile(y - d, time)) / d**2
             np.testing.assert_allclose(rate, self.VISCOSITY * curvature, atol=1e-6)  # as above
             np.testing.assert_allclose(self.profile([0.0, self.GAP], time), [0, self.SPEED], atol=1e-12)
-        # Before diffusion has come a tenth of the gap: erfc(0.2/(2 sqrt(0.1 * 0.01))) = 8e-6 of the plate's speed.
+        # Before diffusion has reached a tenth of the gap: erfc(0.2/(2 sqrt(0.1 * 0.01))) = 8e-6 of the plate's speed.
         np.testing.assert_allclose(self.profile(y[:-1], 0.01), 0, atol=1e-5 * self.SPEED)
 
     def test_known_errors_come_back(self):
@@ -287,7 +287,7 @@ end = 8.0
         numbers = exact_flows.uniform_flow(self.write_run(self.CASE, frames))
         mean = velocity[:, 0].mean()
         # The mean of the factors 0.96, 0.98 and 1 is 0.98, and they rise by 0.02 per second.
-        self.assertAlmostEqual(numbers["keulegan_error"], -0.02, delta=1e-3)  # the mean over particles for that over y
+        self.assertAlmostEqual(numbers["keulegan_error"], -0.02, delta=1e-3)  # mean over particles instead of y
         self.assertAlmostEqual(numbers["depth_error"], 0.1 / (0.98 * mean * 0.1 * 0.012 / 0.002**0.5) ** 0.6 - 1, delta=1e-5)
         self.assertAlmostEqual(numbers["stress_error"], -0.02 * mean * 0.1 / 0.044**2, delta=1e-4)
         self.assertGreater(numbers["profile_error"], 0.01)
@@ -389,7 +389,8 @@ type = "force"
         self.assertAlmostEqual(numbers["force_error"], -0.1, places=9)
 
     def test_the_theory_is_between_what_is_known(self):
-        """Wagner's theory, for blunt wedges, gives pi/(2 tan 30 deg) in the middle, which is too little for a sharper one."""
+        """Wagner's theory, for blunt wedges, gives pi/(2 tan 30 deg) in the middle, which is too low for a sharper
+        wedge."""
         theory = read_table(exact_flows.WEDGE_PRESSURE)
         self.assertLess(2.72, theory["pressure"][0])
         # The jet's root is where the pressure is highest; a particle that turns round there leaves at twice its speed.
@@ -417,10 +418,10 @@ gravity = [0.0, -9.81]
 spacing = 0.02
 """
     TIMES = (1.0, 3.0, 4.0, 5.0, 6.0)  # T
-    DX = 0.01  # of h0: places and volumes are known to dx, so slopes over T = 3..6 to a third of it
+    DX = 0.01  # over h0: positions and volumes are known to dx, so slopes over T = 3..6 to a third of it
 
     def columns(self, x, depth):
-        """Particles of water this deep (h0), in columns at the places x (h0)."""
+        """Columns of water particles of this depth (h0) at the positions x (h0)."""
         places = 2.0 * np.repeat(x, np.rint(depth / self.DX).astype(int))
         return np.column_stack([places, places])
 
@@ -438,7 +439,7 @@ spacing = 0.02
         xi = np.linspace(-1, 2, 3001)
         h = shallow_water.ritter(xi)
         u = 2 / 3 * (1 + xi)  # the rarefaction's velocity over sqrt(g h0)
-        # -xi h' + (h u)' = 0; differences of parabolas over 0.001 are good to 1e-6.
+        # -xi h' + (h u)' = 0; differences of parabolas over 0.001 have errors of 1e-6.
         np.testing.assert_allclose(np.gradient(h * u, xi)[1:-1], xi[1:-1] * np.gradient(h, xi)[1:-1], atol=1e-6)
         self.assertEqual(list(shallow_water.ritter([-2, 0, 3])), [1, 4 / 9, 0])
 
@@ -456,7 +457,8 @@ spacing = 0.02
         self.assertGreater(bore, shallow_water.stoker_state(0.2)[2])
 
     def test_momentum_of_uneven_water_comes_back(self):
-        """Water 0.5 h0 deep of which every other particle is 0.4 sqrt(g h0) faster: 0.5 times 0.2^2 more than even flow has."""
+        """Water 0.5 h0 deep, with every other particle faster by 0.4 sqrt(g h0): 0.5 times 0.2^2 more than uniform
+        flow."""
         x = np.arange(0, 8, self.DX) + 0.5 * self.DX
         place = self.columns(x, np.full(x.size, 0.5))
         speed = (0.6 + 0.2 * (-1.0) ** np.arange(len(place))) * math.sqrt(2 * 9.81)
@@ -481,7 +483,7 @@ spacing = 0.02
         bore = np.where(x < 4, 0.5, 0.2)
         self.assertAlmostEqual(shallow_water.place_of_bore(x, bore, 0.2, 0.0), 4, places=9)
         self.assertAlmostEqual(shallow_water.place_of_bore(x, bore, 0.2, 1.0), 4, places=9)
-        # Water 0.1 thick that has been thrown 0.3 ahead adds its volume, 0.03/0.3, at most twice.
+        # A splash 0.1 thick and 0.3 long in front of the bore adds its volume, 0.03/0.3, at most twice.
         splash = np.where((x > 4) & (x < 4.3), 0.3, bore)
         self.assertLess(shallow_water.place_of_bore(x, splash, 0.2, 0.0) - 4, 2 * 0.03 / 0.3)
         self.assertGreater(shallow_water.place_of_bore(x, splash, 0.2, 0.0), 4)
@@ -494,7 +496,7 @@ spacing = 0.02
         self.assertAlmostEqual(faster["front_error"], 0.1, delta=self.DX)
 
     def rough_run(self, ahead, states, roughness=0.04, front=1.0):
-        """A run over a bed of this roughness (m) whose surfaces are `states`, and whose front is `front` times theirs."""
+        """A run over a bed of this roughness (m) with the surfaces `states`. Its front is at `front` times theirs."""
         scale = math.sqrt(2.0 / 9.81)
         rows = [np.column_stack([np.full(x.size, T * scale), 2 * x, 0 * x, 2 * h, 2 * h])
                 for T, (x, h, _) in zip(self.LATE_TIMES, states)]
@@ -518,7 +520,8 @@ spacing = 0.02
             shallow_water.rough_dry_bed(self.rough_run(0.0, theory, roughness=0.0))
 
     def run_that_lets_pass(self, volumes):
-        """A run over a rough bed with so much water (h0^2) past the gate at LATE_TIMES, the last particle on its way."""
+        """A run over a rough bed with these volumes of water (h0^2) beyond the gate at LATE_TIMES; the last particle is
+        crossing it."""
         frames = [(0.0, np.full((1, 2), -1.0), {})]
         for T, volume in zip(self.LATE_TIMES, volumes):
             whole, rest = divmod(volume / (0.1 / 2.0) ** 2, 1)
@@ -532,7 +535,7 @@ spacing = 0.02
                        for states in shallow_water.rough_theory(0.2, 0.02, self.LATE_TIMES, 5.0, 8.0))
         more = [volume - 0.1 * (free_volume - volume) for volume, free_volume in zip(rough, free)]
         runs = self.run_that_lets_pass(more), self.run_that_lets_pass(free)
-        self.assertAlmostEqual(shallow_water.held_back_error(*runs), 0.1, places=3)  # places are single precision
+        self.assertAlmostEqual(shallow_water.held_back_error(*runs), 0.1, places=3)  # positions are in single precision
 
     def test_too_few_profiles_are_told(self):
         self.TIMES = (1.0, 3.0)

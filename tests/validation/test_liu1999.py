@@ -1,4 +1,4 @@
-"""The laboratory's surfaces and the scores of a made-up run of cases/liu1999."""
+"""The surfaces of the laboratory and the scores of a made-up run of cases/liu1999."""
 
 import tomllib
 import unittest
@@ -18,7 +18,7 @@ EFFECTIVE_CASE = synthetic_run.tank_case("A made-up dam break", 0.9, 0.5)
 
 
 def slope(_run, _instant):
-    """A surface that is a straight line, so that profiles of any spacing hold it exactly."""
+    """A straight surface, so that profiles of any spacing represent it exactly."""
     return np.linspace(0.05, 0.85, 41), np.linspace(0.2, 0.1, 41)
 
 
@@ -48,7 +48,7 @@ class Data(unittest.TestCase):
 
 class Scores(synthetic_run.CaseTest):
     def score(self, too_high):
-        """Of surfaces `too_high` (m) above the straight line."""
+        """The scores of surfaces that are `too_high` (m) above the straight line."""
         folder = synthetic_run.make_folder(self.folder, EFFECTIVE_CASE + synthetic_run.measurements("liu1999"))
         x = np.arange(0.005, 0.9, 0.01)
         (x0, *_, x1), (y0, *_, y1) = slope(None, 0.0)

@@ -1,4 +1,4 @@
-"""The water's surface as a mesh, and pictures of runs: what they show and which files they leave."""
+"""The water surface as a mesh, and pictures of runs: their content and the files that are written."""
 
 import contextlib
 import io
@@ -35,7 +35,7 @@ integrator = "explicit"
 
 
 def block(*counts):
-    """Centres of so many cells along each axis, from the origin."""
+    """Centres of a block of cells, from the origin; `counts` are their numbers along the axes."""
     return DX * (np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), -1).reshape(-1, len(counts)) + 0.5)
 
 
@@ -50,8 +50,9 @@ class Surface(unittest.TestCase):
         middle = np.abs(points[:, :2] - 0.6).max(1) < 0.3
         top = points[middle & (points[:, 2] > 0.5), 2]
         self.assertGreater(top.size, 100)
-        # Over the slope of c on the surface, 0.4/s with s = dx/2: its ripple, 2 exp(-2 (pi/2)^2) = 1.4 %, is 0.02 dx, and
-        # what a straight line between nodes s apart is off, s^2/8 of the second derivative 0.24/s^2, is 0.04 dx.
+        # Errors over the slope of c at the surface, 0.4/s with s = dx/2. The ripple of c, 2 exp(-2 (pi/2)^2) = 1.4 %,
+        # is 0.02 dx. The error of linear interpolation between nodes s apart, s^2/8 of the second derivative 0.24/s^2,
+        # is 0.04 dx.
         self.assertLess(np.abs(top - 1.0).max(), 0.06 * DX)
         bottom = points[middle & (points[:, 2] < 0.5), 2]
         self.assertLess(np.abs(bottom).max(), 0.06 * DX)
@@ -81,7 +82,7 @@ class Surface(unittest.TestCase):
         velocity = np.stack([position[:, 2], 0 * position[:, 2], 0 * position[:, 2]], axis=1)
         mesh = surface.water_surface(Frame(0.0, position, {"velocity": velocity}), DX)
         found = vtk_to_numpy(mesh.GetPointData().GetArray("velocity"))
-        # A mean of particles on the inner side, within their reach of two spacings.
+        # A mean over particles on the inner side, within two spacings.
         self.assertLess(np.abs(found[:, 0] - points_of(mesh)[:, 2]).max(), 2 * DX)
         self.assertLess(np.abs(found[:, 1:]).max(), 1e-6)
 
@@ -160,7 +161,7 @@ class Pictures(PicturesTest):
 
 class Bounds(unittest.TestCase):
     class Walls:
-        """Of a box from -1 to 1 that stands at `x`; without x, no walls."""
+        """Bounds of a box from -1 to 1 at the position `x`; without x, no walls."""
         def __init__(self, x=None):
             self.x = x
 
@@ -201,9 +202,9 @@ class Scene(PicturesTest):
         above = scene.Scene(bounds, (0.5, -1, 1), width=200)
         image = above.draw(water, walls)
         self.assertGreater(share(image, is_blue), 0.005)
-        self.assertGreater(share(image, is_wall), 0.2)  # the floor looks up
+        self.assertGreater(share(image, is_wall), 0.2)  # the floor faces upwards
         self.assertEqual(share(image, is_red), 0)
-        # Behind the water, and yet seen.
+        # The mark is behind the water and must still be visible.
         self.assertGreater(share(above.draw(water, walls, [(0.8, 1.1, 0.1)]), is_red), 1e-4)
         below = scene.Scene(bounds, (0.5, -1, -1), width=200)
         self.assertLess(share(below.draw(None, walls), is_wall), 0.05)  # only its edges

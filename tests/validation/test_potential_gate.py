@@ -1,4 +1,5 @@
-"""Potential flow under a gate: its limit without gravity, and what it does not use to find the jet."""
+"""Potential flow under a gate: its limit without gravity, and conditions that the computation of the jet does not
+use."""
 
 import math
 import unittest
@@ -17,7 +18,8 @@ class Gate(unittest.TestCase):
         self.assertEqual(found, sorted(found, reverse=True))
 
     def test_the_gate_reaches_from_the_surface_upstream_to_its_edge(self):
-        """Its length is the integral of d phi/u along it, over r from 0, the edge, to R; with r = R sin(x)."""
+        """The length of the gate is the integral of d phi/u along it, over r from 0, the edge, to R; with r = R
+        sin(x)."""
         opening, depth, R, log_speed = jet(6.8)
         x = (np.arange(2000) + 0.5) / 2000 * math.pi / 2
         r = R * np.sin(x)

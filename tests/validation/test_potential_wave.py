@@ -1,4 +1,4 @@
-"""A solitary wave at a wall: what momentum, energy and the series of others say of it."""
+"""A solitary wave at a wall, compared with its momentum, its energy and the series of other authors."""
 
 import unittest
 
@@ -18,13 +18,13 @@ class AtWall(unittest.TestCase):
 
     def test_the_run_up_is_that_of_su_and_mirie(self):
         series = 2 * HEIGHT + HEIGHT**2 / 2 + 0.75 * HEIGHT**3
-        # The waves start to the third order; what is left out runs off as a tail of e^4/e.
+        # The waves start with errors of third order; the omitted part leaves as a tail of e^4/e.
         self.assertAlmostEqual(self.wall.run_up[self.top] / series, 1.0, delta=2 * HEIGHT**3)
 
     def test_the_force_by_momentum_is_that_of_the_pressures(self):
         pressure = np.array([self.wall.pressure[z][self.top] for z in self.heights])
         below = float(np.sum((pressure[1:] + pressure[:-1]) / 2)) * (self.heights[1] - self.heights[0])
-        above = 0.5 * pressure[-1] * self.wall.run_up[self.top]  # falls to nothing over the run-up, nearly evenly
+        above = 0.5 * pressure[-1] * self.wall.run_up[self.top]  # falls to 0 over the run-up, almost linearly
         self.assertAlmostEqual((below + above) / self.wall.force[self.top], 1.0, delta=HEIGHT**2)
 
     def test_the_impulse_turns_the_wave_round(self):

@@ -1,4 +1,4 @@
-"""Potential flow over a broad weir: the constant that runs are held against, and what the method does not use."""
+"""Potential flow over a broad weir: the reference constant of the runs, and conditions that the method does not use."""
 
 import unittest
 
@@ -14,9 +14,10 @@ class BroadWeir(unittest.TestCase):
         self.assertAlmostEqual(coefficient(*WEIR, gauge=3 * 0.085 / CRITICAL), BROAD_WEIR_COEFFICIENT, delta=2e-4)
 
     def test_energy_where_the_depth_is_critical(self):
-        """E = h + (1 + (2 h h'' - h'^2)/3)/(2 h^2), of flow whose streamlines bend a little (Serre F. (1953), Contribution a
-        l'etude des ecoulements permanents et variables dans les canaux, La Houille Blanche 8, 374-388)."""
-        surface, energy = flow(*WEIR, 0.12)  # that of the first test, found once
+        """E = h + (1 + (2 h h'' - h'^2)/3)/(2 h^2), for flow with weakly curved streamlines (Serre F. (1953),
+        Contribution a l'etude des ecoulements permanents et variables dans les canaux, La Houille Blanche 8,
+        374-388)."""
+        surface, energy = flow(*WEIR, 0.12)  # the flow of the first test, cached
         x = next(x / 1000 for x in range(6000) if surface(x / 1000) < WEIR[0] + 1)
         slope, bend = surface(x, 1), surface(x, 2)
         self.assertAlmostEqual(energy, 1.5 + (2 * bend - slope**2) / 6, delta=0.003)

@@ -1,4 +1,4 @@
-"""The bench: its runs with a program that only pretends, its gates, and what it reports."""
+"""The robustness suite: its runs with a program that imitates Tailwater, its acceptance tests, and its report."""
 
 import contextlib
 import io
@@ -109,19 +109,19 @@ class Gates(BenchTest):
     def test_an_order_is_not_asked_of_who_is_right_on_the_coarsest_set(self):
         made = runs.Run("coarse", self.case), runs.Run("fine", self.case)
         self.make(*made)
-        for coarse, fine, bar, verdict in ((0.02, 0.015, 0.03, "met"),     # order 0.4, but within the bar on both
+        for coarse, fine, bar, verdict in ((0.02, 0.015, 0.03, "met"),  # order 0.4, but both within the target
                                            (0.03, 0.03, 0.03, "met"),
-                                           (0.031, 0.015, 0.03, "missed"),  # order 1.05, not within it
-                                           (0.02, 0.021, 0.03, "missed"),   # grows
-                                           (0.02, 0.015, None, "missed"),   # no bar to be within
-                                           (0.1, 0.025, 0.03, "met")):      # order 2
+                                           (0.031, 0.015, 0.03, "missed"),  # order 1.05, not within the target
+                                           (0.02, 0.021, 0.03, "missed"),  # grows
+                                           (0.02, 0.015, None, "missed"),  # no target
+                                           (0.1, 0.025, 0.03, "met")):  # order 2
             errors = {"coarse": coarse, "fine": fine}
             check = robustness.OrderOfError(Metric("a.order", "order", "", "", low=robustness.LEAST_ORDER), made,
                                             lambda *_, coarse=coarse, fine=fine: math.log2(coarse / fine),
                                             error=lambda run, errors=errors: errors[run.path.name], bar=bar)
             metric, = check.scores(self.folder / "out")
             self.assertEqual(metric.verdict, verdict, errors)
-            self.assertAlmostEqual(metric.value, math.log2(coarse / fine))  # the order is shown as it is
+            self.assertAlmostEqual(metric.value, math.log2(coarse / fine))  # the order is shown unchanged
             self.assertEqual(bool(metric.met_because), verdict == "met" and metric.value < robustness.LEAST_ORDER)
 
     def test_the_full_matrix_is_that_of_the_table(self):
@@ -176,7 +176,7 @@ class Command(BenchTest):
         process = subprocess.Popen(command, env={**os.environ, "FAKE_WAITS": "partial"}, stderr=subprocess.PIPE,
                                    text=True)
         self.addCleanup(process.communicate)
-        while len(self.calls()) < 3:  # no-slip, free slip, then the one that waits
+        while len(self.calls()) < 3:  # no-slip, free slip, then the run that waits
             self.assertIsNone(process.poll(), "it has ended before it was interrupted")
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)

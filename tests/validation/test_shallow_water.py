@@ -1,4 +1,4 @@
-"""The shallow-water equations with and without friction, by the solutions that they must come to."""
+"""The shallow-water equations with and without friction, compared with their limiting solutions."""
 
 import unittest
 
@@ -9,7 +9,7 @@ from tailwater_validation.shallow_water import EvenBed, RoughBed, dam_break, fro
 
 
 def whitham_front(time, coefficient):
-    """Place of the front over a dry bed with the constant friction coefficient, for small coefficient time^4: Whitham
+    """Position of the front over a dry bed with a constant friction coefficient, for small coefficient time^4: Whitham
     (1955), Proc. R. Soc. Lond. A 227, 399: 2 t - 3.452 (c t^4)^(1/3)."""
     return 2 * time - 3.452 * (coefficient * time**4) ** (1 / 3)
 
@@ -21,8 +21,9 @@ def rms(values):
 class WithoutFriction(unittest.TestCase):
     def test_a_dry_bed_gives_ritters_dam_break(self):
         (x, depth, _), = dam_break(0.0, EvenBed(0.0), [3.0], 4, 7, cells=1000)
-        self.assertLess(rms(depth - shallow_water.ritter(x / 3.0)), 0.2 * (x[1] - x[0]))  # its two kinks are rounded
-        self.assertAlmostEqual(float(np.sum(depth)), np.count_nonzero(x < 0), places=7)  # none is lost
+        # the two kinks of the solution are rounded
+        self.assertLess(rms(depth - shallow_water.ritter(x / 3.0)), 0.2 * (x[1] - x[0]))
+        self.assertAlmostEqual(float(np.sum(depth)), np.count_nonzero(x < 0), places=7)  # no water is lost
 
     def test_still_water_ahead_gives_stokers(self):
         (x, depth, _), = dam_break(0.2, EvenBed(0.0), [3.0], 4, 5, cells=1000)
@@ -32,7 +33,8 @@ class WithoutFriction(unittest.TestCase):
 
 class WithFriction(unittest.TestCase):
     def test_little_friction_holds_the_tip_back_as_whitham_says(self):
-        # What is left out is of higher order in the loss over the way: the differences fall faster than the losses.
+        # The omitted terms are of higher order in the loss over the distance: the differences fall faster than the
+        # losses.
         for coefficient, least in ((1e-4, 0.15), (1e-3, 0.3)):
             (x, depth, _), = dam_break(0.0, EvenBed(coefficient), [2.0], 3, 5, cells=2000)
             loss = 4.0 - front_of(x, depth)
@@ -45,8 +47,8 @@ class WithFriction(unittest.TestCase):
         self.assertAlmostEqual(float(bed.friction_velocity(1.0, 2.0, 5.0)), 2.0 / mean, places=6)
 
     def test_a_thin_layer_grows_by_what_the_bed_takes(self):
-        # Deep water at even speed: the missing momentum u_tau delta/kappa is what the bed has taken, up to the
-        # logarithm's slow change.
+        # Deep water at uniform speed: the momentum deficit u_tau delta/kappa equals the momentum that the bed has
+        # taken, except for the slow change of the logarithm.
         bed = RoughBed(0.001)
         speed, layer, taken = np.array([1.0]), np.array([0.001]), 0.0
         for _ in range(2000):

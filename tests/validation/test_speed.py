@@ -1,5 +1,6 @@
-"""The speed bench: what is read from runs and from Google Benchmark, fits, reports, and the command with a program that
-only pretends."""
+"""The speed benchmark: results of runs and of Google Benchmark, fits, reports, and the command.
+
+The command runs with a program that imitates Tailwater."""
 
 import contextlib
 import csv
@@ -67,7 +68,7 @@ class Steps(unittest.TestCase):
 
 
 def google(*entries, **context):
-    """As Google Benchmark writes it; an entry is (name, time, unit, counters)."""
+    """Output in the format of Google Benchmark; an entry is (name, time, unit, counters)."""
     return {"context": {"provenance": json.dumps(PROVENANCE), **context},
             "benchmarks": [{"name": name, "run_name": f"{name}/manual_time", "run_type": "iteration", "real_time": took,
                             "time_unit": unit, **counters} for name, took, unit, counters in entries]}

@@ -1,4 +1,4 @@
-"""The command `validate`: studies, numbers and verdicts, what is repeated, and the report."""
+"""The command `validate`: studies, numbers and results, repeated runs, and the report."""
 
 import json
 import tempfile
@@ -20,11 +20,11 @@ from tailwater_validation.particles import detached
 from tailwater_validation.study import LEVELS, Plan
 from tailwater_validation.studies import operators, studies, zhou1999
 
-DEPTH_ERROR = 0.03  # of H: between the bars of the depths and nothing
+DEPTH_ERROR = 0.03  # over H: within the targets of the depths
 
 
 def setUpModule():
-    """The folder of a run of cases/zhou1999 in which every number that a study needs is known."""
+    """Makes the folder of a run of cases/zhou1999 in which every number that a study needs is known."""
     global scratch
     scratch = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(scratch.cleanup)
@@ -48,13 +48,13 @@ def synthetic_folder():
 
 class ValidateTest(ProgramTest):
     def validate(self, *arguments, draw=False):
-        """Without `draw` there are no figures, which take longer than all else."""
+        """Runs the command; without `draw` there are no figures, which take longer than all else."""
         figures = validate.figures if draw else lambda *_: []
         with unittest.mock.patch.object(validate, "figures", figures):
             return self.command(validate.main, "--jobs", "1", *arguments)
 
     def only_run(self, *arguments):
-        """Without scores and report."""
+        """Runs the command without scores and report."""
         with unittest.mock.patch.object(validate, "score", lambda *_: ""):
             return self.command(validate.main, "--jobs", "1", *arguments)
 
@@ -74,7 +74,8 @@ class Scores(ValidateTest):
         code, out, err = self.validate("zhou1999")
         self.assertEqual(code, 0, err)
         result, metrics = self.result(), self.metrics()
-        # The depths are one reading of the laboratory's, DEPTH_ERROR too high; the other reading is a few hundredths away.
+        # The depths are one of two readings of the laboratory's curves plus DEPTH_ERROR; the other reading differs by a
+        # few hundredths.
         other = zhou1999.distance(Run(synthetic_folder()), "H2", (0.0, 6.0), reading="fluidity")["value"]
         self.assertAlmostEqual(metrics["zhou1999.H2.T6"]["value"], 0.5 * (DEPTH_ERROR + other), places=9)
         self.assertEqual([metrics["zhou1999.H2.T6"][name] for name in ("verdict", "result")], ["met", "met"])
@@ -138,7 +139,7 @@ class Report(ValidateTest):
                 self.assertGreater(len(panel["curves"]), 0, figure["caption"])
         depths = zhou["figures"][1]["panels"][0]["curves"]
         self.assertEqual([curve["kind"] for curve in depths], ["measured", "measured", "run", "run", "aside"])
-        # The computed depth is one reading of the laboratory's, DEPTH_ERROR too high.
+        # The computed depth is one reading of the laboratory's curve plus DEPTH_ERROR.
         measured = next(curve for curve in depths if "openmps" in curve["label"])
         computed = np.interp(measured["x"], depths[2]["x"], depths[2]["y"])
         self.assertLess(np.median(np.abs(computed - measured["y"] - DEPTH_ERROR)), 0.01)
@@ -244,7 +245,7 @@ class Checks(unittest.TestCase):
             metric = check.score(None)
         self.assertAlmostEqual(metric.order, 1.7, places=9)
         self.assertAlmostEqual(metric.value, 3 * 0.1**1.7, places=12)
-        # Of three values nothing confirms the order, so three times the error is what it may be off.
+        # With three values nothing confirms the order, so the uncertainty is three times the error.
         self.assertAlmostEqual(metric.uncertainty, 3 * metric.value, places=6)
         self.assertRegex(shown(validate.metric_record(check, metric)), r"^0\.0599 ± 0\.18$")
         self.assertEqual(metric.verdict, "met")

@@ -1,4 +1,4 @@
-"""Waves of which everything is known, at the gauges of cases/wave_flume."""
+"""Waves with known properties, at the gauges of cases/wave_flume."""
 
 import tempfile
 import unittest
@@ -15,7 +15,7 @@ PERIOD = 2 * np.pi / (G * 2 * np.pi / LENGTH * np.tanh(2 * np.pi / LENGTH * DEPT
 
 
 def add_gauge(path, name, x, times, level):
-    """Writes what a gauge reads, and returns its table of the case; `level` is above the still water."""
+    """Writes the readings of a gauge, and returns the gauge's table of the case; `level` is above the still water."""
     (path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
         f"{time:.12g},{DEPTH + z:.12g}\n" for time, z in zip(times, level)))
     return f'[[probe]]\nname = "{name}"\ntype = "depth"\nat = [{x}, 0.0]\n'
@@ -23,8 +23,8 @@ def add_gauge(path, name, x, times, level):
 
 class WaveFlume(unittest.TestCase):
     def run_with(self, decay, reflected, longer=1.0):
-        """Waves of `HEIGHT` at the first gauge, `longer` than linear theory has them, that lose exp(-decay) per length, and of
-        which the far end sends a share back to the gauges there."""
+        """Waves of height `HEIGHT` at the first gauge, with `longer` times the wavelength of linear theory. They decay
+        by exp(-decay) per length, and the far end reflects the fraction `reflected` to the gauges there."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         path = Path(folder.name)
@@ -65,8 +65,8 @@ class IrregularWaves(unittest.TestCase):
     PERIODS, SEED = 40, 7
 
     def run_with(self, height_factor=1.0, high_factor=1.0, reflected=0.0):
-        """The sea of a seed, `height_factor` times as high, and above the peak `high_factor` times as that, of which a share
-        comes back."""
+        """The sea of a seed with `height_factor` times its height. Components above the peak frequency are also
+        multiplied by `high_factor`, and the fraction `reflected` of all waves is reflected."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         path = Path(folder.name)

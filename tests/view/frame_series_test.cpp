@@ -1,4 +1,4 @@
-// The frames of a run on 1 to 4 ranks: the same bytes, exact to half a quantum, and gone on with as if never stopped.
+// The frames of a run on 1 to 4 ranks: identical bytes, exact to half a quantum, and unchanged by a resumption.
 #include "view/frame_series.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr double spacing = 0.01;
 
-/// Water that swings in a tank; particles come and go. Each rank has some of it, in no order.
+/// Water that oscillates in a tank, with particles that enter and leave. Each rank has some of the particles, in no
+/// order.
 template <int Dim>
 struct Swing {
   std::vector<std::int64_t> id;
@@ -63,7 +64,7 @@ void write_frames(FrameSeries<Dim>& series, int first, int end, const Communicat
   }
 }
 
-/// All frames, decoded in turn as a viewer does.
+/// All frames, decoded in sequence as a viewer does.
 std::vector<Frame> decoded(const std::filesystem::path& folder, int count) {
   std::vector<Frame> frames;
   FramesBefore before;
@@ -116,7 +117,7 @@ void frames_hold_what_was_written() {
     EXPECT_NEAR(angle, 0.01 * k, 1e-7);
   }
   EXPECT_EQ(frames[23].head.order, 0);  // its pressure is out of range
-  // The same on one rank.
+  // The frames of a single rank are identical.
   const TemporaryFolder other;
   FrameSeries<Dim> lone(other.path() / "view", spacing, tank<Dim>());
   write_frames<Dim>(lone, 0, 30, alone);

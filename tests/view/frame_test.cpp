@@ -1,4 +1,4 @@
-// One frame: what is written is read back, whatever came and went since the frames before.
+// One frame: reading returns the written particles, for any particles that came or left since the previous frames.
 #include "view/frame.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,8 @@ TEST_P(EachOrder, IsReadBackBitForBit) {
   std::mt19937 random(1);
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   for (const std::size_t dimension : {2U, 3U}) {
-    // Gone since the last frame: the first, one inside and the last. Come: one before, one inside and one behind all.
+    // Removed since the last frame: the first particle, one inside and the last. Added: one before, one inside and one
+    // behind all.
     const FramesBefore before{random_particles({5, 6, 7, 9, 12, 40}, dimension, random),
                               random_particles({5, 7, 9, 11, 40}, dimension, random)};
     for (const std::vector<std::int64_t>& ids :
@@ -81,7 +82,7 @@ TEST_P(EachOrder, AnEmptyFrameCanComeBefore) {
 
 INSTANTIATE_TEST_SUITE_P(Frame, EachOrder, testing::Values(0, 1, 2));
 
-/// Particles on parabolas, at constant acceleration: `step` frames later. Places wrap round, as in periodic water.
+/// Particles on parabolas, at constant acceleration: `step` frames later. Places wrap around, as in periodic water.
 FrameParticles flying(std::int64_t count, int step) {
   FrameParticles particles;
   particles.id = counted(count);
@@ -95,14 +96,14 @@ FrameParticles flying(std::int64_t count, int step) {
 }
 
 TEST(Frame, OrderTwoPredictsConstantVelocityAcrossAPeriodicEnd) {
-  constexpr std::int64_t count = 20000;  // ids and places wrap round 65536
+  constexpr std::int64_t count = 20000;  // ids and places wrap around at 65536
   const FramesBefore before{flying(count, 1), flying(count, 0)};
   Frame frame = frame_of(flying(count, 2), 2, 2);
   frame.head.scale.ranges.resize(1);
   const std::string bytes = encode_frame(frame, before);
   EXPECT_EQ(decode_frame(bytes, before), frame);
-  // All residuals along x are 0, along y -2: bytes that repeat themselves, of which deflate needs half a bit per
-  // particle at most. As they are, they take 40.
+  // All residuals are 0 along x and -2 along y: repeated bytes, for which deflate needs half a bit per particle at
+  // most. Uncompressed they take 40.
   EXPECT_LT(bytes.size(), count / 16);
 }
 
@@ -115,14 +116,14 @@ TEST(Frame, ADamagedOneIsTold) {
   }
   EXPECT_THROW(decode_frame(bytes + "x", before), IoError);
   EXPECT_THROW(decode_frame(bytes, {}), IoError);  // follows other frames
-  // Whatever byte is wrong, the answer is an error or a frame, and no huge memory is asked for.
+  // For any wrong byte, the result is an error or a frame, without a large memory request.
   for (std::size_t k = 0; k < bytes.size(); ++k) {
     std::string wrong = bytes;
     wrong[k] = static_cast<char>(wrong[k] ^ 0x55);
     try {
       decode_frame(wrong, before);
     } catch (const IoError&) {
-      // told
+      // reported
     }
   }
 }

@@ -1,4 +1,4 @@
-// The scene of a case: what a viewer needs to draw all that is not water.
+// The scene of a case: all data that a viewer needs to draw everything except water.
 #include "view/scene.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ at = [0.5, 0]
   EXPECT_EQ(bed["kind"], "wall");
   EXPECT_EQ(bed["moving"], nullptr);
   EXPECT_EQ(bed["polylines"], Json::parse("[[[0.0, 2.0], [0.0, 0.0], [4.0, 0.0]]]"));
-  // The hull is closed; hull and gate move, each by a pose of its own.
+  // The hull is closed; hull and gate move, each by its own pose.
   const Json& hull = scene["walls"][1];
   EXPECT_EQ(hull["kind"], "body");
   ASSERT_EQ(hull["polylines"].size(), 1U);
@@ -174,7 +174,7 @@ open = ["+z"]
   const Json& triangles = scene["walls"][0]["triangles"];
   EXPECT_EQ(triangles["positions"].size(), 3 * 8U);
   ASSERT_EQ(triangles["indices"].size(), 3 * 10U);  // five faces of two
-  // Counter-clockwise as the water in the middle sees them.
+  // Counter-clockwise as seen from the water in the middle.
   for (std::size_t k = 0; k < 10; ++k) {
     std::array<Vec<3>, 3> corners;
     for (std::size_t c = 0; c < 3; ++c) {

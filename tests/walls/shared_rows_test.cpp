@@ -1,4 +1,4 @@
-// Rows of walls among ranks: each at home on one rank, and wherever a particle needs it.
+// Rows of walls among ranks: each at home on one rank, and also on ranks with particles that need it.
 #include "walls/shared_rows.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@ namespace {
 constexpr std::int64_t resting = 1000;
 constexpr std::int64_t first_id = 70;
 
-/// Of the row with this number; every seventh number is of a place that has no particle.
+/// Properties of the row with this number; every seventh number belongs to a position without a particle.
 bool exists(std::int64_t number) { return number % 7 != 3; }
 bool moves(std::int64_t number) { return number >= 400 && number < 420; }
 
-/// What a rank has made: all rows of a wall that moves, and those of the other, at 1 m per number, that are its share
-/// of space, in a mixed order.
+/// The rows that a rank has made, in a mixed order. They are all rows of a wall that moves, and those of the other
+/// wall, at 1 m per number, in the rank's part of space.
 template <int Dim>
 Walls<Dim> made_by(const Communicator& ranks) {
   Walls<Dim> walls;
@@ -65,7 +65,7 @@ void expect_row(const Walls<Dim>& walls, std::int32_t row, std::int64_t number) 
   EXPECT_EQ(walls.share_of_water[row], 7.0 * x);
 }
 
-/// Wall particles with these numbers, behind one of water.
+/// Wall particles with these numbers, behind one fluid particle.
 template <int Dim>
 Particles<Dim> particles_of(const std::vector<std::int64_t>& numbers) {
   Particles<Dim> particles;
@@ -79,7 +79,7 @@ Particles<Dim> particles_of(const std::vector<std::int64_t>& numbers) {
   return particles;
 }
 
-/// Other numbers on every rank, some on several.
+/// Different numbers on every rank, some on several.
 std::vector<std::int64_t> numbers_on(int rank) {
   std::vector<std::int64_t> numbers;
   for (std::int64_t number = 31 * rank; number < 31 * rank + 420; number += 3) {
@@ -136,7 +136,7 @@ TYPED_TEST(SharedRowsTest, ComeWhereAParticleNeedsThemAndGoWhenNoneDoes) {
   };
   expect_all();
   const std::size_t most = this->walls.particles.size();
-  // Ghosts: those of the next rank. Only their rows are looked for.
+  // Ghosts: the particles of the next rank. Only the rows of ghosts are searched.
   const std::vector<std::int64_t> others = numbers_on((this->ranks.rank() + 1) % this->ranks.size());
   for (const std::int64_t number : others) {
     particles.resize(particles.size() + 1);
@@ -152,7 +152,7 @@ TYPED_TEST(SharedRowsTest, ComeWhereAParticleNeedsThemAndGoWhenNoneDoes) {
   this->rows.drop_halo_rows(this->walls, particles);
   EXPECT_EQ(this->walls.particles.size(), most);
   expect_all();
-  // Half of the particles are left.
+  // Half of the particles remain.
   particles.resize(particles.owned / 2);
   particles.owned = particles.size();
   this->rows.drop_halo_rows(this->walls, particles);
@@ -179,7 +179,7 @@ TYPED_TEST(SharedRowsTest, AreHandedOut) {
     const std::int64_t number = this->walls.particles.number[row];
     expect_row<Dim>(this->walls, static_cast<std::int32_t>(row), number);
     Particles<Dim> particles = particles_of<Dim>({number});
-    // It is here: nobody needs to ask for it, and the call is still collective.
+    // The row is on this rank, so no rank needs to request it; the call is still collective.
     EXPECT_TRUE(this->rows.find_rows(this->walls, particles, 0, first_id));
     EXPECT_EQ(particles.wall_row[1], static_cast<std::int32_t>(row));
   }

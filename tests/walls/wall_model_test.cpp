@@ -1,4 +1,4 @@
-// What wall models show to the water, and wall friction.
+// Velocities that wall models present to the water, and wall friction.
 #include "walls/wall_model.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TYPED_TEST(WallTest, AWallThatMovesWithTheWaterLeavesItAlone) {
     EXPECT_LT((velocity[i] - u).norm(), 4.0 * single_eps);
     EXPECT_LT(acceleration[i].norm(), 40.0 * single_eps / (wetted_dx * wetted_dx));
   }
-  // A piston faster than the water: the image is as much faster again.
+  // A piston faster than the water: the velocity of the image exceeds that of the piston by the same amount.
   for (Vec<Dim>& V : wall.V) V = u + Vec<Dim>::UnitY();
   const auto pushed = wall.with_walls(std::vector<Vec<Dim>>(wall.set.size(), u));
   for (std::size_t i = 0; i + 1 < wall.set.size(); ++i) {
@@ -52,7 +52,7 @@ TYPED_TEST(WallTest, AWallThatMovesWithTheWaterLeavesItAlone) {
 
 TYPED_TEST(WallTest, MirrorsAUniformVelocity) {
   constexpr int Dim = TypeParam::value;
-  // The Shepard mean of a uniform velocity is that velocity, so each slip has a closed answer.
+  // The Shepard mean of a uniform velocity is that velocity, so each slip has a closed-form result.
   const Vec<Dim> u = some_velocity<Dim>();
   const Vec<Dim> normal = u[1] * Vec<Dim>::UnitY();
   const Vec<Dim> tangential = u - normal;
@@ -113,7 +113,7 @@ TYPED_TEST(WallTest, FrictionIsItsShareOfTheNoSlipStressAndTangential) {
   }
 }
 
-/// The stress over rho [m^2/s^2] on the middle of the wall: what the column above it loses per time and area.
+/// The stress over rho [m^2/s^2] on the middle of the wall: the momentum that the column above loses per time and area.
 template <int Dim>
 double stress_in_the_middle(const WettedWall<Dim>& wall, const std::vector<Vec<Dim>>& acceleration) {
   const Vec<Dim> middle = Vec<Dim>::Constant(3.5 * wetted_dx);
@@ -139,8 +139,8 @@ TYPED_TEST(WallTest, ALogarithmicProfileGetsItsStress) {
       velocity[i][0] = u_tau / von_karman * std::log1p(wall.set.position(i)[1] / law.zero_height(u_tau));
     }
     const auto acceleration = wall.friction_acceleration(friction_law<Dim>(water), wall.with_walls(velocity));
-    // Every particle finds the same u_tau. The laminar stress, which is taken off as u/y and put back as the two-point
-    // sum, is below nu u/y = 3e-5 of it; the walls' third row, which the set leaves out, has none of the weight.
+    // Every particle has the same u_tau. The laminar stress, which is subtracted as u/y and added as the two-point sum,
+    // is below nu u/y = 3e-5 of u_tau^2. The walls' third row, which the set omits, has no weight.
     EXPECT_NEAR(stress_in_the_middle(wall, acceleration), u_tau * u_tau, 1e-3 * u_tau * u_tau);
   }
 }
