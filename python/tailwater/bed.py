@@ -1,7 +1,7 @@
 """Convert surveyed terrain to a wall mesh.
 
-Reads a GeoTIFF or any other raster that rasterio knows, or a text file of x, y and z, and writes an STL mesh whose front
-is its upper side. Coordinates become those of the case: the origin is the lower left corner, or that of --origin.
+Reads a GeoTIFF or any other raster that rasterio reads, or a text file of x, y and z. Writes an STL mesh whose front is
+its upper side. Coordinates become those of the case: the origin is the lower left corner, or that of --origin.
 
 Exit codes: 0 done; 2 bad input, 4 a file cannot be read or written.
 """
@@ -18,7 +18,7 @@ from .whole_file import write_whole
 
 NAMES = {"x": ("x", "easting", "east", "e", "rechtswert"), "y": ("y", "northing", "north", "n", "hochwert"),
          "z": ("z", "elevation", "height", "level", "h")}
-LARGEST = 5_000_000  # triangles; a mesh for a case of the same size has some thousands
+LARGEST = 5_000_000  # triangles; a mesh for a case with the same number of particles has some thousands
 
 
 class Terrain:
@@ -38,7 +38,7 @@ class Terrain:
         return Terrain(self.points, self.triangles[inside[self.triangles].all(axis=1)])
 
     def resampled(self, step):
-        """Heights on a square grid of that step, linear between those that are known."""
+        """Heights on a square grid with this step, linear between known points."""
         import matplotlib.tri
 
         low, high = self.bounds()
@@ -78,14 +78,14 @@ def read_raster(path):
             z = raster.read(1, masked=True).astype(float)
     except rasterio.errors.RasterioIOError as error:
         raise DataError(f"{path}: cannot be read: {error}") from None
-    x = to_metres.c + to_metres.a * (np.arange(z.shape[1]) + 0.5)  # middles of the cells
+    x = to_metres.c + to_metres.a * (np.arange(z.shape[1]) + 0.5)  # centres of the cells
     y = to_metres.f + to_metres.e * (np.arange(z.shape[0]) + 0.5)
     z = np.ma.filled(z, np.nan)
     return from_grid(np.sort(x), np.sort(y), z[np.argsort(y)][:, np.argsort(x)])
 
 
 def fields_of(line):
-    """The fields of a line, by commas or semicolons, or else by blanks."""
+    """The fields of a line, separated by commas or semicolons, otherwise by blanks."""
     text = line.partition("#")[0]
     for separator in (";", ","):
         if separator in text:
@@ -102,15 +102,17 @@ def is_number(word):
 
 
 def columns_named(words):
-    """The places of the columns x, y and z in a line of names, as "Name", "X [m]", "Y", "elevation"; None if it is none."""
+    """The indices of the columns x, y and z in a line of names, such as "Name", "X [m]", "Y", "elevation"; None if the
+    line names no such columns."""
     names = [word.lower().partition("[")[0].partition("(")[0].strip().removesuffix("_m") for word in words]
     found = [next((k for k, name in enumerate(names) if name in NAMES[axis]), None) for axis in "xyz"]
     return None if None in found else found
 
 
 def numbers_of(path):
-    """The points of a text file: three numbers a line, by blanks, commas or semicolons; # begins a comment. If the line
-    above them names columns x, y and z, those are taken, as of a survey that has a name or a number for each point."""
+    """The points of a text file: three numbers per line, separated by blanks, commas or semicolons; # begins a comment.
+    If a header line names columns x, y and z, these columns are read; surveys may have others with names or numbers of
+    points."""
     points, chosen = [], None
     text = read_bytes(path, LARGEST_TABLE).decode("utf-8", errors="replace")
     for line_number, line in enumerate(text.splitlines(), 1):
@@ -139,7 +141,7 @@ def numbers_of(path):
 
 
 def read_points(path):
-    """A grid where the points are one, else Delaunay's triangles between them."""
+    """A grid where the points form one, otherwise Delaunay triangles between them."""
     points = numbers_of(path)
     if len(points) < 3:
         raise DataError(f"{path}: has {len(points)} points; a bed needs three")
@@ -149,7 +151,7 @@ def read_points(path):
         z = np.full((y.size, x.size), np.nan)
         z[row, column] = points[:, 2]
         grid = from_grid(x, y, z)
-        if len(grid.triangles):  # scattered points may share coordinates, too
+        if len(grid.triangles):  # scattered points may also share coordinates
             return grid
     import matplotlib.tri
 
@@ -168,7 +170,8 @@ def read_terrain(path):
 
 
 def write_stl(path, terrain, origin):
-    """Binary STL, whose numbers have seven digits: enough near the origin, not at a grid's northing of millions."""
+    """Writes a binary STL file. Its numbers have seven digits, which is precise near the origin, but not at northings
+    of millions."""
     corners = (terrain.points - origin)[terrain.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
@@ -210,7 +213,7 @@ def report(options, terrain, origin, low, high):
 
 
 def write_bed(options):
-    """Throws DataError, IoError."""
+    """Reads the terrain and writes the mesh. Throws DataError, IoError."""
     if options.to.suffix.lower() != ".stl":
         raise DataError(f"--to {options.to}: is written as STL; name a file that ends in .stl")
     if options.step is not None and options.step <= 0:

@@ -1,11 +1,11 @@
-"""Features of a case that decide which limits of the method apply to it, and which validated flow is most like it."""
+"""Features of a case: they determine the limits of the method that apply to it, and the validated flow most like it."""
 
 from .errors import DataError
 
 __all__ = ["features_of", "limits_of", "nearest_flow"]
 
 FRICTION_KEYS = ("friction", "roughness", "manning")
-# Tables of a case that are a feature by themselves.
+# Tables whose presence is a feature of a case.
 TABLES = {"inlet": "inlet", "outlet": "outlet", "gate": "gate", "wave_maker": "wave maker", "body": "floating body",
           "porous": "porous layer", "damping": "damping zone"}
 # Types of probes, by the kind of quantity that they measure.
@@ -17,7 +17,7 @@ OF_EVERY_FLOW = {"2D", "3D"}
 
 
 def is_set(value):
-    """Whether a value of a case, a number or an expression, is other than zero or none."""
+    """Whether a value of a case, a number or an expression, differs from zero and "none"."""
     if isinstance(value, list):
         return any(is_set(each) for each in value)
     return value not in (0, "", "0", "none", None, False)
@@ -32,7 +32,7 @@ def is_moving(wall):
 
 
 def features_of(case: dict) -> set:
-    """`case` is a case as tomllib reads it, effective or as its user wrote it."""
+    """The features of a case. `case` is a case as tomllib reads it, effective or as its user wrote it."""
     walls, ends = case.get("wall", []), case.get("inlet", []) + case.get("outlet", [])
     found = {feature for table, feature in TABLES.items() if case.get(table)}
     found.add("3D" if dimension_of(case) == 3 else "2D")
@@ -54,7 +54,7 @@ def features_of(case: dict) -> set:
 
 
 def dimension_of(case):
-    """2 or 3; where the case does not give it, by the number of coordinates of its shapes."""
+    """2 or 3; if the case does not give it, the number of coordinates of its shapes."""
     if given := case.get("case", {}).get("dimension"):
         return given
     points = [table[key] for name in ("fluid", "wall") for table in case.get(name, []) for key in ("min", "seed")
@@ -102,7 +102,7 @@ def limits_of(features) -> list:
 
 
 def likeness(features, other):
-    """From 0 to 1: shared features over all; the dimension counts half."""
+    """Similarity of two sets of features, from 0 to 1: common features over all features; the dimension counts half."""
     def weight(each):
         return sum(0.5 if feature in OF_EVERY_FLOW else 1.0 for feature in each)
 
@@ -110,8 +110,8 @@ def likeness(features, other):
 
 
 def nearest_flow(features, flows, kind=""):
-    """The validated flow most like a case with these features; of several, one that was compared by a quantity of this
-    kind (KINDS). `flows` are those of the table of evidence. Throws DataError if there are none."""
+    """The validated flow with the largest likeness to these features; a compared quantity of the kind `kind` (KINDS)
+    adds 0.25 to it. `flows` are those of the table of evidence. Throws DataError if there are none."""
     if not flows:
         raise DataError("the table of evidence has no flows; remedy: scripts/evidence.py")
     features = set(features)

@@ -1,5 +1,5 @@
-"""The table of evidence: every number of the validation that has a target, with its result (evidence.json, which
-scripts/evidence.py makes)."""
+"""The table of evidence: all numbers of the validation that have a target, with their results (evidence.json, made by
+scripts/evidence.py)."""
 
 import json
 from pathlib import Path
@@ -12,7 +12,7 @@ FILE = Path(__file__).resolve().with_name("evidence.json")
 
 
 def load_evidence() -> dict:
-    """"commit", "rows" and "flows". Throws DataError if the package has no table."""
+    """Returns "commit", "rows" and "flows". Throws DataError if the package has no table."""
     try:
         return json.loads(FILE.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:

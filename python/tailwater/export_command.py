@@ -36,7 +36,7 @@ def parser():
 
 
 def write_files(options):
-    """Those that the options name. Throws DataError, IoError."""
+    """Writes the files that the options name. Throws DataError, IoError."""
     run = Run(options.run)
     if options.netcdf:
         run.to_netcdf(options.netcdf, start=options.start)

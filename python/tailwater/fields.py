@@ -43,7 +43,7 @@ def list_frames(run_folder, name: str = "fields") -> list:
 
 
 def read_polydata(path):
-    """As vtkPolyData. Throws DataError if VTK cannot read the file."""
+    """Reads a file as vtkPolyData. Throws DataError if VTK cannot read it."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader  # slow to import
 
     reader = vtkXMLPolyDataReader()
@@ -56,7 +56,7 @@ def read_polydata(path):
 
 
 def to_frame(time: float, data) -> Frame:
-    """The points and their fields, which borrow the memory of `data`."""
+    """A frame of the points and their fields, which shares the memory of `data`."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     arrays = data.GetPointData()
@@ -65,7 +65,7 @@ def to_frame(time: float, data) -> Frame:
 
 
 def read_frame(time: float, path) -> Frame:
-    """Throws DataError if the file is not one of a run, or if there are no particles in it."""
+    """Reads a field file. Throws DataError if the file is not one of a run, or has no particles."""
     position, fields = read_points(path)
     if len(position) == 0:
         raise DataError(f"{path}: holds no particles")

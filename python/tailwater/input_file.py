@@ -1,5 +1,5 @@
-"""The one guard of files that are read: a folder, a device or a pipe may give no end of bytes, or none at all, and a file
-may be larger than anything of its kind."""
+"""Checks of all input files: a folder, a device or a pipe may deliver endless bytes or none, and a file may be too
+large."""
 
 from pathlib import Path
 
@@ -7,12 +7,12 @@ from .errors import DataError
 
 __all__ = ["LARGEST_TABLE", "read_bytes", "read_text", "require_input_file"]
 
-LARGEST_TABLE = 1 << 31  # bytes; of a series over millions of steps
-LARGEST_TEXT = 1 << 26  # bytes; of the case of a run and its summary
+LARGEST_TABLE = 1 << 31  # bytes; limit for a series over millions of steps
+LARGEST_TEXT = 1 << 26  # bytes; limit for the case of a run and its summary
 
 
 def require_input_file(path, largest: int = LARGEST_TABLE):
-    """Throws DataError unless there is a regular file, or a link to one, of at most so many bytes."""
+    """Throws DataError unless `path` is a regular file, or a link to one, of at most `largest` bytes."""
     path = Path(path)
     try:
         size = path.stat().st_size
@@ -36,7 +36,7 @@ def read_bytes(path, largest: int = LARGEST_TEXT) -> bytes:
 
 
 def read_text(path, largest: int = LARGEST_TEXT) -> str:
-    """A text in UTF-8, without the mark that some programs begin it with. Throws DataError."""
+    """Reads a UTF-8 text without its byte order mark. Throws DataError."""
     try:
         return read_bytes(path, largest).decode("utf-8-sig")
     except UnicodeDecodeError as error:

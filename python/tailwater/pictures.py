@@ -1,8 +1,8 @@
 """Draw images of a run; in 3D also write the water surface as meshes for ParaView.
 
-Leaves DIR/pictures/picture_00000.png, ... and, in 3D, DIR/fields/surface_00000.vtp, ... with DIR/fields/surface.pvd, a mesh
-for each field file; those that are there already are not made again. Needs only the field files of the run, which may
-still go on.
+Writes DIR/pictures/picture_00000.png, ... In 3D it also writes DIR/fields/surface_00000.vtp, ..., a mesh for each field
+file, with DIR/fields/surface.pvd; current meshes are not written again. Needs only the field files of the run, which
+may still be running.
 """
 
 import sys
@@ -21,7 +21,8 @@ COUNT = 6
 
 
 def choose_frames(frames, times, count):
-    """[(number, time, path)] of those nearest to `times` (s), or of `count` at equal distances, the last one among them."""
+    """[(number, time, path)] of the frames nearest to `times` (s), or of `count` evenly spaced frames that include the
+    last."""
     numbered = [(number, time, path) for number, (time, path) in enumerate(frames)]
     if times:
         chosen = {min(numbered, key=lambda frame: abs(frame[1] - time))[0] for time in times}
@@ -31,7 +32,7 @@ def choose_frames(frames, times, count):
 
 
 def draw_plane(axes, run, frame, view, speed):
-    """Particles coloured by their speed, if there is any, and walls; returns the particles."""
+    """Draws particles coloured by their speed, if they move, and walls. Returns the drawn particles."""
     colours = {"facecolors": plots.SKY} if speed == 0 else {
         "cmap": plots.COLOURS, "clim": (0, speed), "array": np.linalg.norm(frame.fields["velocity"], axis=1)}
     dots = plots.draw_particles(axes, frame.position, run.spacing, view.exaggeration, **colours)
@@ -54,15 +55,15 @@ def draw_2d(run, chosen, folder):
 
 
 def draw_3d(run, frames, chosen, folder, look_from):
-    from . import pictures_3d  # VTK, which pictures in 2D do without
+    from . import pictures_3d  # needs VTK, which pictures in 2D do not need
 
     pictures_3d.write_surfaces(run, frames)
     pictures_3d.draw(run, chosen, folder, look_from)
 
 
 def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM):
-    """Leaves the files; returns the folder of the pictures. Throws DataError; IoError; ImportError where a run in 3D finds no
-    VTK."""
+    """Writes the files; returns the folder of the pictures. Throws DataError; IoError; ImportError for a run in 3D
+    without VTK."""
     frames = list_frames(run.path)
     if not frames:
         raise DataError(f"{run.path}: the run wrote no field files")

@@ -1,7 +1,7 @@
-"""Dossier of a study or a run: the answer with its interval, and everything that is needed to judge and to reproduce it.
+"""Dossier of a study or a run: the answer with its interval, and all data to judge and to reproduce it.
 
-`report` collects numbers and words (format of the JSON file: docs/reference/report.md), `report_page` makes the page, and
-`report_check` repeats the runs."""
+`report` collects numbers and texts (format of the JSON file: docs/reference/report.md), `report_page` makes the page,
+and `report_check` repeats the runs."""
 
 import base64
 import datetime
@@ -23,16 +23,17 @@ from .whole_file import write_whole
 __all__ = ["Report", "report"]
 
 FORMAT = 1
-LARGEST_INPUT = 8_000_000  # bytes, compressed; larger files are named by their hash only
-FILE_KEYS = ("file", "motion", "points_file")  # of all tables of a case
-RESULTS = ("steps.csv", "probes/*.csv")  # of a run; those that are compared bit for bit
+LARGEST_INPUT = 8_000_000  # bytes, compressed; larger files are recorded by their hash only
+FILE_KEYS = ("file", "motion", "points_file")  # keys that name files, in all tables of a case
+RESULTS = ("steps.csv", "probes/*.csv")  # tables of a run that are compared bit for bit
 UNITS = ("All numbers are in SI units (m, kg, s, N, Pa).",
          "In two dimensions volumes, masses, forces and discharges are per metre of width.",
          "Coordinates and levels are those of the case: heights count from the origin of its axes, upwards against gravity.")
 
 
 class Report:
-    """A dossier. `content` is what its JSON file holds; `first_line` the answer, or why it cannot be relied on."""
+    """A dossier. `content` is the content of its JSON file; `first_line` is the answer, or the reason why it is not
+    reliable."""
 
     def __init__(self, content: dict):
         self.content = content
@@ -53,7 +54,7 @@ class Report:
         return page(self.content)
 
     def write(self, file) -> Path:
-        """Writes the page, and the same as JSON beside it. Returns the path of the page."""
+        """Writes the page, and a JSON file with the same content beside it. Returns the path of the page."""
         file = Path(file)
         text = json.dumps(self.content, indent=1, ensure_ascii=False) + "\n"
         write_whole(file.with_suffix(".json"), lambda part: part.write_text(text, encoding="utf-8"))
@@ -70,9 +71,10 @@ class Report:
 
 
 def report(folder, *, answer: str = "", question: str = "", pictures: int = 3) -> Report:
-    """The dossier of the study, the unfinished study or the run in a folder. `answer` is the probe that answers the
-    question, or "PROBE, QUANTITY" (default: the first quantity of the first probe); `question` is its text; so many
-    `pictures` show the water of the finest run. Throws DataError if the folder has neither."""
+    """Makes the dossier of a study, an unfinished study or a run. `answer` is the probe that answers the question, or
+    "PROBE, QUANTITY" (default: the first quantity of the first probe); `question` is the text of the question.
+    `pictures` is the number of pictures of the water of the finest run. Throws DataError if the folder holds no run and
+    no study."""
     folder = Path(folder)
     found = Material(folder)
     row = found.row_of(answer)
@@ -102,8 +104,8 @@ def references_of(case):
 
 
 class Material:
-    """Runs and results of a folder. `roles` are (role, Run), the runs at different spacings first, the finest first; `rows`
-    are results, with intervals where there is a study."""
+    """Runs and results of a folder. `roles` are (role, Run), the runs at different spacings first, the finest first;
+    `rows` are results, with intervals if there is a study."""
 
     def __init__(self, folder):
         self.study, self.study_fault = None, ""
@@ -138,7 +140,7 @@ class Material:
             self.roles.append(("half step", self.study.step))
 
     def row_of(self, answer):
-        """The result that answers the question; None if there is none and none is asked for."""
+        """The result that answers the question; None if there is none and none was requested."""
         probe, _, quantity = (part.strip() for part in answer.partition(","))
         for row in self.rows:
             if (not probe or row["probe"] == probe) and (not quantity or row["quantity"] == quantity):
@@ -163,7 +165,7 @@ def question_of(run, row):
 
 
 def interval_of(row):
-    """The answer in words, with the interval if there is one."""
+    """The answer as text, with the interval if there is one."""
     if row is None:
         return "no result"
     unit = f" {row['unit']}" if row["unit"] else ""
@@ -177,14 +179,14 @@ def first_line(content):
     row, words = content["answer"], interval_of(content["answer"])
     name = f"{row['probe']}, {row['quantity']}: " if row else ""
     if row and not content["faults"] and f"'{row['probe']}'" in content["question"]:
-        name = ""  # the question has it
+        name = ""  # the question contains the name
     if content["faults"]:
         return f"This number cannot be relied on: {'; '.join(content['faults'])}. {name}{words}."
     return f"{content['question']} {name}{words}."
 
 
 def case_of(run):
-    """Summary, findings and drawing of the case, by the present program."""
+    """Summary, findings and drawing of the case, made with the present program."""
     found = {"title": run.case["case"]["title"], "explain": [], "findings": [], "drawing": "", "note": ""}
     try:
         case = Case(run.path / "case.effective.toml")
@@ -218,7 +220,7 @@ def digest(data: bytes) -> str:
 
 
 def named_files(case):
-    """The files that an effective case names, by the path in it; a run writes them as absolute paths."""
+    """The files that an effective case names, by their paths in the case, which a run writes as absolute paths."""
     for tables in case.values():
         for table in tables if isinstance(tables, list) else [tables]:
             paths = [table.get(key, "") for key in FILE_KEYS]
@@ -226,7 +228,8 @@ def named_files(case):
 
 
 def inputs_of(runs):
-    """Each input file once: its path, bytes, hash and, where it is not too large, content; no hash if the file is gone."""
+    """Each input file once: its path, bytes, hash and, unless it is too large, content; no hash if the file is
+    missing."""
     paths = dict.fromkeys(path for run in runs for path in named_files(run.case))
     found = []
     for path in paths:
@@ -241,7 +244,7 @@ def inputs_of(runs):
 
 
 def run_record(role, run, row):
-    """A run with its case, balances and hashes, and its value of the answer."""
+    """The record of a run: case, balances, hashes, and its value of the answer."""
     summary, case_text = run.summary, (run.path / "case.effective.toml").read_bytes()
     steps, scheme = summary.get("steps", {}), run.case["scheme"]
     outputs = {str(path.relative_to(run.path)): digest(path.read_bytes())
@@ -264,7 +267,7 @@ def program_of(summary):
 
 
 def validated(features, run, row):
-    """The validated flow most like the case, with our errors there, or a note where there is no table."""
+    """The validated flow most like the case, with Tailwater's errors for that flow, or a note if there is no table."""
     types = {probe["name"]: probe["type"] for probe in run.case.get("probe", [])}
     kind = case_features.KINDS.get(types.get(row["probe"]), "") if row else ""
     try:

@@ -27,8 +27,8 @@ def read_report(file) -> dict:
 
 
 def check_report(content, tell=print) -> bool:
-    """Whether all finished runs of a report give the same bits with the present program; `tell` gets a line for each.
-    Throws DataError if an input file is missing or has changed, or if the report has no finished run."""
+    """Whether all finished runs of a report give bit-identical tables with the present program; `tell` receives a line
+    for each run. Throws DataError if an input file is missing or has changed, or if the report has no finished run."""
     finished = [run for run in content["runs"] if run["status"] == "done"]
     if not finished:
         raise DataError("the report has no finished run; there is nothing to compare")
@@ -50,7 +50,7 @@ def check_report(content, tell=print) -> bool:
 
 
 def unpack(inputs, folder) -> dict:
-    """Writes the input files that the report holds. {path in the cases: path now}."""
+    """Writes the input files that the report holds. Returns {path in the cases: new path}."""
     places = {}
     for number, one in enumerate(inputs):
         if one["content"] is None:
@@ -70,7 +70,7 @@ def unpack(inputs, folder) -> dict:
 
 
 def differences_of(run, places, folder) -> list:
-    """The tables of a run that are not those of the report; the error, if the run fails."""
+    """The tables of a run that differ from those of the report; the error, if the run fails."""
     text = run["case"]
     if hashlib.sha256(text.encode()).hexdigest() != run["case_sha256"]:
         return ["its case, which is not the one whose hash the report has"]

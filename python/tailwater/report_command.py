@@ -27,7 +27,7 @@ def parser():
 
 
 def work(options) -> int:
-    import tailwater as tw  # not before it is known which program it is to call
+    import tailwater as tw  # imported late, when the path of the program is known
 
     if options.check:
         from .report_check import check_report, read_report

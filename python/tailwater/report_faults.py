@@ -1,4 +1,5 @@
-"""Faults that make a number unreliable: a leak, a level not held, energy that rose, an unfinished run, one spacing only."""
+"""Faults that make a number unreliable: a leak, a missed level, energy that rose, an unfinished run, a single
+spacing."""
 
 import re
 
@@ -6,9 +7,9 @@ from .study import number
 
 __all__ = ["energy_of", "faults_of", "warnings_of", "water_of"]
 
-LEAK = 1e-3  # of the water that was there or came in
+LEAK = 1e-3  # of the initial water and inflow
 MIN_SPACINGS = 3
-# Warnings of the program, by words that its messages have (a test checks that the sources still have them).
+# Warnings of the program, found by words of its messages (a test checks that the sources still contain them).
 MESSAGES = {"the energy rose": re.compile(r"energy rose"),
             "the water is too dense or too light": re.compile(r"mean density of the water"),
             "a level is not held": re.compile(r"not hold its level|level at .* not held"),
@@ -16,14 +17,14 @@ MESSAGES = {"the energy rose": re.compile(r"energy rose"),
 
 
 def water_of(summary):
-    """The water balance [m^3], and relative to the water that was there or came in."""
+    """The water balance [m^3], also relative to the initial water and inflow."""
     balance = summary.get("water_balance")
     if not balance:
         return {}
     volume = {name: balance[name]["volume_m3"] for name in ("start", "in", "inside", "outside", "out")}
     total = volume["start"] + volume["in"]
     missing = total - volume["inside"] - volume["outside"] - volume["out"]
-    # Water that is outside for a time counts as well.
+    # Water that is outside temporarily counts as well.
     particles = max(summary["particles"]["fluid"], 1)
     outside = max(volume["outside"], summary["volume"]["outside_the_walls_most"] / particles * volume["inside"])
     return volume | {"missing": missing, "missing_relative": missing / total if total else 0.0,
@@ -34,7 +35,7 @@ def water_of(summary):
 
 
 def energy_of(summary):
-    """The energy balance [J], and its largest rise relative to the energy of the start."""
+    """The energy balance [J], and its largest rise relative to the initial energy."""
     energy = summary.get("energy")
     return dict(energy) if energy else {}
 
@@ -72,8 +73,8 @@ def detail_of(kind, summary):
 
 
 def faults_of(study_fault, runs, is_study) -> list:
-    """Reasons why the number cannot be relied on, one for each kind of fault; empty if none was detected. A fault of any run
-    of a study counts, because the interval is computed from all runs."""
+    """Reasons why the number is not reliable, one for each kind of fault; empty if no fault was detected. A fault of
+    any run of a study counts, because the interval is computed from all runs."""
     faults = [study_fault] if study_fault else []
     kinds = {}
     for run in runs:

@@ -1,5 +1,5 @@
-"""The page of a dossier: one printable HTML file that loads nothing. It holds the content of the JSON file, but
-for the pictures, so that `report --check` can run it again."""
+"""The page of a dossier: one printable HTML file that loads no other files. It holds the content of the JSON file
+except the pictures, so that `report --check` can repeat the runs."""
 
 import html
 import json
@@ -24,7 +24,7 @@ figcaption { font-size: .85em; }
 
 
 def text(value) -> str:
-    """Text of a cell: numbers have five digits, a missing value is a dash."""
+    """The text of a cell: numbers have five digits, a missing value is a dash."""
     if value is None or value == "":
         return "-"
     if isinstance(value, float):
@@ -54,7 +54,7 @@ def paragraph(words) -> str:
 
 
 def body(content) -> str:
-    """The page without its head, as a notebook shows it."""
+    """The page without its head, as in a notebook."""
     kind = "answer unreliable" if content["faults"] else "answer"
     parts = [f'<p class="{kind}">{text(content["first_line"])}</p>', f"<h1>{text(content['case']['title'])}</h1>",
              paragraph(f"Question: {content['question']}"), answer(content), results(content), case(content), checks(content),
@@ -64,8 +64,8 @@ def body(content) -> str:
 
 
 def page(content) -> str:
-    """The file. Its first line of text is the answer, or why it cannot be relied on."""
-    kept = content | {"pictures": [], "case": content["case"] | {"drawing": ""}}  # the page shows them
+    """The HTML file. Its first line of text is the answer, or the reason why it is not reliable."""
+    kept = content | {"pictures": [], "case": content["case"] | {"drawing": ""}}  # the page shows these itself
     data = json.dumps(kept, ensure_ascii=False).replace("</", "<\\/")
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{text(content["case"]["title"])}: report'
             f"</title><style>{STYLE}</style></head>\n<body>\n{body(content)}\n{MARK}{data}</script>\n</body></html>\n")

@@ -10,7 +10,7 @@ __all__ = ["pictures_of"]
 
 
 def pictures_of(run, study, row, count) -> list:
-    """[{"caption", "png"}], with "note" in place of "png" where a picture cannot be drawn."""
+    """[{"caption", "png"}], with "note" instead of "png" where a picture cannot be drawn."""
     found = []
     if study and row:
         found.append(drawn(f"{row['probe']}, {row['quantity']}, by spacing, with the 95 % interval of its limit.",
@@ -37,7 +37,8 @@ def pictures_of_run(run, count):
 
 
 def convergence(study, row) -> bytes:
-    """A diagram: values over the spacing, those of other starts and of half the time step, and the limit with its interval."""
+    """A diagram of the values over the spacing, those of other starts and of half the time step, and the limit with its
+    interval."""
     import matplotlib
 
     from . import plots

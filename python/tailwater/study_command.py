@@ -43,7 +43,7 @@ def count(text):
 
 
 def change(text):
-    """(key, value): a value as in a case file, or words and expressions without quotes."""
+    """Splits KEY=VALUE: the value is as in a case file, or a text or an expression without quotes."""
     key, equals, value = text.partition("=")
     if not equals:
         raise argparse.ArgumentTypeError(f'"{text}" has no "="; write it as in particles.spacing=0.01')
@@ -79,7 +79,7 @@ def main():
     options = parser().parse_args()
     if options.program:
         os.environ["TAILWATER"] = str(options.program)
-    import tailwater as tw  # not before it is known which program it is to call
+    import tailwater as tw  # imported late, when the path of the program is known
 
     try:
         case = tw.Case(options.case)

@@ -1,9 +1,9 @@
 """The surface of the water in 3D as a mesh.
 
-Each particle spreads its volume dx^3 over a grid as a Gaussian of standard deviation dx/2. The sum c is 1 in the water and
-0 in the air, and by symmetry 1/2 on the flat surface of a lattice; the surface is where c = 1/2. With this width a lattice
-has ripples of 1 % of c, and a particle alone, whose highest c is 0.51, is just seen. The mesh is closed: it goes along walls
-too, where the water touches them, and rounds edges off by about dx/2.
+Each particle spreads its volume dx^3 over a grid as a Gaussian of standard deviation dx/2. The sum c is 1 in the water
+and 0 in the air, and by symmetry 1/2 on the flat surface of a lattice; the surface is where c = 1/2. With this width a
+lattice has ripples of 1 % of c, and a single particle, whose highest c is 0.51, is just visible. The mesh is closed: it
+also follows walls where the water touches them, and rounds edges by about dx/2.
 """
 
 import numpy as np
@@ -14,27 +14,27 @@ from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkPolyDataNormals, vtkW
 from vtkmodules.vtkFiltersPoints import vtkGaussianKernel, vtkPointInterpolator
 from vtkmodules.vtkImagingGeneral import vtkImageGaussianSmooth
 
-WIDTH = 0.5  # dx; of the Gaussian
-CELL = 0.5  # dx; of the grid
+WIDTH = 0.5  # dx; standard deviation of the Gaussian
+CELL = 0.5  # dx; cells of the grid
 MOST_NODES = 50_000_000  # of the grid, about 12 bytes each
-DROPS = 0.1  # percent of the particles at each end of each axis that may be left out
+DROPS = 0.1  # percent of the particles at each end of each axis that may be omitted
 COARSER = 1.05
 REACH = 3.0  # widths of the Gaussian, beyond which it is cut off
-SHARE = 0.5  # c on the surface
-EVENING, PASS_BAND = 20, 0.1  # steps and pass band of the low-pass filter that takes the particles' own bumps off
+SHARE = 0.5  # value of c on the surface
+EVENING, PASS_BAND = 20, 0.1  # steps and pass band of the low-pass filter that removes bumps of single particles
 NEIGHBOURS = [(i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)]
 
 
 def grid_of(low, high, cell):
-    """(origin, nodes along each axis, width of the Gaussian) of a grid of the given cell around a box, in m."""
+    """(origin, nodes along each axis, width of the Gaussian) of a grid with cells of size `cell` around a box, in m."""
     width = WIDTH / CELL * cell
     margin = REACH * width + 2 * cell
     return low - margin, np.ceil((high - low + 2 * margin) / cell).astype(int) + 1, width
 
 
 def colour_function(position, spacing, most_nodes=MOST_NODES):
-    """c on a grid around the particles, as vtkImageData. A grid that would be too large leaves out drops that are far from
-    the rest of the water; and if it still is, it is coarser."""
+    """c on a grid around the particles, as vtkImageData. A grid that would be too large omits drops that are far from
+    the other water; if it still is too large, it becomes coarser."""
     cell = CELL * spacing
     low, high = position.min(0).astype(float), position.max(0).astype(float)
     if np.prod(grid_of(low, high, cell)[1]) > most_nodes:
@@ -44,7 +44,8 @@ def colour_function(position, spacing, most_nodes=MOST_NODES):
     while np.prod(shape) > most_nodes:
         cell *= COARSER
         origin, shape, width = grid_of(low, high, cell)
-    # Quadratic splines share a particle among 27 nodes. Their variance is cell^2/4 along each axis wherever it stands.
+    # Quadratic splines distribute a particle over 27 nodes. Their variance is cell^2/4 along each axis for any
+    # position.
     place = (position - origin) / cell
     node = np.rint(place).astype(int)
     off = (place - node).astype(np.float32)
@@ -71,7 +72,7 @@ def colour_function(position, spacing, most_nodes=MOST_NODES):
 
 
 def particles_with(frame, names):
-    """The particles of a frame as vtkPolyData, with those of the named fields that there are."""
+    """The particles of a frame as vtkPolyData, with those of the named fields that exist."""
     points = vtkPoints()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(frame.position), deep=True))
     data = vtkPolyData()
@@ -85,7 +86,7 @@ def particles_with(frame, names):
 
 
 def water_surface(frame, spacing, names=("velocity", "pressure"), most_nodes=MOST_NODES):
-    """The mesh (vtkPolyData) with normals and with the named fields, as those of the particles around."""
+    """The mesh (vtkPolyData) with normals and with the named fields, averaged over the particles around."""
     contour = vtkFlyingEdges3D()
     contour.SetInputData(colour_function(frame.position, spacing, most_nodes))
     contour.SetValue(0, SHARE)

@@ -1,4 +1,4 @@
-"""VTK PolyData files as runs write them (docs/theory/io.md), read by numpy: VTK is slow to import and large to install."""
+"""Reads the VTK PolyData files of runs (docs/theory/io.md) with numpy: VTK is slow to import and large to install."""
 
 import re
 import xml.etree.ElementTree as ElementTree
@@ -14,11 +14,12 @@ __all__ = ["read_points"]
 
 TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt64": "<u8", "UInt32": "<u4"}
 START = re.compile(rb'<AppendedData\s*(?:encoding="raw")?>\s*_')
-RAW = re.compile(rb'encoding(?: CDATA |=)"raw"')  # in the tag, or before it for all
+RAW = re.compile(rb'encoding(?: CDATA |=)"raw"')  # in the tag, or before it for all arrays
 
 
 class File:
-    """An open file: its XML, and its arrays by the place that the XML gives. Throws DataError if it is another file."""
+    """An open file: its XML, and its arrays at the offsets that the XML gives. Throws DataError if it is another kind
+    of file."""
 
     def __init__(self, file):
         self._file = file
@@ -38,7 +39,7 @@ class File:
         return np.fromfile(self._file, self._head, count)
 
     def array(self, node) -> np.ndarray:
-        """That of a DataArray: (n), or (n, components)."""
+        """The array of a DataArray: (n), or (n, components)."""
         self._file.seek(self._begin + int(node.get("offset")))
         kind, components = TYPES[node.get("type")], int(node.get("NumberOfComponents", 1))
         size, = self._numbers(1)
@@ -64,7 +65,7 @@ def read_points(path) -> tuple:
                        {node.get("Name"): opened.array(node) for node in piece.iterfind("PointData/DataArray")})
                       for piece in opened.xml.iterfind("PolyData/Piece")]
         (position, fields), *others = pieces
-        if others:  # of other ranks
+        if others:  # parts of other ranks
             position = np.concatenate([position, *(piece[0] for piece in others)])
             fields = {name: np.concatenate([values, *(piece[1][name] for piece in others)])
                       for name, values in fields.items()}

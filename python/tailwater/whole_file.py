@@ -1,4 +1,4 @@
-"""The one guard of files that are written: each is written beside its place and then put there."""
+"""Writes all output files: each under a temporary name beside its path, and then renamed."""
 
 import os
 import stat
@@ -10,12 +10,12 @@ __all__ = ["write_whole", "write_whole_text"]
 
 
 def obstacle_at(path: Path) -> str:
-    """Obstacle in the place of a file, which is not replaced, as "a link"; "" if there is none. The program has the same rule
-    (src/io/write_file.h)."""
+    """The obstacle at the path of a file that must not be replaced, such as "a link"; "" if there is none. The program
+    has the same rule (src/io/write_file.h)."""
     try:
         found = os.lstat(path)
     except OSError:
-        return ""  # what cannot be looked at cannot be opened either
+        return ""  # a path that cannot be inspected cannot be opened either
     if stat.S_ISLNK(found.st_mode):
         return "a link"
     if stat.S_ISDIR(found.st_mode):
@@ -33,8 +33,8 @@ def require_replaceable(path: Path):
 
 
 def write_whole(path, write):
-    """`write(part)` writes the file under another name. A killed program leaves no half file. Throws IoError for an
-    obstacle, and where the file cannot be written."""
+    """Writes a file with `write(part)`, where `part` is a temporary name. A killed program leaves no partial file.
+    Throws IoError for an obstacle, and where the file cannot be written."""
     path = Path(path)
     part = path.with_name(path.name + ".part")
     for each in (path, part):
