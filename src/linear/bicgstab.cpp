@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// A residual so many times that of the start will not come down again.
+/// Factor of growth of the residual above which the method is considered to have failed.
 constexpr double explosion = 1e5;
 
 /// BiCGStab for the change y of the preconditioned system (D + L)^-1 A (D + U)^-1 y = (D + L)^-1 (b - A x).
@@ -31,7 +31,8 @@ class Recurrence {
     ratio_ = true_norm_ / start_;
   }
 
-  /// |b - A x|: that of the start and where the tolerance is met; in between estimated from the preconditioned one.
+  /// |b - A x|: exact at the start and where the tolerance is met; in between estimated from the preconditioned
+  /// residual.
   double residual() const { return true_norm_; }
   bool exploded() const { return !(norm_ <= explosion * start_); }
 
@@ -44,7 +45,7 @@ class Recurrence {
     double along = dot(image_of_residual_, residual_);
     double across = dot(image_of_residual_, image_of_residual_);
     ranks_.sum_each(along, across);
-    const double omega = across > 0.0 ? along / across : 0.0;  // 0 only where nothing is left
+    const double omega = across > 0.0 ? along / across : 0.0;  // 0 only where the residual is 0
     double rho = 0.0;
     double square = 0.0;
     for (std::size_t i = 0; i < y_.size(); ++i) {
@@ -60,7 +61,7 @@ class Recurrence {
     rho_ = rho;
   }
 
-  /// Finds |b - A x| of the new y: exactly where the estimate meets the goal.
+  /// Computes |b - A x| of the new y: exactly where the estimate meets the goal.
   void measure(double goal) {
     true_norm_ = ratio_ * norm_;
     if (true_norm_ > goal || norm_ == 0.0) return;
@@ -71,7 +72,7 @@ class Recurrence {
 
   bool can_turn() const { return std::isfinite(beta_) && rho_ != 0.0; }
 
-  /// The next direction.
+  /// Computes the next direction.
   void turn() {
     const double beta = beta_;
     const double omega = omega_;
@@ -92,16 +93,16 @@ class Recurrence {
   std::vector<double> first_;              ///< residual at the start
   std::vector<double> residual_;           ///< r
   std::vector<double> direction_;          ///< p
-  std::vector<double> image_;              ///< v, of p
+  std::vector<double> image_;              ///< v, image of p
   std::vector<double> image_of_residual_;  ///< t
   std::vector<double> y_;
   double rho_ = 0.0;
   double beta_ = 0.0;
   double omega_ = 0.0;
   double start_ = 0.0;      ///< norm of the preconditioned residual at the start
-  double norm_ = 0.0;       ///< and now
-  double true_norm_ = 0.0;  ///< of b - A x
-  double ratio_ = 0.0;      ///< of the two norms, when both were last known
+  double norm_ = 0.0;       ///< present norm of the preconditioned residual
+  double true_norm_ = 0.0;  ///< norm of b - A x
+  double ratio_ = 0.0;      ///< ratio of the two norms, when both were last computed
 };
 
 }  // namespace

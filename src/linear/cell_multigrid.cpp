@@ -16,17 +16,17 @@ using multigrid::Matrix;
 
 namespace {
 
-/// Rows of the level that is solved directly.
+/// Maximum number of rows of the level that is solved directly.
 constexpr std::size_t coarsest_rows = 32;
 
-/// Pivots of the coarsest level below this share of the largest are rounding: a constant is free.
+/// Pivots of the coarsest level below this fraction of the largest are rounding: a constant is free.
 constexpr double vanishing_pivot = 1e-6;
 
-/// Values of the solution below this, where the right-hand side's largest is 1, become 0. They arise far from any
+/// Values of the solution below this, where the largest of the right-hand side is 1, become 0. They arise far from any
 /// source and would soon leave the range of normal numbers, which slows processors down.
 constexpr float vanishing_value = 1e-20F;
 
-/// Levels behind the first that learn of its rows' changes without a new set-up.
+/// Levels behind the first that follow changes of its rows without a new set-up.
 constexpr std::size_t held_levels = 2;
 
 float settled(float value) { return std::abs(value) < vanishing_value ? 0.0F : value; }
@@ -40,7 +40,7 @@ void sweep_forward(Level& level) {
   }
 }
 
-/// Gauss-Seidel back, and the rows that follow from others once more, when those are known.
+/// Gauss-Seidel from last row to first, and a second pass over the rows that follow from others once those are known.
 void sweep_back(Level& level) {
   const Matrix& matrix = level.matrix;
   std::vector<float>& x = level.solution;
@@ -50,7 +50,7 @@ void sweep_back(Level& level) {
   for (std::size_t i = level.parent.size(); i < matrix.size(); ++i) relax(i);
 }
 
-/// Each row of a cell moves as the cell does.
+/// Each row of a cell gets the correction of the cell.
 void add_correction(const Level& next, Level& level) {
   const int* row = next.gathering ? next.gathering->row.data() + next.gathering->first_own : nullptr;
   for (std::size_t i = 0; i < level.parent.size(); ++i) {
@@ -91,7 +91,7 @@ void CellMultigrid::apply(std::span<const double> residual, std::span<double> co
   for (double& value : correction) value -= sum / count;
 }
 
-/// Solves level k roughly, from x = 0.
+/// Solves level k approximately, from x = 0.
 void CellMultigrid::cycle(std::size_t k) {
   if (k + 1 == levels_.size()) return solve_coarsest();
   Level& level = levels_[k];
@@ -99,12 +99,12 @@ void CellMultigrid::cycle(std::size_t k) {
   sweep_forward(level);
   sum_residual_by_cells(level, next);
   cycle(k + 1);
-  if (k + 2 < levels_.size()) cycle_again(k + 1);  // which makes it a W
+  if (k + 2 < levels_.size()) cycle_again(k + 1);  // which makes it a W cycle
   add_correction(next, level);
   sweep_back(level);
 }
 
-/// Solves level k roughly for what a cycle has left of its right-hand side, and adds that to the solution.
+/// Solves level k approximately for the residual of the previous cycle, and adds the result to the solution.
 void CellMultigrid::cycle_again(std::size_t k) {
   Level& level = levels_[k];
   const Matrix& matrix = level.matrix;
@@ -119,7 +119,8 @@ void CellMultigrid::cycle_again(std::size_t k) {
   for (std::size_t i = 0; i < matrix.size(); ++i) level.solution[i] += first[i];
 }
 
-/// The right-hand side of the next level. After a sweep forward, what is right of the diagonal is left over.
+/// The right-hand side of the next level. After a sweep forward the residual of a row is its part right of the
+/// diagonal.
 void CellMultigrid::sum_residual_by_cells(Level& level, Level& next) const {
   std::vector<float>& x = level.solution;
   level.exchange(x);
@@ -161,7 +162,7 @@ bool CellMultigrid::follow(const LinearSystem& system) {
     const auto scale = static_cast<float>(system.scale(row_[i]));
     if (scale == scale_[i] || scale_[i] == 0.0F) continue;
     const float share = scale / scale_[i];
-    float lost = 0.0F;  // of the row's weights
+    float lost = 0.0F;  // reduction of the row's weights
     for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) {
       lost += (1.0F - share) * matrix.entries[k].weight;
       matrix.entries[k].weight *= share;
@@ -173,8 +174,8 @@ bool CellMultigrid::follow(const LinearSystem& system) {
   return has_changed;
 }
 
-/// After row i of the first level has lost weights: raises the diagonals of its cells on the next levels, whose rows
-/// keep their weights, so that their sums are right.
+/// After the weights of row i of the first level have decreased: raises the diagonals of its cells on the next levels.
+/// The rows of those levels keep their weights, so the raised diagonals keep the row sums right.
 void CellMultigrid::hold_cells(std::size_t i, float lost) {
   for (std::size_t k = 0; k < held_levels && k + 1 < levels_.size(); ++k) {
     if (i >= levels_[k].parent.size() || levels_[k + 1].gathering) return;

@@ -1,12 +1,12 @@
-// A multigrid for matrices of particles: the unknowns of a background cell, two particles wide, move as one on the next
-// level, those of 2^Dim cells on the one after that, and so on down to a few, solved directly. Each matrix is the
-// Galerkin product of the one before. Corrections that are constant in a cell are too small by about the same factor
-// everywhere, for which the matrix makes up (Braess 1995). W cycles, with one Gauss-Seidel sweep from the first row to
-// the last before the correction and one back after it.
+// A multigrid for matrices of particles. The unknowns of a background cell, two particles wide, move as one on the next
+// level; those of 2^Dim cells move as one on the level after that, and so on down to a few unknowns, which are solved
+// for directly. Each matrix is the Galerkin product of the one before. Corrections that are constant in a cell are too
+// small by about the same factor everywhere, and the matrix compensates for this factor (Braess 1995). W cycles, with
+// one Gauss-Seidel sweep from the first row to the last before the correction and one back after it.
 //
 // Numbers are in single precision, which is enough for a preconditioner. Gauss-Seidel runs over each rank's own rows;
-// other ranks' unknowns are as they were exchanged last. Cells do not span ranks until few are left. Then all ranks
-// have the whole level and go on without messages. docs/theory/linear.md has the measurements.
+// unknowns of other ranks keep their values from the last exchange. Cells do not span ranks until few are left. Then
+// all ranks have the whole level and need no further messages. docs/theory/linear.md has the measurements.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,8 @@ class CellMultigrid {
   /// For a system with cells. Collective.
   explicit CellMultigrid(const LinearSystem& system);
 
-  /// Takes over what LinearSystem::divide_diagonal has changed since, and returns whether it did. Only the first level
-  /// follows, which is enough for a few rows near the surface (docs/theory/linear.md).
+  /// Adopts the changes of LinearSystem::divide_diagonal since the last call, and returns whether there are any. Only
+  /// the first level follows, which is enough for a few rows near the surface (docs/theory/linear.md).
   bool follow(const LinearSystem& system);
 
   /// correction = an approximation of A^-1 residual. Collective.
@@ -40,8 +40,8 @@ class CellMultigrid {
 
   Communicator ranks_;
   bool constant_is_free_;
-  std::vector<int> row_;      ///< of the system, for each row of the first level
-  std::vector<float> scale_;  ///< of that row
+  std::vector<int> row_;      ///< row of the system, for each row of the first level
+  std::vector<float> scale_;  ///< scale of that row
   std::vector<multigrid::Level> levels_;
   Eigen::MatrixXf coarsest_inverse_;
 };

@@ -8,7 +8,7 @@
 namespace tailwater {
 
 /// The cell of each unknown of this rank. Cells are numbered so that the 2^dimension which make up one twice as large
-/// have consecutive numbers, and its number is theirs without the last `dimension` bits.
+/// have consecutive numbers. The number of the larger cell is theirs without the last `dimension` bits.
 struct Cells {
   static constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 

@@ -1,4 +1,5 @@
-// What libraries keep from their start until the process ends, the leak checker need not report.
+// Excludes the memory that libraries keep from their start to the end of the process from the reports of the leak
+// checker.
 #pragma once
 
 #ifdef __SANITIZE_ADDRESS__
@@ -7,13 +8,13 @@
 
 namespace tailwater {
 
-/// Leaves out what is allocated as long as it lives.
+/// The leak checker ignores all memory allocated during the lifetime of this object.
 struct IgnoreLeaks {
 #ifdef __SANITIZE_ADDRESS__
   IgnoreLeaks() { __lsan_disable(); }
   ~IgnoreLeaks() { __lsan_enable(); }
 #else
-  IgnoreLeaks() {}  // NOLINT(modernize-use-equals-default): a trivial one would leave the variable unused
+  IgnoreLeaks() {}  // NOLINT(modernize-use-equals-default): a trivial constructor would leave the variable unused
 #endif
 };
 

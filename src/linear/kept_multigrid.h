@@ -1,4 +1,4 @@
-// The multigrid of the present pattern, which the solves with this pattern share.
+// The multigrid of the present pattern. All solves with this pattern use the same one.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace tailwater {
 
 class KeptMultigrid {
  public:
-  /// For a solve that begins with this relative residual. Sets up a multigrid if the pattern is new. Otherwise the one
-  /// there is follows what has changed, unless that has brought back most of the residual: then a new one pays.
-  /// Collective.
+  /// Prepares the multigrid for a solve that begins with this relative residual. Sets up a multigrid if the pattern is
+  /// new. Otherwise the existing one follows the changed diagonals, unless these have restored most of the residual:
+  /// then a new set-up pays. Collective.
   void take(const LinearSystem& system, double residual) {
     const bool is_new = !multigrid_ || pattern_number_ != system.pattern_number();
     if (system.ranks().any(is_new || (multigrid_->follow(system) && residual > most_to_follow))) {
@@ -24,8 +24,8 @@ class KeptMultigrid {
   CellMultigrid& get() { return *multigrid_; }
 
  private:
-  /// Relative residual above which a multigrid that has followed its system is set up anew. To reach 1e-4 from there it
-  /// would take three times as many iterations as a new one (docs/theory/linear.md#the-multigrid-on-cells).
+  /// Relative residual above which a multigrid that has followed its system is set up again. From there it would take
+  /// three times as many iterations to 1e-4 as a new one (docs/theory/linear.md#the-multigrid-on-cells).
   static constexpr double most_to_follow = 0.1;
 
   std::optional<CellMultigrid> multigrid_;

@@ -21,18 +21,20 @@
 namespace tailwater {
 namespace {
 
-/// Below this norm of the right-hand side the answer is zero pressure: nothing drives it, and squares soon underflow.
+/// Below this norm of the right-hand side the solution is zero pressure: there is no source, and squares soon
+/// underflow.
 constexpr double vanishing_rhs = 1e-100;
 
 /// PETSc gives up on a guess whose residual is 1e5 times the source. Below that a guess helps even if its residual is
 /// larger than that of 0: its error is rough, and rough errors are smoothed away first.
 constexpr double hopeless_guess = 1e4;
 
-/// Below this tolerance rounding may show in the residual that a method keeps, and it is computed from x.
+/// Below this tolerance the residual that a method updates may contain rounding errors, so the residual is computed
+/// from x.
 constexpr double least_sure_tolerance = 1e-7;
 
-/// How often a method may say that it has converged. Each time it is asked for half as much as before, or less, so a
-/// method that is not there after so many never will be.
+/// Maximum number of times that a method may report convergence. Each time its tolerance is halved, or reduced further.
+/// A method that has not reached the goal after so many attempts will not reach it.
 constexpr int most_attempts = 30;
 
 /// A system, its current solution, and its residual. Its functions are collective.
@@ -80,7 +82,7 @@ class Solve {
     return outcome;
   }
 
-  /// Next time the method gets a smaller tolerance, by as much as it has missed the one it had, and by half.
+  /// Reduces the tolerance of the method's next attempt by the factor by which it missed the goal, and by half.
   void ask_for_more() { asked_ *= 0.5 * tolerance_ / report_.residual; }
 
  private:
@@ -98,8 +100,8 @@ class Solve {
   const LinearSystem& system_;
   Iterate iterate_;
   double rhs_norm_;
-  double tolerance_;  ///< that the solve shall reach
-  double asked_;      ///< that the method shall
+  double tolerance_;  ///< goal of the solve
+  double asked_;      ///< goal of the method
   SolveReport report_;
 };
 
@@ -111,7 +113,7 @@ void take_out_mean(const LinearSystem& system, std::span<double> x) {
 
 /// About twelve residuals of the history, scaled so that the first is `first`.
 std::vector<double> shown_residuals(const std::vector<double>& history, double first) {
-  if (history.empty() || history[0] == 0.0) return {first};  // none is known
+  if (history.empty() || history[0] == 0.0) return {first};  // no residual is known
   std::vector<double> shown;
   const std::size_t stride = std::max<std::size_t>(1, history.size() / 12);
   for (std::size_t k = 0; k < history.size(); k += stride) shown.push_back(first * history[k] / history[0]);
@@ -155,7 +157,7 @@ bool LinearSolver::needs_cells() const {
   return choose_solver(settings_, system).preconditioner == PreconditionerName::cell_multigrid;
 }
 
-/// Our own methods serve what the rule chooses. Options go to PETSc, and so do systems with a free constant and SSOR.
+/// Our own methods serve the choices of the rule. PETSc solves if there are options, for a free constant and for SSOR.
 Method& LinearSolver::method_for(const LinearSystem& system) {
   if (!settings_.petsc_options.empty()) return methods_->petsc;
   const SolverChoice choice = choose_solver(settings_, traits_of(system, water_));
@@ -190,7 +192,7 @@ SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution
     left -= outcome.iterations;
     if (solve.is_done()) break;
     if (outcome.end == MethodOutcome::End::converged && attempt < most_attempts) {
-      solve.ask_for_more();  // PETSc measures the preconditioned residual, and rounding may show in ours
+      solve.ask_for_more();  // PETSc measures the preconditioned residual, and ours may contain rounding errors
     } else if (outcome.end == MethodOutcome::End::broke_down && solve.report().restarts == 0) {
       solve.restart();
       methods_->petsc.change_to_gmres(system);

@@ -20,8 +20,8 @@ struct SolveReport {
 
 class LinearSolver {
  public:
-  /// `water` is what is known of every system, by which `auto` chooses. Throws InputError for petsc_options that PETSc
-  /// does not know, or that would change where a solve ends.
+  /// `water` has the known properties of all systems, by which `auto` chooses. Throws InputError for petsc_options that
+  /// PETSc does not know, or that would change the criterion by which a solve ends.
   explicit LinearSolver(const PressureSolverTable& settings, const SystemTraits& water = {});
   ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
@@ -32,14 +32,14 @@ class LinearSolver {
   /// gets mean 0. Throws SolverError with the residual history when the tolerance is not reached. Collective.
   SolveReport solve(LinearSystem& system, std::span<double> solution, double tolerance);
 
-  /// Frees what belongs to the pattern of the last solve. Call when no other solve has the same: a new pattern needs
-  /// all of it anew.
+  /// Frees the data that belong to the pattern of the last solve. Call when no other solve has the same pattern,
+  /// because a new pattern needs all of them anew.
   void forget();
 
-  /// Whether it solves by the multigrid on cells, so that systems must tell theirs.
+  /// Whether it solves by the multigrid on cells, which needs the cells of each system (LinearSystem::set_cells).
   bool needs_cells() const;
 
-  /// Relative residual at which the case wants a solve to end.
+  /// Relative residual at which a solve ends, from the case.
   double tolerance() const { return settings_.tolerance; }
 
  private:
@@ -49,7 +49,7 @@ class LinearSolver {
 
   PressureSolverTable settings_;
   SystemTraits water_;
-  std::unique_ptr<Methods> methods_;  ///< with what they keep for a pattern
+  std::unique_ptr<Methods> methods_;  ///< with the data that they keep for a pattern
 };
 
 }  // namespace tailwater

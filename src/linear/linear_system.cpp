@@ -10,7 +10,7 @@
 namespace tailwater {
 namespace {
 
-/// Share of a constant right-hand side below which what is left of it is rounding, which no pressure has to answer.
+/// Fraction of a constant right-hand side below which its remainder is rounding, which needs no pressure.
 constexpr double rounding = 1e-12;
 
 }  // namespace

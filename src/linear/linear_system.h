@@ -4,8 +4,9 @@
 //
 // A row is the columns of the pattern, which may be those of the pairs themselves, and a weight for each. Its parts
 // follow each other: the unknowns of this rank before the diagonal, those behind it, and ghosts. Weights are kept in
-// single precision, because products and sweeps wait for memory, and all sums are made in double. The diagonal is told
-// with the weights as they are kept: sums of rows, and with them the symmetry of two-point weights, are exact.
+// single precision, because products and sweeps are limited by memory access; all sums are in double precision.
+// set_weights returns the sum of the weights as stored, from which the diagonal is made. Sums of rows, and with them
+// the symmetry of two-point weights, are therefore exact.
 #pragma once
 
 #include <cstddef>
@@ -28,11 +29,11 @@ class LinearSystem {
   /// A part of every row, or all of it. It borrows everything from its system.
   struct Part {
     std::span<const std::uint32_t> begin;  ///< first entry of each row's part
-    std::span<const std::uint32_t> end;    ///< one behind its last
+    std::span<const std::uint32_t> end;    ///< one behind its last entry
     const std::int32_t* column = nullptr;
     const float* weight = nullptr;
 
-    /// sum_k weight_ik x_j(i,k). Eight partial sums, so that an addition need not wait for the one before it.
+    /// sum_k weight_ik x_j(i,k). Eight partial sums, so that an addition need not wait for the previous one.
     double sum(std::size_t i, const double* x) const {
       Quad first{};
       Quad second{};
@@ -49,8 +50,8 @@ class LinearSystem {
       return (first[0] + first[1]) + (first[2] + first[3]) + rest;
     }
 
-    /// The same from the row's end to its begin, for sweeps that go back: x of the column next to the diagonal, which
-    /// was found just now, is used last, and the other products need not wait for it.
+    /// The sum from the row's end to its begin, for sweeps that go back. The x of the column next to the diagonal,
+    /// which was computed last, is used last, and the other products need not wait for it.
     double sum_back(std::size_t i, const double* x) const {
       const std::size_t first = begin[i];
       double even = 0.0;
@@ -81,29 +82,30 @@ class LinearSystem {
   LinearSystem(LinearSystem&&) = default;
   LinearSystem& operator=(LinearSystem&&) = default;
 
-  /// Sets which unknowns each row couples: columns[row_begin[i]] .. columns[row_begin[i + 1]], without the diagonal; in
-  /// each row those below i, then those above it, then ghosts of `halo`, whose unknowns are their owners'. Borrows the
-  /// columns, and takes the workspace for the weights, until these are forgotten. Collective.
+  /// Sets which unknowns each row couples: columns[row_begin[i]] .. columns[row_begin[i + 1]], without the diagonal.
+  /// Each row has the columns below i, then those above i, then ghosts of `halo`, whose unknowns belong to their
+  /// owners. Borrows the columns, and takes the workspace for the weights, until forget_weights. Collective.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                    const ExchangePlan& halo);
-  /// The same without ghosts, on one rank.
+  /// Sets a pattern without ghosts, on one rank.
   void set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns);
 
-  /// Forgets all weights. Only the right-hand sides stay, until the next pattern is set.
+  /// Discards all weights. Only the right-hand sides stay, until the next pattern is set.
   void forget_weights() {
     columns_ = {};
     weights_ = {};
   }
 
-  /// Tells in which cell each unknown is, for a multigrid. A new pattern forgets it.
+  /// Sets the cell of each unknown, for a multigrid. A new pattern discards the cells.
   void set_cells(Cells cells) { cells_ = std::move(cells); }
   const Cells& cells() const { return cells_; }
   bool has_cells() const { return cells_.dimension > 0; }
 
-  /// Writes one row in place. Touches nothing but that row.
+  /// Writes one row in place and changes no other row.
   class Row {
    public:
-    /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns the sum of those kept.
+    /// Sets every weight of the row: weight(k) for the pattern's entry k, columns[k]. Returns the sum of the stored
+    /// weights.
     template <class Weight>
     double set_weights(Weight&& weight) {
       return write_weights([&](float* weights) {
@@ -114,7 +116,8 @@ class LinearSystem {
         return sum;
       });
     }
-    /// The same at once: write(weights) writes those of all entries of the row and returns the sum of those kept.
+    /// Sets all weights at once: write(weights) writes those of all entries of the row and returns the sum of the
+    /// stored ones.
     template <class Write>
     double write_weights(Write&& write) {
       return system_.sum_[i_] = write(system_.weights_.data() + system_.row_begin_[i_]);
@@ -136,7 +139,7 @@ class LinearSystem {
   void set_rhs(std::size_t i, double rhs) { rhs_[i] = scale_[i] * rhs; }
 
   /// Divides the diagonal of a finished row by `share`, from 0 (then x_i = `from`) to 1, and keeps the other entries.
-  /// x_i - from becomes that share of what its neighbours and right-hand side would give it.
+  /// x_i - from becomes that fraction of the value that its neighbours and right-hand side would give it.
   void divide_diagonal(std::size_t i, double share, double from = 0.0);
 
   /// Declares that only differences of x are determined: no surface, no air.
@@ -145,7 +148,7 @@ class LinearSystem {
   /// For systems with a free constant: changes the right-hand side so that a solution exists. Collective.
   void make_rhs_consistent();
 
-  /// What row i makes of the other unknowns: the x_i with which it holds. `x` goes on with the ghosts' values.
+  /// The x_i that satisfies row i, given the other unknowns. `x` has the ghosts' values behind those of the rows.
   double answer(std::size_t i, const double* x) const { return rhs_[i] + scale_[i] * whole().sum(i, x); }
 
   /// y = A x. `x` gets the ghosts' values behind those of the rows. Collective.
@@ -156,9 +159,9 @@ class LinearSystem {
   std::int64_t size_of_all() const { return size_of_all_; }  ///< rows of all ranks
   const Communicator& ranks() const { return ranks_; }
 
-  /// What the weights of row i are multiplied by, so that the diagonal is 1.
+  /// The factor of the weights of row i that makes the diagonal 1.
   double scale(std::size_t i) const { return scale_[i]; }
-  /// Of the weights of row i, before they are scaled.
+  /// The sum of the weights of row i, before they are scaled.
   double sum_of_weights(std::size_t i) const { return sum_[i]; }
 
   /// For solvers: the number of the present pattern, and the rows.
@@ -191,10 +194,10 @@ class LinearSystem {
   std::span<const std::int32_t> columns_;
   std::shared_ptr<PairWorkspace> workspace_;
   std::span<float> weights_;                ///< in the workspace
-  std::vector<std::int64_t> ghost_number_;  ///< over all ranks, of each ghost's column
+  std::vector<std::int64_t> ghost_number_;  ///< number over all ranks, of each ghost's column
   std::vector<double> rhs_;
   std::vector<double> scale_;  ///< 1/diagonal of each row before scaling; 0 for x_i = 0
-  std::vector<double> sum_;    ///< of the weights of each row
+  std::vector<double> sum_;    ///< sum of the weights of each row
 };
 
 }  // namespace tailwater

@@ -1,5 +1,5 @@
-// A method that solves a LinearSystem from a first guess on: our own BiCGStab (bicgstab.h), Orthomin around our own
-// multigrid (orthomin.h), or any of PETSc's (petsc_method.h).
+// A method that solves a LinearSystem from a first guess: our own BiCGStab (bicgstab.h), Orthomin around our own
+// multigrid (orthomin.h), or any method of PETSc (petsc_method.h).
 #pragma once
 
 #include <optional>
@@ -12,31 +12,32 @@
 
 namespace tailwater {
 
-/// A solution on its way.
+/// An approximate solution that a method improves.
 struct Iterate {
   std::span<double> x;
-  std::vector<double> residual;  ///< b - A x when a method begins; what it leaves here is its own affair
+  std::vector<double> residual;  ///< b - A x when a method begins; undefined after it
 };
 
-/// Where a method ends.
+/// The criterion by which a method ends.
 struct Goal {
   double tolerance;  ///< |b - A x| / |b|
-  double residual;   ///< the same, |b - A x|
-  int iterations;    ///< at most
+  double residual;   ///< |b - A x|
+  int iterations;    ///< maximum number of iterations
 };
 
 /// How a method ended.
 struct MethodOutcome {
   enum class End {
-    converged,   ///< by the residual that the method measures
+    converged,   ///< according to the residual that the method measures
     broke_down,  ///< it cannot go on; another method may
-    unfinished,  ///< it had no more iterations, or the system is not for it
+    unfinished,  ///< the iterations are used up, or the method does not suit the system
   };
   End end = End::unfinished;
-  std::string reason;                   ///< what the method did, for the user
-  int iterations = 0;                   ///< that it took
+  std::string reason;                   ///< result of the method, for the user
+  int iterations = 0;                   ///< number of iterations used
   std::optional<double> residual = {};  ///< |b - A x|, if the method knows it
-  std::vector<double> history = {};     ///< residuals on the way, in a unit of the method; the first is the start's
+  /// residuals of the iterations, in a unit of the method; the first is that of the start
+  std::vector<double> history = {};
 
   MethodOutcome& break_down(std::string why) {
     end = End::broke_down;
@@ -49,8 +50,8 @@ class Method {
  public:
   virtual ~Method() = default;
 
-  /// Comes before each solve, also before one whose guess will do: `residual` is that of the guess, |b - A x| / |b|.
-  /// Collective.
+  /// Called before each solve, even if the guess is already good enough: `residual` is that of the guess, |b - A x| /
+  /// |b|. Collective.
   virtual void begin(const LinearSystem& system, double residual) = 0;
 
   /// Improves x up to the goal. Collective.

@@ -1,9 +1,10 @@
 // The first level leaves out small weights and raises those it keeps to the same row sum. The Laplacian's weights fall
-// off steeply, so half of them (2D) or a fifth (3D) act nearly as all do, and the rest of the cycle costs little. It is
+// off steeply, so half of them (2D) or a fifth (3D) have nearly the effect of all, and the rest of the cycle costs
+// little. The matrix of the level is an M-matrix even where the given one is not.
 // an M-matrix even where the given one is not.
 //
-// Rows that have a cell come first. Those without one follow from others, like the dummies of a wall, or have no
-// weights and stand for themselves.
+// Rows that have a cell come first. Rows without a cell follow from others, as the dummies of a wall do. Rows without
+// weights keep a row of their own.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -15,13 +16,13 @@
 namespace tailwater::multigrid {
 namespace {
 
-/// Weights below this share of their row's sum are left out.
+/// Weights below this fraction of their row's sum are left out.
 constexpr double least_share = 0.02;
 
-/// Of so many rows one is looked at to tell how many large weights there are.
+/// One row of this many is examined to estimate the number of large weights.
 constexpr int sampled = 16;
 
-/// Four partial sums, so that an addition need not wait for the one before it.
+/// Four partial sums, so that an addition need not wait for the previous one.
 double sum_of_weights(std::span<const float> weights) {
   std::array<double, 4> partial{};
   std::size_t k = 0;
@@ -38,11 +39,11 @@ std::size_t count_from(float least, std::span<const float> weights) {
   return count;
 }
 
-/// What is known of the rows before any is taken.
+/// Statistics of the rows, before any row is taken.
 struct Survey {
-  std::vector<double> total;  ///< of each row's weights, before scaling; 0 for rows x_i = 0
-  std::size_t large = 0;      ///< about how many weights will be kept
-  std::size_t longest = 0;    ///< row
+  std::vector<double> total;  ///< sum of each row's weights, before scaling; 0 for rows x_i = 0
+  std::size_t large = 0;      ///< estimated number of weights that will be kept
+  std::size_t longest = 0;    ///< length of the longest row
 };
 
 Survey survey(const LinearSystem& system) {
@@ -65,7 +66,7 @@ class LargeWeights {
  public:
   explicit LargeWeights(std::size_t longest) : columns_(longest + batch_size), weights_(longest + batch_size) {}
 
-  /// Finds those of row i of which the sum is `total`. Returns their number.
+  /// Selects the large weights of row i, whose weights have the sum `total`. Returns their number.
   std::size_t find(const LinearSystem::Part& part, std::size_t i, double total) {
     keep_from(static_cast<float>(least_share * total), part, i);
     if (count_ == 0) keep_from(std::numeric_limits<float>::min(), part, i);  // many weights, all of them small
@@ -86,7 +87,7 @@ class LargeWeights {
       count = write_chosen(part.weight + k, large_ones, weights_.data() + count) - weights_.data();
     }
     for (; k < part.end[i]; ++k) {
-      columns_[count] = part.column[k];  // the next one's place, unless it is kept
+      columns_[count] = part.column[k];  // the place of the next weight, unless this one is kept
       weights_[count] = part.weight[k];
       count += part.weight[k] >= least ? 1 : 0;
     }
@@ -114,7 +115,7 @@ std::vector<int> order_rows(std::span<const std::uint64_t> cell, std::span<const
 }
 
 /// Takes the rows in the level's order. Columns of other ranks get their numbers over all ranks, counted from behind
-/// the rows; these numbers are returned. Images are their owners.
+/// the rows; these numbers are returned. Images are replaced by their owners.
 std::vector<int> take_rows(const LinearSystem& system, const Survey& survey, std::span<const int> place,
                            FirstLevel& first) {
   const auto rows = static_cast<int>(system.size());
@@ -145,8 +146,8 @@ std::vector<int> take_rows(const LinearSystem& system, const Survey& survey, std
   return needed;
 }
 
-/// Tells the other ranks which of their rows are needed: `needed`, numbers over all ranks, ascending. These are the
-/// ghosts.
+/// Informs the other ranks which of their rows are needed: `needed`, numbers over all ranks, ascending. These rows are
+/// the ghosts.
 Couplings couple(const LinearSystem& system, std::span<const int> needed, std::span<const int> place) {
   const Communicator& ranks = system.ranks();
   const std::int64_t first = ranks.sum_before(static_cast<std::int64_t>(system.size()));
@@ -175,7 +176,7 @@ Couplings couple(const LinearSystem& system, std::span<const int> needed, std::s
   return couplings;
 }
 
-/// Turns the numbers of other ranks' columns into ghosts.
+/// Replaces the numbers of other ranks' columns by those of ghosts.
 void number_ghosts(Matrix& matrix, std::span<const int> needed) {
   const auto rows = static_cast<int>(matrix.size());
   for (Entry& entry : matrix.entries) {

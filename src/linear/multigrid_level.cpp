@@ -7,7 +7,7 @@ void Matrix::reserve(std::size_t rows, std::size_t entries_of_all) {
   middle.reserve(rows);
   diagonal.reserve(rows);
   inverse.reserve(rows);
-  entries.reserve(entries_of_all + 1);  // which adding a row writes to
+  entries.reserve(entries_of_all + 1);  // adding a row writes to one entry more
 }
 
 void Matrix::add_row(std::span<const Entry> row, double diagonal_of_row) {
@@ -15,8 +15,8 @@ void Matrix::add_row(std::span<const Entry> row, double diagonal_of_row) {
   const std::size_t first = entries.size();
   entries.resize(first + row.size() + 1);
   Entry* next = entries.data() + first;
-  // Each entry is written where the next one of its side belongs, and stays if it is of that side: without a branch,
-  // which nobody can predict.
+  // Each entry is written to the next place of its side, and stays there if it belongs to that side. This avoids a
+  // branch that the processor cannot predict.
   for (const Entry& entry : row) {
     *next = entry;
     next += entry.column < i ? 1 : 0;

@@ -1,5 +1,5 @@
-// A level of the multigrid on cells (cell_multigrid.h): its matrix, what ranks exchange of it, and which of its rows
-// move as one on the next level.
+// A level of the multigrid on cells (cell_multigrid.h): its matrix, its exchange between ranks, and the map of its rows
+// to those of the next level.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ struct Entry {
 };
 
 /// diagonal_i x_i = b_i + sum_k weight_k x_column_k. In each row the columns left of the diagonal stand before
-/// `middle`. Behind it stand the others, and those of ghosts, which are numbered behind the rows.
+/// `middle`, and the others behind it, including those of ghosts, which are numbered behind the rows.
 struct Matrix {
   std::vector<int> begin{0};
   std::vector<int> middle;
   std::vector<Entry> entries;
   std::vector<float> diagonal;
-  std::vector<float> inverse;  ///< of the diagonal; 0 where that is 0
+  std::vector<float> inverse;  ///< 1/diagonal; 0 where the diagonal is 0
 
   std::size_t size() const { return diagonal.size(); }
   std::span<const Entry> row(std::size_t i) const { return {entries.data() + begin[i], entries.data() + begin[i + 1]}; }
@@ -37,7 +37,7 @@ struct Matrix {
   float sum_all(std::size_t i, const std::vector<float>& x) const { return sum(begin[i], begin[i + 1], x); }
 
  private:
-  /// Two sums side by side do not wait for each other.
+  /// Two partial sums, so that an addition need not wait for the previous one.
   float sum(int first, int end, const std::vector<float>& x) const {
     float even = 0.0F;
     float odd = 0.0F;
@@ -52,28 +52,29 @@ struct Matrix {
   }
 };
 
-/// What goes to other ranks and comes from them, by rank. A level that all ranks have has none.
+/// Entries that are sent to and received from other ranks, by rank. Empty for a level that all ranks have.
 struct Couplings {
   std::vector<std::vector<std::int32_t>> sent;  ///< rows
   std::vector<std::int64_t> received;           ///< number of ghosts
   ExchangePlan plan;
 };
 
-/// How all ranks get a level from the parts of each.
+/// How all ranks assemble a level from the parts of each.
 struct Gathering {
   std::vector<int> counts;    ///< rows of each rank's part
-  std::size_t first_own = 0;  ///< this rank's in the parts of all
-  std::vector<int> row;       ///< of each entry of the parts of all
+  std::size_t first_own = 0;  ///< this rank's first row in the parts of all
+  std::vector<int> row;       ///< row of each entry of the parts of all
 };
 
 struct Level {
   Matrix matrix;
   Couplings couplings;
   std::optional<Gathering> gathering;
-  bool is_whole = false;            ///< this rank has all rows
-  std::vector<std::uint64_t> cell;  ///< on the next level, of the rows that have one; forgotten once that is made
-  std::vector<int> parent;          ///< rows of the next level, of the rows that have a cell: these come first
-  std::size_t cells = 0;            ///< this rank's rows of the next level
+  bool is_whole = false;  ///< this rank has all rows
+  /// cell on the next level, of the rows that have one; discarded once the next level is made
+  std::vector<std::uint64_t> cell;
+  std::vector<int> parent;  ///< rows of the next level, of the rows that have a cell: these come first
+  std::size_t cells = 0;    ///< this rank's rows of the next level
   std::vector<float> rhs;
   std::vector<float> solution;
 
@@ -84,11 +85,11 @@ struct Level {
   }
 };
 
-/// The first level, of the rows of a system (multigrid_first_level.cpp).
+/// The first level, made from the rows of a system (multigrid_first_level.cpp).
 struct FirstLevel {
   Level level;
-  std::vector<int> row;      ///< of the system, for each row of the level
-  std::vector<float> scale;  ///< of that row
+  std::vector<int> row;      ///< row of the system, for each row of the level
+  std::vector<float> scale;  ///< scale of that row
 };
 /// Collective.
 FirstLevel first_level(const LinearSystem& system);
@@ -97,7 +98,7 @@ FirstLevel first_level(const LinearSystem& system);
 /// levels are divided by it.
 inline constexpr double over_correction = 1.8;
 
-/// The level behind `fine`, which learns which of its rows are whose there (multigrid_next_level.cpp). Collective.
+/// The level behind `fine`; also sets the parent of each row of `fine` (multigrid_next_level.cpp). Collective.
 Level next_level(Level& fine, int dimension, const Communicator& ranks);
 
 }  // namespace tailwater::multigrid

@@ -1,8 +1,8 @@
 // The next level has a row for each cell. With P the map from cells to rows, its matrix is P^T A P (Galerkin), divided
 // by over_correction.
 //
-// Rows without a cell follow from others, like the dummies of a wall: corrections reach them through their weights, as
-// if they were eliminated. Rows without weights stand for themselves.
+// Rows without a cell follow from others, as the dummies of a wall do. Corrections reach them through their weights, as
+// if they were eliminated. Rows without weights keep a row of their own.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -17,7 +17,7 @@ namespace {
 /// Levels with fewer rows than this are gathered on all ranks, which costs less than the messages of all coarser ones.
 constexpr std::int64_t gathered_rows = 1024;
 
-/// Parents of rows without a cell.
+/// Special values of the parent, for rows without a cell.
 constexpr int stands_for_itself = -1;
 constexpr int follows = -2;
 
@@ -28,12 +28,12 @@ class RowSum {
 
   void add(int column, double value) {
     sum_[column] += value;
-    columns_[count_] = column;  // the next one's place, unless it is new: a branch could not be predicted
+    columns_[count_] = column;  // the place of the next column, unless this one is new: a branch could not be predicted
     count_ += is_there_[column] == 0 ? 1 : 0;
     is_there_[column] = 1;
   }
 
-  /// Calls body(column, sum) for each column, in the order in which they came, and begins a new row.
+  /// Calls body(column, sum) for each column, in the order of their first appearance, and begins a new row.
   template <class Body>
   void finish(Body&& body) {
     for (std::size_t k = 0; k < count_; ++k) {
@@ -52,8 +52,7 @@ class RowSum {
   std::size_t count_ = 0;
 };
 
-/// The rows cell by cell. Sorts by some bits at a time, the lowest first, and passes over bits in
-/// which all cells agree.
+/// The rows cell by cell. Sorts by some bits at a time, the lowest first, and skips bits in which all cells agree.
 std::vector<int> rows_by_cell(std::span<const std::uint64_t> cell) {
   constexpr int bits = 8;
   constexpr std::uint64_t mask = (1U << bits) - 1;
@@ -74,10 +73,10 @@ std::vector<int> rows_by_cell(std::span<const std::uint64_t> cell) {
   return rows;
 }
 
-/// What of a correction by cells reaches the rows that follow from others.
+/// The effect of a correction by cells on the rows that follow from others.
 class Followers {
  public:
-  /// `parent` is of each row and ghost, and the rows from `first` on have no cell. `sum` has the columns of the next
+  /// `parent` is that of each row and ghost; the rows from `first` on have no cell. `sum` has the columns of the next
   /// level.
   Followers(const Matrix& matrix, std::size_t first, std::span<const int> parent, RowSum& sum) : first_(first) {
     for (std::size_t i = first; i < matrix.size(); ++i) {
@@ -89,7 +88,7 @@ class Followers {
     }
   }
 
-  /// The cells that row i follows, and their shares.
+  /// The cells that row i follows, and their fractions.
   std::span<const Entry> of(std::size_t i) const {
     return {shares_.data() + begin_[i - first_], shares_.data() + begin_[i - first_ + 1]};
   }
@@ -100,8 +99,8 @@ class Followers {
   std::vector<Entry> shares_;
 };
 
-/// Divides the rows of `fine`, of which `rows` are those with a cell, cell by cell, among the rows of `next`. Returns
-/// the row of `next` of each row, or that it has none.
+/// Assigns the rows of `fine`, cell by cell, to the rows of `next`; `rows` are those with a cell. Returns the row of
+/// `next` for each row, or a special value.
 std::vector<int> find_parents(Level& fine, Level& next, std::span<const int> rows, int dimension) {
   std::vector<int> parent(fine.matrix.size());
   for (std::size_t i = rows.size(); i < parent.size(); ++i) {
@@ -117,8 +116,9 @@ std::vector<int> find_parents(Level& fine, Level& next, std::span<const int> row
   return parent;
 }
 
-/// Adds to `parent` that of each ghost of `fine`: a column of the next level, or that it has none. Ranks agree on the
-/// next level's ghosts without asking: they are the cells of this level's, each when it comes up first.
+/// Appends to `parent` the parent of each ghost of `fine`: a column of the next level, or a special value. Ranks agree
+/// on the next level's ghosts without messages: they are the cells of this level's ghosts, in the order of first
+/// appearance.
 void find_parents_of_ghosts(const Level& fine, Level& next, std::vector<int>& parent, const Communicator& ranks) {
   fine.exchange(parent);
   for (const std::vector<std::int32_t>& sent : fine.couplings.sent) {
@@ -146,7 +146,7 @@ void find_parents_of_ghosts(const Level& fine, Level& next, std::vector<int>& pa
   next.couplings.plan = ExchangePlan(ranks, next.cell.size(), next.couplings.sent);
 }
 
-/// P^T A P / over_correction, where `rows` are those of `matrix` that have a cell, cell by cell.
+/// P^T A P / over_correction, where `rows` are the rows of `matrix` that have a cell, cell by cell.
 Matrix coarse_matrix(const Matrix& matrix, std::span<const int> rows, std::span<const int> parent, std::size_t cells,
                      std::size_t columns) {
   RowSum sum(columns);
@@ -157,13 +157,13 @@ Matrix coarse_matrix(const Matrix& matrix, std::span<const int> rows, std::span<
     if (column != follows) return;
     const auto i = static_cast<std::size_t>(entry.column);
     if (i >= matrix.size()) {
-      sum.add(cell, -entry.weight);  // another rank's: as if it followed this cell alone
+      sum.add(cell, -entry.weight);  // row of another rank: treated as if it followed this cell alone
       return;
     }
     for (const Entry& share : followers.of(i)) sum.add(share.column, -entry.weight * share.weight);
   };
   Matrix coarse;
-  coarse.reserve(cells, matrix.entries.size() / 3);  // for more than there are; what is left over takes no memory
+  coarse.reserve(cells, matrix.entries.size() / 3);  // more than needed; the unused part takes no memory
   std::vector<Entry> row;
   auto next_row = rows.begin();
   for (int cell = 0; cell < static_cast<int>(cells); ++cell) {
@@ -185,7 +185,7 @@ Matrix coarse_matrix(const Matrix& matrix, std::span<const int> rows, std::span<
   return coarse;
 }
 
-/// Turns the part of a level that a rank has into the whole.
+/// Replaces the part of a level that a rank has by the whole level.
 void gather(Level& level, const Communicator& ranks) {
   struct NumberedEntry {
     int row;

@@ -8,23 +8,23 @@
 namespace tailwater {
 namespace {
 
-/// So many iterations must halve the residual. A cycle of multigrid takes most of it, so less means that the
-/// directions that are kept do not do for this system.
+/// Iterations within which the residual must halve. A cycle of multigrid removes most of the residual, so slower
+/// progress means that the stored directions do not suit this system.
 constexpr int patience = 10;
 
-/// Directions that are kept. With two, systems whose first directions make the residual hardly smaller get stuck.
+/// Number of stored directions. With two, systems whose first directions hardly reduce the residual stagnate.
 constexpr std::size_t most_kept = 5;
 
 struct Direction {
-  std::vector<double> step;   ///< with ghosts behind it
+  std::vector<double> step;   ///< ghosts stand behind the rows
   std::vector<double> image;  ///< A step
-  double square = 0.0;        ///< of the image's norm
+  double square = 0.0;        ///< square of the image's norm
 };
 
-/// Those that are kept, in no order.
+/// The stored directions, in no order.
 using Directions = std::vector<Direction>;
 
-/// Takes from the direction what it has of those that are kept, so that its image is orthogonal to theirs.
+/// Subtracts from the direction its parts along the stored ones, so that its image is orthogonal to theirs.
 void make_orthogonal(Direction& direction, const Directions& kept, const Communicator& ranks) {
   std::vector<double> shares;
   for (const Direction& other : kept) shares.push_back(dot(direction.image, other.image));
@@ -39,7 +39,7 @@ void make_orthogonal(Direction& direction, const Directions& kept, const Communi
   }
 }
 
-/// How far to go along the direction, which gets its square.
+/// The step length along the direction. Also sets the square of the direction.
 double best_length(Direction& direction, std::span<const double> residual, const Communicator& ranks) {
   double square = 0.0;
   double along = 0.0;
@@ -52,7 +52,7 @@ double best_length(Direction& direction, std::span<const double> residual, const
   return along / square;
 }
 
-/// Goes along the direction. Returns the norm of the new residual.
+/// Moves x along the direction. Returns the norm of the new residual.
 double go(const Direction& direction, double length, Iterate& iterate, const Communicator& ranks) {
   double left = 0.0;
   for (std::size_t i = 0; i < iterate.x.size(); ++i) {

@@ -18,7 +18,7 @@ namespace {
 void* library = nullptr;
 bool is_running = false;
 
-/// Where it was when this program was built, or where the system has libraries of that name.
+/// Loads the library from its place when this program was built, or from where the system has libraries of that name.
 void* load() {
   const std::string path = TAILWATER_PETSC;
   for (const std::string& file : {path, path.substr(path.rfind('/') + 1)}) {
@@ -27,7 +27,7 @@ void* load() {
   throw SolverError("PETSc cannot be loaded: {}; remedy: install it, or build this program again", dlerror());
 }
 
-/// What PETSc says where an error arises; its functions pass on only the code.
+/// PETSc's message at the place of an error; its functions return only the code.
 std::string& last_reason() {
   static std::string reason;
   return reason;
@@ -52,7 +52,7 @@ void need_petsc() {
   const SuspendFpTraps suspended;
   const IgnoreLeaks ignored;
   if (library == nullptr) library = load();
-  // Signals stay ours: Ctrl-C must end a run in order.
+  // PETSc must not handle signals: Ctrl-C must end a run in order.
   check_petsc(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
   check_petsc(PetscInitializeNoArguments());
   is_running = true;

@@ -1,5 +1,5 @@
-// PETSc as the rest of this room sees it: loaded when the first system needs it, and handles as move-only values whose
-// error codes become exceptions. Only this room includes PETSc.
+// The interface of PETSc for this module: PETSc is loaded when the first system needs it, handles are move-only values,
+// and error codes become exceptions. Only this module includes PETSc.
 #pragma once
 
 #include <petscksp.h>
@@ -9,20 +9,21 @@
 
 namespace tailwater {
 
-/// Loads PETSc and starts it, if that has not been done. It brings a hundred libraries, whose loading takes three times
-/// as long as all else at the start of this program, and what most runs solve needs none. MPI must run. Collective.
+/// Loads and starts PETSc, if that has not been done. PETSc brings a hundred libraries, whose loading takes three times
+/// as long as the rest of the start of this program, and most runs solve no system that needs it. MPI must run.
+/// Collective.
 void need_petsc();
 
-/// Ends it where it was started.
+/// Ends PETSc where this program started it.
 void end_petsc();
 
-/// Of the library: "PETSc 3.18.5"; empty if none is loaded.
+/// The version of the library: "PETSc 3.18.5"; empty if none is loaded.
 std::string petsc_version();
 
-/// The address of a function of PETSc's, which must be loaded.
+/// The address of a function of PETSc, which must be loaded.
 void* petsc_address(const char* name);
 
-/// A function of PETSc's by its name, which calls it once PETSc is loaded.
+/// A function of PETSc by its name. A call is valid once PETSc is loaded.
 template <class Function>
 class PetscFunction;
 
@@ -41,8 +42,8 @@ class PetscFunction<PetscErrorCode(Arguments...)> {
   mutable PetscErrorCode (*function_)(Arguments...) = nullptr;
 };
 
-// In this namespace they hide PETSc's own, with which the program would have to be linked. What is not here is not
-// found by the linker.
+// In this namespace these names hide PETSc's own functions, with which the program would have to be linked. The linker
+// does not find a function that is missing in this list.
 #define TAILWATER_LOADED(function) inline const PetscFunction<decltype(::function)> function(#function)
 TAILWATER_LOADED(KSPCreate);
 TAILWATER_LOADED(KSPDestroy);
@@ -106,7 +107,7 @@ TAILWATER_LOADED(VecRestoreArrayRead);
 TAILWATER_LOADED(VecRestoreArrayWrite);
 #undef TAILWATER_LOADED
 
-/// Throws SolverError with PETSc's own message when `code` says that a call failed.
+/// Throws SolverError with PETSc's own message when `code` reports a failed call.
 void check_petsc(PetscErrorCode code);
 
 /// Owns a PETSc object and destroys it. `destroy` is the PETSc function for its type.

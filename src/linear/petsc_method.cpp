@@ -5,7 +5,7 @@
 namespace tailwater {
 namespace {
 
-/// Whether the method divided by a number that happened to vanish, or lost its way. Slow convergence is no breakdown.
+/// Whether the method divided by a number that happened to vanish, or diverged. Slow convergence is no breakdown.
 bool is_breakdown(KSPConvergedReason reason) {
   return reason == KSP_DIVERGED_BREAKDOWN || reason == KSP_DIVERGED_BREAKDOWN_BICG || reason == KSP_DIVERGED_DTOL ||
          reason == KSP_DIVERGED_NANORINF;
@@ -16,7 +16,7 @@ MethodOutcome::End end_of(KSPConvergedReason reason) {
   return is_breakdown(reason) ? MethodOutcome::End::broke_down : MethodOutcome::End::unfinished;
 }
 
-/// The entries of two of PETSc's vectors, as long as it lives.
+/// Access to the entries of two PETSc vectors during the lifetime of this object.
 class VectorAccess {
  public:
   VectorAccess(Vec from, Vec to) : from_(from), to_(to) {
@@ -42,7 +42,7 @@ class VectorAccess {
   PetscScalar* written_ = nullptr;
 };
 
-/// y = A x, for PETSc. An exception here has no way out through PETSc and ends the program.
+/// y = A x, for PETSc. An exception here cannot pass through PETSc and ends the program.
 PetscErrorCode apply_system(Mat shell, Vec x, Vec y) noexcept {
   const LinearSystem* system = nullptr;
   check_petsc(MatShellGetContext(shell, &system));
@@ -52,7 +52,7 @@ PetscErrorCode apply_system(Mat shell, Vec x, Vec y) noexcept {
   return 0;
 }
 
-/// correction = multigrid(residual), the same.
+/// correction = multigrid(residual), for PETSc. An exception ends the program.
 PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) noexcept {
   CellMultigrid* multigrid = nullptr;
   check_petsc(PCShellGetContext(preconditioner, &multigrid));
@@ -61,7 +61,7 @@ PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) 
   return 0;
 }
 
-/// Makes a PETSc vector that shares `values`.
+/// Makes a PETSc vector of which `values` are the entries, without a copy.
 void wrap(const Communicator& ranks, std::span<const double> values, PetscVector& vector) {
   const auto rows = static_cast<PetscInt>(values.size());
   check_petsc(ranks.is_alone()
@@ -69,7 +69,7 @@ void wrap(const Communicator& ranks, std::span<const double> values, PetscVector
                   : VecCreateMPIWithArray(ranks.handle(), 1, rows, PETSC_DETERMINE, values.data(), vector.create()));
 }
 
-/// How the solver ended.
+/// The outcome of the solver.
 MethodOutcome outcome_of(KSP solver) {
   KSPType type = nullptr;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -105,8 +105,8 @@ void PetscMethod::change_to_gmres(const LinearSystem& system) {
   solver_size_.reset();
 }
 
-/// Prepares the solver for this solve. It is made anew for a new pattern: multigrid would carry bounds of the spectrum
-/// over from the old one, and a run that goes on from a checkpoint has no old one.
+/// Prepares the solver for this solve. A new pattern gets a new solver: multigrid would reuse the bounds of the
+/// spectrum of the old pattern, and a run that resumes from a checkpoint has no old pattern.
 void PetscMethod::set_up(const LinearSystem& system) {
   need_petsc();
   const bool pattern_is_new = take_matrix(system);
@@ -140,7 +140,7 @@ bool PetscMethod::take_matrix(const LinearSystem& system) {
   return true;
 }
 
-/// Whether the preconditioner needs no more than products with the system.
+/// Whether the preconditioner needs only products with the system.
 bool PetscMethod::works_on_shell() const {
   PC preconditioner = nullptr;
   check_petsc(KSPGetPC(solver_.get(), &preconditioner));

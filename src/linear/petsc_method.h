@@ -1,4 +1,4 @@
-// The methods and preconditioners of PETSc. They see a shell around the system, whose arrays PETSc's vectors share;
+// The methods and preconditioners of PETSc. They work on a shell around the system, whose arrays PETSc's vectors share;
 // preconditioners that need more get a copy of its rows.
 #pragma once
 
@@ -18,13 +18,14 @@ class PetscMethod : public Method {
   PetscMethod(const PressureSolverTable& settings, const SystemTraits& water, KeptMultigrid& multigrid)
       : settings_(settings), water_(water), multigrid_(multigrid) {}
 
-  /// Does nothing yet: a guess that will do needs no PETSc.
+  /// Does nothing yet: a guess that is already good enough needs no PETSc.
   void begin(const LinearSystem&, double) override { is_set_up_ = false; }
 
-  /// Ends where the preconditioned residual, which is what PETSc measures, is the tolerance of the preconditioned b.
+  /// Ends where the preconditioned residual, which PETSc measures, reaches the tolerance times the preconditioned b.
   MethodOutcome improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) override;
 
-  /// The rest of this solve, also of one that another method began, is by GMRES; the next is by the settings again.
+  /// The rest of this solve, also of a solve that another method began, uses GMRES; the next solve uses the settings
+  /// again.
   void change_to_gmres(const LinearSystem& system);
 
  private:
@@ -43,7 +44,7 @@ class PetscMethod : public Method {
   PetscKrylovSolver solver_;
   PetscNullSpace constants_;
   bool is_set_up_ = false;                  ///< for this solve
-  std::uint64_t pattern_number_ = 0;        ///< of the matrix
+  std::uint64_t pattern_number_ = 0;        ///< pattern of the matrix
   std::optional<std::size_t> solver_size_;  ///< rows of this rank; none after a restart with another method
 };
 

@@ -26,8 +26,8 @@ constexpr double no_absolute_tolerance = 0.0;
 
 constexpr int longest_history = 2000;
 
-/// Iterations after which FGMRES starts again: it keeps two vectors of each. PETSc's default of 30 is needed by cold
-/// solves only, which then take a few iterations more (docs/notebook/2026-11-24-speed.md).
+/// Iterations after which FGMRES restarts: it stores two vectors of each iteration. Only cold solves need PETSc's
+/// default of 30; with 20 they take a few iterations more (docs/notebook/2026-11-24-speed.md).
 constexpr int most_directions = 20;
 
 KSPType krylov_type(KrylovMethod method) {
@@ -103,14 +103,14 @@ std::vector<std::string> unused_options(const PressureSolverTable& settings) {
   return unused;
 }
 
-/// Options of PETSc may open any file or run a program. Those that do have one of these words in their names, or give
+/// Options of PETSc may open any file or run a program. Such options have one of these words in their names, or give
 /// the file behind a colon. PETSc reads upper case as lower case.
 constexpr std::array harmful{"view",          "monitor", "print", "file",   "draw",  "plot",
                              "save",          "load",    "dump",  "python", "shell", "converged_reason",
                              "converged_rate"};
 
-/// Options that say where a solve ends. With an absolute tolerance or a test of their own, PETSc's methods would call
-/// any residual converged.
+/// Options that set the criterion by which a solve ends. With an absolute tolerance or a test of their own, PETSc's
+/// methods would report any residual as converged.
 constexpr std::array ends{"_ksp_rtol", "_ksp_atol", "_ksp_max_it", "_ksp_convergence_test", "_ksp_converged"};
 
 /// The user's options, word by word, in lower case.

@@ -1,4 +1,4 @@
-// The rows of a LinearSystem as a matrix of PETSc's own, for those of its preconditioners that need one.
+// The rows of a LinearSystem as a PETSc matrix, for the preconditioners of PETSc that need one.
 #pragma once
 
 #include <vector>

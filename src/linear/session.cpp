@@ -14,18 +14,18 @@
 #include "parallel/process_limits.h"
 
 #ifdef __SANITIZE_ADDRESS__
-/// MPI's plugins stay loaded: the leak checker could not name one that is gone, and leaves out what it allocates by its
-/// name (tests/support/leaks.supp).
+/// Keeps MPI's plugins loaded. The leak checker identifies the memory to ignore by the name of the plugin
+/// (tests/support/leaks.supp), which it cannot determine after the plugin is unloaded.
 extern "C" int dlclose(void*) { return 0; }
 #endif
 
 namespace tailwater {
 namespace {
 
-/// Alone, Open MPI would start a daemon for processes that this one might spawn, and make folders in one that all its
-/// programs share and remove when they end: of two, one may lose its folder while it makes it, and then does not start.
-/// And it would ask for networks that need a quarter of a second to say that they are not there. A process alone needs
-/// none of this. Processes that it starts itself get no word of it.
+/// Without this, Open MPI would start a daemon for processes that this one might spawn. It would make folders in one
+/// that all its programs use and remove when they end; of two programs, one may lose its folder while making it, and
+/// then does not start. It would also query networks that take a quarter of a second to report that they are absent. A
+/// single process needs none of this. Processes that it starts itself do not inherit the settings.
 class StartAlone {
  public:
   StartAlone() {
@@ -56,8 +56,9 @@ LinearSession::LinearSession() {
   require_room_for_mpi();
   const SuspendFpTraps suspended;
   const IgnoreLeaks ignored;
-  // Open MPI's hwloc looks for graphics cards by asking every X server of this machine, also where DISPLAY is not set.
-  // If one ends just then, as those of pictures do, Xlib ends the whole program. By OpenCL it loads a compiler.
+  // Open MPI's hwloc searches for graphics cards by querying every X server of this machine, even if DISPLAY is not
+  // set. If an X server ends during the query, as those of pictures do, Xlib ends the whole program. OpenCL loads a
+  // compiler.
   setenv("HWLOC_COMPONENTS", "-gl,-opencl", 0);
   const StartAlone alone;
   int is_running = 0;  // Python may have started it
@@ -83,7 +84,7 @@ std::string linear_library_version() {
   MPI_Get_library_version(mpi, &length);
   const std::string_view name(mpi, static_cast<std::size_t>(length));
   const std::string petsc = petsc_version();
-  // The rest tells how MPI was built.
+  // The rest of the name describes how MPI was built.
   return fmt::format("{}{}{}", petsc, petsc.empty() ? "" : ", ", name.substr(0, name.find_first_of(",\n")));
 }
 

@@ -3,10 +3,10 @@
 namespace tailwater {
 namespace {
 
-/// Rows of particles. The iterations of SSOR grow with the way to the surface, where p = 0; the cost of both per
-/// unknown does not depend on their number. In 2D the set-up of the multigrid pays from 40 rows on for two solves (39
-/// with what jitter may take), and from 25 for three; in 3D, where a cycle costs less than a product, from some 12
-/// (docs/theory/linear.md#the-choice-of-method).
+/// Rows of particles from which the multigrid is faster. The iterations of SSOR grow with the distance to the surface,
+/// where p = 0; the cost of both per unknown does not depend on their number. In 2D the set-up of the multigrid pays
+/// from 40 rows on for two solves (39, less the effect of jitter), and from 25 for three. In 3D, where a cycle costs
+/// less than a product, it pays from some 12 (docs/theory/linear.md#the-choice-of-method).
 double multigrid_pays_from(const SystemTraits& system) {
   if (system.dimension == 3) return 12.0;
   return system.solves > 2 ? 25.0 : 39.0;
@@ -17,9 +17,9 @@ PreconditionerName fastest_preconditioner(const SystemTraits& system) {
   return system.has_cells ? PreconditionerName::cell_multigrid : PreconditionerName::boomeramg;
 }
 
-/// A good preconditioner needs few iterations, and GMRES the fewest; many are cheaper with BiCGStab, which does not
-/// orthogonalise. FGMRES allows for the single precision of the multigrid on cells; so does our own Orthomin, which
-/// takes its place where neither the case nor petsc_options name a method (linear_solver.cpp).
+/// With a good preconditioner, which needs few iterations, GMRES needs the fewest. Many iterations are cheaper with
+/// BiCGStab, which does not orthogonalise. FGMRES allows for the single precision of the multigrid on cells. So does
+/// our own Orthomin, which replaces FGMRES where neither the case nor petsc_options name a method (linear_solver.cpp).
 KrylovMethod fastest_method(PreconditionerName preconditioner) {
   switch (preconditioner) {
     case PreconditionerName::cell_multigrid:

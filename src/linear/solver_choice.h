@@ -1,6 +1,6 @@
-// Which Krylov method and preconditioner solve a system: the case's own choice, or a rule. There is no PETSc here, so
-// the rule can be read and tested by itself. A preconditioner of another library needs an enumerator and a line in the
-// rule.
+// The choice of the Krylov method and the preconditioner for a system: that of the case, or by a rule. This file does
+// not use PETSc, so the rule can be read and tested by itself. A preconditioner of another library needs an enumerator
+// and a line in the rule.
 #pragma once
 
 #include "case/spec.h"
@@ -8,22 +8,22 @@
 
 namespace tailwater {
 
-/// What the rule knows about a system.
+/// The properties of a system that the rule uses.
 struct SystemTraits {
-  double rows_deep = 0.0;  ///< how many particles lie between the surface and the bottom
+  double rows_deep = 0.0;  ///< number of particles between the surface and the bottom
   int dimension = 2;
-  int solves = 2;                 ///< with one matrix
+  int solves = 2;                 ///< solves with one matrix
   bool constant_is_free = false;  ///< only differences are determined
-  bool has_cells = false;         ///< as the multigrid on cells needs
+  bool has_cells = false;         ///< whether the cells for the multigrid are set
 };
 
-/// Neither is `automatic`.
+/// Neither member is `automatic`.
 struct SolverChoice {
   KrylovMethod method;
   PreconditionerName preconditioner;
 };
 
-/// What is known of every system, `water`, with what this one says of itself.
+/// The properties of one system: those of all systems, `water`, completed by its own.
 SystemTraits traits_of(const LinearSystem& system, SystemTraits water);
 
 SolverChoice choose_solver(const PressureSolverTable& settings, const SystemTraits& system);

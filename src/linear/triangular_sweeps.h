@@ -1,5 +1,5 @@
-// The triangular sweeps of SSOR over the rows of a LinearSystem, A = L + I + U - G: L and U hold the unknowns of this
-// rank before and behind the diagonal, G ghosts, which the preconditioner leaves out.
+// The triangular sweeps of SSOR over the rows of a LinearSystem, A = L + I + U - G. L and U hold the unknowns of this
+// rank before and behind the diagonal; G holds ghosts, which the preconditioner leaves out.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace tailwater {
 /// Relaxation factor of SSOR; iterations depend on it weakly between 1.2 and 1.5 (docs/theory/linear.md).
 inline constexpr double ssor_factor = 1.35;
 
-/// Where in each row the unknowns behind the diagonal begin, and where ghosts. Only sweeps have to know.
+/// The begin of the unknowns behind the diagonal and of the ghosts in each row. Only sweeps need them.
 struct RowParts {
-  /// Finds them, if the system has a new pattern.
+  /// Updates the begins if the system has a new pattern.
   void follow(const LinearSystem& system);
 
   std::vector<std::uint32_t> behind_begin = {};
