@@ -13,28 +13,28 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; within which a particle of water or of a wall covers cells: water that is stretched and disordered has no
-/// holes then.
+/// [dx]; distance within which a particle of water or of a wall covers cells, so that stretched and disordered water
+/// has no holes.
 constexpr double cover = 1.1;
 
-/// [dx]; how far water beside pockets may go between two looks: a cell. Any other counts by a quarter
-/// (count_displacement_for_air), so it may go by the size of the least pocket.
+/// [dx]; how far water beside pockets may go between two searches: a cell. Other water counts by a quarter
+/// (count_displacement_for_air), so it may go by the size of the smallest pocket.
 constexpr double distance_between_looks = 0.5;
 
 /// Half the edge of a cell, less rounding: a cell that a wall bounds is behind it.
 constexpr double half_cell = 0.5 - 1e-6;
 
-/// [dx]; edge of the pieces of walls that move: what they see of a pocket falls from 1 to 0 in two.
+/// [dx]; edge of the pieces of walls that move. Their fraction of a pocket falls from 1 to 0 in two pieces.
 constexpr double longest_piece = 0.75;
 
-/// [dx]; how far in front of a wall it looks: where pairs of water and wall find the mean of a field that changes
-/// evenly away from the wall.
+/// [dx]; distance in front of a wall at which its air is evaluated: where the pairs of water and wall have the mean of
+/// a field that changes linearly away from the wall.
 constexpr double sight_of_walls = 0.6;
 
-/// With one bit each in six kinds of marks, and what is kept of each row of cells: some 2 GB.
+/// Limit of some 2 GB: one bit per cell in six kinds of marks, and the data of each row of cells.
 constexpr double most_cells_of_map = 2e9;
 
-/// Of the grid, with rows that fill words of marks.
+/// Number of cells of the grid, with rows that fill words of marks.
 template <int Dim>
 double cells_over(const Eigen::AlignedBox<double, Dim>& box, double spacing, const PeriodicDomain<Dim>& domain) {
   double cells = 1.0;
@@ -107,7 +107,7 @@ void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMark
       if (nearest.face < 0) continue;
       const WallProperties& wall = boundary.walls[boundary.faces[nearest.face].wall];
       if ((wall.moves() && !moves) || wall.is_plate) {
-        // It is behind this row's wall only as far as the row itself is.
+        // The cell is behind this row's wall only as far as the row itself is.
         if ((centre - x).cwiseAbs().maxCoeff() <= 0.5 * spacing_) solid.mark(r, place, place + 1);
         continue;
       }
@@ -121,8 +121,9 @@ void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMark
   });
 }
 
-/// Marks the cells in the cube of a row that stands in front of another wall, as of a lid between side walls that go
-/// on: for them the other wall is nearer, and they are behind this one as far as the row itself is.
+/// Marks the cells in the cube of a row that stands in front of another wall, as of a lid between side walls that
+/// continue above it. For these cells the other wall is nearer, and they are behind this wall as far as the row itself
+/// is.
 template <int Dim>
 void AirWatch<Dim>::mark_across(const Walls<Dim>& walls, std::size_t row, CellMarks& solid) const {
   const Boundary<Dim>& boundary = walls.boundary;
@@ -140,7 +141,7 @@ void AirWatch<Dim>::mark_across(const Walls<Dim>& walls, std::size_t row, CellMa
   });
 }
 
-/// Marks the cells near a row of a plate that are so near to it that no step through the sides of cells passes it.
+/// Marks the cells so near to a row of a plate that no step through the sides of cells passes the plate.
 template <int Dim>
 void AirWatch<Dim>::mark_plate(const Walls<Dim>& walls, std::size_t row, CellMarks& plates) const {
   const Boundary<Dim>& boundary = walls.boundary;
@@ -191,7 +192,7 @@ void AirWatch<Dim>::mark_resting(const Walls<Dim>& walls, const Communicator& ra
   knows_walls_ = true;
 }
 
-/// Marks the cells that are so near to an end that no step through the sides of cells passes it.
+/// Marks the cells so near to an end that no step through the sides of cells passes the end.
 template <int Dim>
 void AirWatch<Dim>::mark_end(const AirEnd<Dim>& end, CellMarks& closed) const {
   const double reach = 0.51 * std::sqrt(static_cast<double>(Dim)) * grid_->edge().maxCoeff();
@@ -206,7 +207,7 @@ void AirWatch<Dim>::mark_end(const AirEnd<Dim>& end, CellMarks& closed) const {
   }
 }
 
-/// Finds what walls and ends close.
+/// Determines the spaces that walls and ends close.
 template <int Dim>
 void AirWatch<Dim>::find_spaces(const CellMarks& solid, const CellMarks& plates) {
   CellMarks closed = solid;
@@ -327,7 +328,8 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vent
   exchange_gas<Dim>(*grid_, spaces_, volumes, begun_before, pace, law_, found, state);
   find_references(found);
   take_over(std::move(found), volumes, pace, law_, state);
-  if (numbers_of(state.pockets) != before) forget_responses();  // what begins or ends changes what is beside others
+  // a pocket that begins or ends changes the air beside others
+  if (numbers_of(state.pockets) != before) forget_responses();
   find_openings(vents, state.pockets.size());
   if (is_first) set_start_pressures(state);
   has_looked_ = true;

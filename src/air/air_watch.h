@@ -1,4 +1,4 @@
-// Looks for pockets of air every few steps, and tells particles what they see of them.
+// Searches for pockets of air every few steps, and computes the air beside each particle.
 #pragma once
 
 #include <map>
@@ -17,28 +17,28 @@
 
 namespace tailwater {
 
-/// Owned water that looks into pockets.
+/// Owned water beside pockets.
 template <int Dim>
 struct PocketSide {
   std::size_t particle;
   std::vector<PocketShare> shares;
-  bool is_beside = true;  ///< whether a pocket is near; else all that it has is the pressure of its sealed space
-  double weight = 0.0;    ///< that closes its row of the pressure equation, in the row's unit
-  Vec<Dim> push = Vec<Dim>::Zero();  ///< 1/m; what air at 1 Pa all around pushes it with, per volume
+  bool is_beside = true;  ///< whether a pocket is near; else only the pressure of its sealed space acts on it
+  double weight = 0.0;    ///< completes its row of the pressure equation, in the row's unit
+  Vec<Dim> push = Vec<Dim>::Zero();  ///< 1/m; force per volume by air at 1 Pa all around
 };
 
-/// A piece of a wall that moves and looks into pockets, or at water that does.
+/// A piece of a moving wall beside pockets, or beside water that is beside pockets.
 template <int Dim>
 struct PocketWall {
   int wall;       ///< index into Boundary::walls
   Vec<Dim> x;     ///< m
   Vec<Dim> area;  ///< m^(Dim-1); towards the wall
   std::vector<PocketShare> shares;
-  Turn<Dim> couple = Turn<Dim>::Zero();  ///< m^Dim; moment of 1 Pa beside that of `area` at x
+  Turn<Dim> couple = Turn<Dim>::Zero();  ///< m^Dim; moment of 1 Pa in addition to that of `area` at x
 };
 
-/// What 1 Pa in a pocket does through the pairs of water and a wall that moves, in which the pressure counts from that
-/// of the air.
+/// The forces of 1 Pa in a pocket through the pairs of water and a moving wall, in which the pressure is relative to
+/// that of the air.
 template <int Dim>
 struct PocketPairs {
   int wall;         ///< index into Boundary::walls
@@ -46,40 +46,42 @@ struct PocketPairs {
   Vec<Dim> force;   ///< m^(Dim-1); on the wall
   Mat<Dim> moment;  ///< m^Dim; the sum of force x^T over the wall's particles
 
-  /// m^Dim/s; by which a wall of such a velocity makes the pocket grow: what the force works on it.
+  /// m^Dim/s; growth of the pocket by a wall of such a velocity: the power of the force on it.
   double growth(const AffineMap<Dim>& velocity) const {
     return force.dot(velocity.constant) + moment.cwiseProduct(velocity.linear).sum();
   }
 };
 
-/// The answer of the water to 1 Pa in a pocket, one entry per particle.
+/// The response of the water to 1 Pa in a pocket, one entry per particle.
 template <int Dim>
 struct AirResponse {
   std::vector<double> pressure;  ///< up to date on walls and ghosts
-  std::vector<Vec<Dim>> force;   ///< 1/m; on water, per volume; 0 on anything else
+  std::vector<Vec<Dim>> force;   ///< 1/m; on water, per volume; 0 on all other particles
 };
 
-/// The pockets in one step: where water looks into them, and what they do.
+/// The pockets in one step: the water and walls beside them, and their effect.
 template <int Dim>
 struct PocketStep {
   std::vector<PocketSide<Dim>> water;
   std::vector<PocketWall<Dim>> walls;                              ///< the same on all ranks
   std::vector<PocketPairs<Dim>> wall_pair_forces;                  ///< the same on all ranks
-  std::vector<std::pair<std::size_t, PocketShare>> air_fractions;  ///< by owned particles, walls too; where walls move
-  Eigen::MatrixXd answers;          ///< m^Dim/s per Pa; by which water makes each (row) grow with the pressure of each
-  std::vector<double> mobility;     ///< the same of floating bodies, each with its own pressure; empty without bodies
-  std::vector<double> pressure;     ///< Pa; of each pocket in this step, above the atmosphere's
-  std::vector<double> flow;         ///< m^Dim/s; by which the predicted velocity would make each grow
-  std::vector<double> flow_before;  ///< m^Dim/s; by which that at the start of the step does
-  std::vector<double> inflow;       ///< m^Dim/s; by which the water of open ends makes each grow
-  std::vector<double> inflow_of_pairs;  ///< m^Dim/s; the same by the pairs of that water and other water alone
-  /// Pa; of owned particles: by how much the pressure that the air alone makes there is off that of the air beside
-  /// them, either way, at the start of the step.
+  std::vector<std::pair<std::size_t, PocketShare>> air_fractions;  ///< of owned particles, walls too; if walls move
+  /// m^Dim/s per Pa; growth of each pocket (row) through water by the pressure of each
+  Eigen::MatrixXd answers;
+  /// m^Dim/s per Pa; growth through floating bodies, by own pressure; empty without bodies
+  std::vector<double> mobility;
+  std::vector<double> pressure;         ///< Pa; pressure of each pocket in this step, above the atmosphere's
+  std::vector<double> flow;             ///< m^Dim/s; growth of each by the predicted velocity
+  std::vector<double> flow_before;      ///< m^Dim/s; growth of each by the velocity at the start of the step
+  std::vector<double> inflow;           ///< m^Dim/s; growth of each by the water of open ends
+  std::vector<double> inflow_of_pairs;  ///< m^Dim/s; the part of inflow by pairs of that water and other water
+  /// Pa, of owned particles: absolute difference between the pressure that the air alone makes there and that of the
+  /// air beside them, at the start of the step.
   std::vector<double> response_deficit;
   int iterations = 0;  ///< of the solves for the responses
-  double work = 0.0;   ///< J; that the gas has done
+  double work = 0.0;   ///< J; work of the gas
 
-  /// Pa; of the air beside water.
+  /// Pa; pressure of the air beside water.
   double pressure_at(const PocketSide<Dim>& side) const {
     double sum = 0.0;
     for (const PocketShare& share : side.shares) sum += share.share * pressure[share.pocket];
@@ -87,63 +89,63 @@ struct PocketStep {
   }
 };
 
-/// An end of the case through which water passes.
+/// An inlet or outlet.
 template <int Dim>
 struct AirEnd {
   Opening<Dim> opening;
   Vec<Dim> inside;     ///< m; a place just inside
-  bool feeds = false;  ///< whether the case says how much water passes
+  bool feeds = false;  ///< whether the case prescribes how much water passes
 };
 
 template <int Dim>
 class AirWatch {
  public:
-  /// Of a case in which enclosed air is nothing.
+  /// For a case without enclosed air.
   AirWatch() = default;
-  /// Of walls that all are within `box` during the whole run.
+  /// `box` contains all walls during the whole run.
   AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, const Eigen::AlignedBox<double, Dim>& box,
            const PeriodicDomain<Dim>& domain);
 
   bool is_on() const { return grid_ != nullptr; }
   const GasLaw& law() const { return law_; }
 
-  /// Whether water may have gone far since the last look.
+  /// Whether water may have gone so far since the last search that a new one is needed.
   bool is_due(const AirState& state) const;
 
-  /// Looks for the pockets of this moment, with the vents at these places. Those of the first look of a run may start
-  /// at a pressure that the case gives; throws InputError where it gives one and there is no enclosed air. Collective.
+  /// Searches for the present pockets, with the vents at these places. Pockets of the first search of a run may start
+  /// at a pressure that the case gives. Throws InputError where it gives one and there is no enclosed air. Collective.
   void look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vents, const Particles<Dim>& particles,
             const Communicator& ranks, AirState& state);
 
-  /// Forgets what the last look has found, and the responses. Call when particles have been repartitioned and sorted.
+  /// Discards the result of the last search and the responses. Call when particles have been repartitioned and sorted.
   void forget();
 
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const { return space_.shares_at(x); }
-  /// The same with all that is left of 1 for the reference pocket of the space at x, if it has one: the pressure of
-  /// that pocket is added to all of the space, and only what other pockets have more or less acts on its water.
+  /// shares_at, with the remainder to 1 added to the reference pocket of the space at x, if it has one. The pressure of
+  /// that pocket is added to all of the space, and only the differences of other pockets from it act on the water.
   std::vector<PocketShare> fractions_at(const Vec<Dim>& x) const;
   /// The reference pocket of the space at x, as an index; -1: it has none, since it is open, or an end has a level.
   int reference_at(const Vec<Dim>& x) const;
-  /// That of the space of a pocket.
+  /// The reference pocket of the space of a pocket.
   int reference_of(int pocket) const { return reference_of_pocket_[pocket]; }
-  /// That of the space which an end is at, by index of inlets, then outlets.
+  /// The reference pocket of the space at an end, by index of inlets, then outlets.
   int reference_of_end(std::size_t end) const { return reference_at(ends_[end].inside); }
-  /// What moving walls see of the pockets.
+  /// The pieces of moving walls beside pockets.
   std::vector<PocketWall<Dim>> walls_beside(const Boundary<Dim>& boundary) const;
-  /// m^(Dim-1); of each pocket the vents that its air is at (vent.h).
+  /// m^(Dim-1); opening of the vents of each pocket (vent.h).
   const std::vector<double>& openings() const { return openings_; }
 
-  /// The same of the responses alone. Call when the order of particles has changed otherwise.
+  /// Discards the responses alone. Call when the order of particles has changed otherwise.
   void forget_responses() {
     responses_.clear();
     air_pressure_.clear();
   }
 
-  /// That to a pocket in the last step, from which it is found in the next; empty at first.
+  /// The response to a pocket in the last step, from which the next step continues; empty at first.
   AirResponse<Dim>& response(std::int64_t pocket) { return responses_[pocket]; }
   const AirResponse<Dim>& response(std::int64_t pocket) const { return responses_.at(pocket); }
-  /// Pa; what the air alone makes of the pressure, one entry per particle at the last solve: of all pockets their
-  /// pressure times the response.
+  /// Pa; the pressure made by the air alone, one entry per particle at the last solve: the sum over pockets of their
+  /// pressure times their response.
   std::vector<double>& air_pressure() { return air_pressure_; }
   const std::vector<double>& air_pressure() const { return air_pressure_; }
 
@@ -164,10 +166,10 @@ class AirWatch {
   GasLaw law_;
   double spacing_ = 0.0;
   bool knows_walls_ = false;
-  std::vector<WallPatch<Dim>> moving_;  ///< of walls that move
-  CellMarks resting_;                   ///< behind walls that rest
-  CellMarks resting_plates_;            ///< beside plates that rest
-  CellMarks closed_ends_;               ///< on inlets and outlets
+  std::vector<WallPatch<Dim>> moving_;  ///< pieces of walls that move
+  CellMarks resting_;                   ///< cells behind walls at rest
+  CellMarks resting_plates_;            ///< cells beside plates at rest
+  CellMarks closed_ends_;               ///< cells on inlets and outlets
   bool has_looked_ = false;
   PocketSpace<Dim> space_;
   std::vector<PocketTable> starts_;

@@ -14,7 +14,7 @@
 
 namespace tailwater {
 
-// There may be many.
+// There may be many runs of cells, so they are saved without names.
 inline void to_json(Json& json, const CellRun& run) { json = {run.row, run.begin, run.end}; }
 inline void from_json(const Json& json, CellRun& run) { run = {json.at(0), json.at(1), json.at(2)}; }
 TAILWATER_SAVED(inline, AirPocket, number, gas, volume, torn, cells)
@@ -26,10 +26,10 @@ namespace {
 /// Rows of water whose weight a pressure below 0 may hold before a warning.
 constexpr double min_rows_of_tension = 2.0;
 
-/// Looks at the walls in a run, for the box around all places where they are.
+/// Number of times in a run at which walls are evaluated, for the box around all their places.
 constexpr int looks_at_moving_walls = 1000;
 
-/// Around walls, wherever they go, and openings.
+/// Box around walls, wherever they go, and openings.
 template <int Dim>
 Eigen::AlignedBox<double, Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup,
                                           const Boundary<Dim>& boundary) {
@@ -92,8 +92,8 @@ AirMeasures EnclosedAir<Dim>::measures() const {
   return air;
 }
 
-/// Throws InputError where the case gives air a pressure and there is none; before a run writes anything. Warns of air
-/// that would pull water which other air presses on.
+/// Throws InputError where the case gives air a pressure and there is no enclosed air, before a run writes anything.
+/// Warns of air that would pull water down, when other air presses on the water.
 template <int Dim>
 void EnclosedAir<Dim>::begin(Flow<Dim>& flow) {
   if (!starts_at_pressure_) return;
@@ -135,7 +135,7 @@ void EnclosedAir<Dim>::reordered(Reordering how) {
   }
 }
 
-/// Where vents are now [m]: one that is on a wall that moves goes along.
+/// Present places of vents [m]: a vent on a moving wall moves with it.
 template <int Dim>
 std::vector<Vec<Dim>> EnclosedAir<Dim>::places_of_vents(const Flow<Dim>& flow) const {
   std::vector<Vec<Dim>> places;
@@ -148,7 +148,7 @@ std::vector<Vec<Dim>> EnclosedAir<Dim>::places_of_vents(const Flow<Dim>& flow) c
   return places;
 }
 
-/// Looks for pockets if water may have gone far since the last look.
+/// Searches for pockets if water may have gone far since the last search.
 template <int Dim>
 void EnclosedAir<Dim>::begin_step(Flow<Dim>& flow, double /*dt*/) {
   if (!watch.is_due(state)) return;
@@ -200,8 +200,9 @@ void EnclosedAir<Dim>::correct(Flow<Dim>& flow, double dt) {
   count_displacement(flow, dt);
 }
 
-/// Counts how far water and walls go in a step of dt with their present velocity: what is beside pockets in full,
-/// anything else by a quarter, since new pockets are looked for when it may have gone four times as far.
+/// Counts how far water and walls go in a step of dt with their present velocity. Water and walls beside pockets count
+/// in full, all others by a quarter, since a search for new pockets is needed only when they may have gone four times
+/// as far.
 template <int Dim>
 void EnclosedAir<Dim>::count_displacement(const Flow<Dim>& flow, double dt) {
   const double time = flow.state.time;
@@ -231,7 +232,8 @@ void EnclosedAir<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>
   const std::vector<double> growth = growth_at_walls(flow, *this, dt);
   for (std::size_t k = 0; k < step.pressure.size(); ++k) {
     works.walls -= dt * step.pressure[k] * growth[k];
-    works.ends -= dt * step.pressure[k] * (step.inflow[k] - step.inflow_of_pairs[k]);  // it has that of the pairs
+    // the work of the pairs is counted already
+    works.ends -= dt * step.pressure[k] * (step.inflow[k] - step.inflow_of_pairs[k]);
   }
 }
 

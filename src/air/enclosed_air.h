@@ -1,5 +1,5 @@
-// Air that water and walls enclose, as a part of a flow (docs/theory/air.md): it looks for pockets every few steps, and
-// solves for their pressures with that of the water (pocket_pressure.h).
+// Air that water and walls enclose, as a part of a flow (docs/theory/air.md). It searches for pockets every few steps,
+// and their pressures are solved for together with that of the water (pocket_pressure.h).
 #pragma once
 
 #include <functional>
@@ -11,20 +11,20 @@
 
 namespace tailwater {
 
-/// Where a vent is drawn, and with which wall it goes.
+/// The place where a vent is drawn, and the wall with which it moves.
 template <int Dim>
 struct VentPlace {
   Vec<Dim> at;    ///< m
   int wall = -1;  ///< index into Boundary::walls of one within dx/2; -1: there is none
 };
 
-/// Of all pockets.
+/// Totals of all pockets.
 struct AirMeasures {
   std::size_t pockets = 0;
-  double volume = 0.0;    ///< m^Dim; of all
-  double gas = 0.0;       ///< m^Dim; of all, at the pressure of the atmosphere
-  double pressure = 0.0;  ///< Pa; above the atmosphere's, of the largest
-  double energy = 0.0;    ///< J; of all the gas (air/gas_law.h)
+  double volume = 0.0;    ///< m^Dim; sum
+  double gas = 0.0;       ///< m^Dim; sum, at the pressure of the atmosphere
+  double pressure = 0.0;  ///< Pa; pressure of the largest, above the atmosphere's
+  double energy = 0.0;    ///< J; energy of all the gas (air/gas_law.h)
 };
 
 template <int Dim>
@@ -38,7 +38,7 @@ class EnclosedAir final : public Part<Dim> {
   AirWatch<Dim> watch;
   PocketStep<Dim> step;  ///< the pockets in the present step
 
-  /// Pa; of the gas in a pocket, above the atmosphere's.
+  /// Pa; pressure of the gas in a pocket, above the atmosphere's.
   double pressure_of(const AirPocket& pocket) const { return watch.law().pressure(pocket.gas, pocket.volume); }
   /// The pressure [Pa] of the air at a place, above the atmosphere's; empty without pockets. Borrows this.
   std::function<double(const Vec<Dim>&)> pressure_field() const;

@@ -9,12 +9,12 @@
 namespace tailwater {
 namespace {
 
-/// Newton's method on a convex law, which may not more than halve a volume in a step.
+/// Newton's method on a convex law. It may at most halve a volume in a step.
 constexpr int most_newton_steps = 50;
-constexpr double gas_tolerance = 1e-10;  // of the atmosphere
+constexpr double gas_tolerance = 1e-10;  // relative to the atmosphere
 
-/// Share of the velocity at the end of a step in that with which pockets grow, and of the pressure at the end with
-/// which a slow pulsation keeps its energy.
+/// Weight of the end of a step: of the velocity with which pockets grow, and of the pressure with which a slow
+/// pulsation keeps its energy.
 constexpr double half = 0.5;
 
 }  // namespace
@@ -61,7 +61,7 @@ Eigen::MatrixXd GasStep::stiffness() const {
   return (Eigen::MatrixXd::Identity(theta.size(), theta.size()) + rise * answers_).partialPivLu().solve(rise);
 }
 
-/// Pa; of the gas at the end of the step, if its volume then is this.
+/// Pa; pressure of the gas at the end of the step, if its volume then is this.
 double GasStep::pressure_after(Eigen::Index k, double volume) const {
   return law_.pressure(gas_after_venting(law_, pockets_[k].gas, volume, openings_[k], dt_), volume);
 }
@@ -72,8 +72,8 @@ double GasStep::slope_after(Eigen::Index k, double volume) const {
   return (pressure_after(k, volume + little) - pressure_after(k, volume - little)) / (2.0 * little);
 }
 
-/// How much of the pressure is that at the end of the step: with the square s of a pulsation's frequency times dt, half
-/// and s/(8 + 2s), which damps what is resolved by some s^1.5 per period.
+/// Weight of the pressure at the end of the step: 1/2 + s/(8 + 2s), with s the square of a pulsation's frequency times
+/// dt. This damps resolved pulsations by some s^1.5 per period.
 Eigen::VectorXd GasStep::blend() const {
   Eigen::VectorXd theta(answers_.rows());
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
@@ -84,7 +84,7 @@ Eigen::VectorXd GasStep::blend() const {
   return theta;
 }
 
-/// A pocket that the water would close within the step is left a tenth.
+/// A pocket that the water would close within the step keeps a tenth of its volume.
 Eigen::VectorXd GasStep::volume_after(const Eigen::VectorXd& pressure) const {
   Eigen::VectorXd volume = constant_ + answers_ * pressure;
   for (Eigen::Index k = 0; k < volume.size(); ++k) {

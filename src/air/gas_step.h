@@ -1,5 +1,5 @@
-// The gas of all pockets in one step: how far each pocket grows as a function of the pressures, and the pressures that
-// the gas law asks for then.
+// The gas of all pockets in one step: the growth of each pocket as a function of the pressures, and the pressures that
+// satisfy the gas law.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,20 +12,21 @@ namespace tailwater {
 
 class GasStep {
  public:
-  /// Of pockets whose growth answers the pressures, by water [m^Dim/s per Pa] with `answers` of each (row) to each, and
-  /// by bodies that float with `mobility` of each to its own, empty without bodies. All are kept by reference.
+  /// The growth of the pockets depends linearly on the pressures: through water [m^Dim/s per Pa] with `answers` of each
+  /// (row) to each, and through floating bodies with `mobility` of each to its own, empty without bodies. All are kept
+  /// by reference.
   GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, const std::vector<double>& openings,
           const std::vector<double>& mobility, const Eigen::MatrixXd& answers, double dt);
 
-  /// The flow [m^Dim/s] without pressure in the pockets, that at the start of the step, and what walls sweep.
+  /// The flow [m^Dim/s] without pressure in the pockets, that at the start of the step, and that by walls.
   void set_flow(const std::vector<double>& now, const std::vector<double>& before, const std::vector<double>& walls);
 
-  /// The pressures [Pa] with which gas and water agree. Pockets grow with the mean of the water's velocities at both
-  /// ends of the step, so the mean of the gas's pressures at both ends does as much work on the water as the gas loses.
-  /// The stiffer the gas, the nearer the pressure is to that at the end.
+  /// The pressures [Pa] that satisfy the equations of gas and water. Pockets grow with the mean of the water's
+  /// velocities at both ends of the step. The mean of the gas's pressures at both ends therefore does as much work on
+  /// the water as the gas loses. The stiffer the gas, the nearer the pressure is to that at the end.
   std::vector<double> solve() const;
 
-  /// By how much [Pa] the pressures (rows) fall for each m^Dim that walls leave the pockets (columns) in the step.
+  /// The decrease [Pa] of the pressures (rows) per m^Dim that walls leave to the pockets (columns) in the step.
   Eigen::MatrixXd stiffness() const;
 
  private:

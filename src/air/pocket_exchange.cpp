@@ -6,14 +6,14 @@
 namespace tailwater {
 namespace {
 
-/// A pocket that begins and is larger than this fraction of its neighbour was not parted from it: the space has been
-/// closed since the last look, and the air is new.
+/// A pocket that begins and is larger than this fraction of its neighbour was not separated from it: the space has been
+/// closed since the last search, and the air is new.
 constexpr double max_taken_fraction = 0.5;
 
 /// Fraction of its volume that a pocket gives away in a correction, at most.
 constexpr double max_corrected_fraction = 0.5;
 
-/// Square of the distance between two runs of cells, in cells. Borders that repeat are left out of account.
+/// Square of the distance between two runs of cells, in cells. Periodic borders are ignored.
 template <int Dim>
 double square_between(const VoidGrid<Dim>& grid, const CellRun& a, const CellRun& b) {
   const auto first = grid.cell(a.row, a.begin);
@@ -24,7 +24,7 @@ double square_between(const VoidGrid<Dim>& grid, const CellRun& a, const CellRun
   return square + gap * gap;
 }
 
-/// The pocket of a space that is nearest to these cells and which is_allowed(n), as an index; -1: there is none.
+/// The pocket of a space that is nearest to these cells and for which is_allowed(n), as an index; -1: there is none.
 template <int Dim, class Allowed>
 int nearest_pocket(const VoidGrid<Dim>& grid, std::span<const FoundPocket> found, int space,
                    std::span<const CellRun> cells, Allowed&& is_allowed) {
@@ -50,7 +50,7 @@ double energy_of(const GasLaw& law, const AirPocket& pocket) {
   return pocket.volume > 0.0 ? law.energy(pocket.gas, pocket.volume) : 0.0;
 }
 
-/// Moves a fraction of the gas and the volume of one pocket to another. What mixing costs is lost.
+/// Moves a fraction of the gas and the volume of one pocket to another. The energy lost by mixing is recorded.
 void move_gas(AirPocket& from, AirPocket& to, double fraction, const GasLaw& law, AirState& state) {
   const double before = energy_of(law, from) + energy_of(law, to);
   const double gas = fraction * from.gas;
@@ -102,7 +102,7 @@ void take_part(const VoidGrid<Dim>& grid, std::size_t n, double volume, const Ga
   move_gas(found[donor].pocket, begins.pocket, wanted / found[donor].pocket.volume, law, state);
 }
 
-/// Brings the volume of a pocket by `pace` of the way to that of its cells.
+/// Brings the volume of a pocket towards that of its cells by the fraction `pace`.
 void correct_volume(AirPocket& pocket, AirPocket& largest, double volume, double pace, const GasLaw& law,
                     AirState& state) {
   const double excess = pace * (pocket.volume - volume);

@@ -11,8 +11,8 @@
 namespace tailwater {
 namespace {
 
-/// By how much a velocity of the water, velocity(i), makes each pocket grow [m^Dim/s]: what the force of 1 Pa in it
-/// works on that velocity. Collective.
+/// The growth [m^Dim/s] of each pocket by a velocity of the water, velocity(i): the power of the force of 1 Pa in it.
+/// Collective.
 template <int Dim, class Velocity>
 std::vector<double> growth(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, Velocity&& velocity) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -27,7 +27,7 @@ std::vector<double> growth(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, V
   return growth;
 }
 
-/// The water that looks into pockets.
+/// The water beside pockets.
 template <int Dim>
 std::vector<PocketSide<Dim>> find_sides(const Flow<Dim>& flow, const EnclosedAir<Dim>& air) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -52,7 +52,7 @@ std::vector<PocketSide<Dim>> find_sides(const Flow<Dim>& flow, const EnclosedAir
   return sides;
 }
 
-/// The fractions of the air beside particles, walls too, that are of each pocket. Collective.
+/// The fraction of each pocket in the air beside particles, walls too. Collective.
 template <int Dim>
 std::vector<std::pair<std::size_t, PocketShare>> find_air_fractions(const Flow<Dim>& flow,
                                                                     std::span<const PocketSide<Dim>> sides,
@@ -67,8 +67,8 @@ std::vector<std::pair<std::size_t, PocketShare>> find_air_fractions(const Flow<D
   return fractions;
 }
 
-/// By how much the pressure that the pockets alone make, with what they have at the start of the step, is off that of
-/// the air; on walls that of the water beside them. Collective.
+/// The difference between the pressure that the pockets alone make, with their state at the start of the step, and that
+/// of the air; on walls that of the water beside them. Collective.
 template <int Dim>
 std::vector<double> find_response_deficit(const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
                                           std::span<const PocketSide<Dim>> sides) {
@@ -89,7 +89,7 @@ std::vector<double> find_response_deficit(const Flow<Dim>& flow, const EnclosedA
   return deficit;
 }
 
-/// By how much [m^Dim/s per Pa] each pocket (row) grows within dt under the pressure of each (column). Collective.
+/// The growth [m^Dim/s per Pa] of each pocket (row) within dt by the pressure of each (column). Collective.
 template <int Dim>
 Eigen::MatrixXd find_answers(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
   const auto count = static_cast<Eigen::Index>(air.state.pockets.size());
@@ -104,8 +104,8 @@ Eigen::MatrixXd find_answers(const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
   return answers;
 }
 
-/// The end of a step of a pocket: its new volume, and what flows through its vents. Returns the work of the gas on the
-/// water [J], the mean of what it is if the gas flows before the volume changes, and after.
+/// Updates a pocket at the end of a step: its new volume, and the flow through its vents. Returns the work of the gas
+/// on the water [J], the mean of the values for gas that flows before and after the change of volume.
 double change_pocket(AirPocket& pocket, double volume, const GasLaw& law, double opening, double dt, AirState& air) {
   const double old_gas = pocket.gas;
   const double old_volume = pocket.volume;

@@ -11,15 +11,15 @@
 namespace tailwater {
 namespace {
 
-/// Of a response that begins.
+/// Number of passes of a response that begins.
 constexpr int passes_at_start = 4;
 
-/// By which a response may change in a pass. With more the air beside the water is another, since pockets have joined,
-/// parted or torn, and it begins anew.
+/// Maximum change of a response in a pass. A larger change means that the air beside the water is different, since
+/// pockets have joined, parted or torn, and the response begins anew.
 constexpr double largest_change = 0.2;
 
-/// Brings walls up to date. Above the surface a wall sees water on one side only, below: with its mean alone it would
-/// hold back the corner of the water. So it has what each of its neighbours would have at its place, grad q = -F there.
+/// Updates walls. Above the surface a wall has water on one side only, below. With the mean alone it would hold back
+/// the corner of the water. So it has the mean of its neighbours' fields extrapolated to its place, where grad q = -F.
 template <int Dim>
 void show_to_walls(const Flow<Dim>& flow, AirResponse<Dim>& response) {
   extend_to_walls(flow, response.pressure);
@@ -39,7 +39,7 @@ void show_to_walls(const Flow<Dim>& flow, AirResponse<Dim>& response) {
   flow.halo().exchange(response.pressure);
 }
 
-/// F of the water, 0 of anything else.
+/// F of the water, 0 for all other particles.
 template <int Dim>
 std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket,
                                const std::vector<double>& pressure) {
@@ -57,7 +57,7 @@ std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, std::span<const PocketSide
   return force;
 }
 
-/// What the matrix makes of the pocket's pressure.
+/// The response by the matrix alone.
 template <int Dim>
 AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket, int& iterations) {
   LinearSystem& rows = flow.pressure_rows;
@@ -74,7 +74,7 @@ AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>
   return response;
 }
 
-/// One pass; the next one finds what it leaves. Returns the largest change.
+/// One pass; the next one corrects the remainder. Returns the largest change.
 template <int Dim>
 double refine_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket, AirResponse<Dim>& response,
                        int& iterations) {

@@ -9,18 +9,18 @@
 namespace tailwater {
 namespace {
 
-/// [cells] from the air: down to where water sees it in full, and from where on it sees none. Rows of particles are two
-/// cells apart, the outermost in the third.
+/// [cells] from the air: the distance down to which water has the full fraction, and that from which on it has none.
+/// Rows of particles are two cells apart, the outermost in the third.
 constexpr int seen_in_full = 10;
 constexpr int seen = 14;
 
-/// [cells]; half the edge of the cube around a particle over which it sees the mean.
+/// [cells]; half the edge of the cube around a particle over which the mean is taken.
 constexpr int sight = 2;
 
-/// Cells beside a pocket that its space holds.
+/// Cells beside a pocket that its space contains.
 constexpr int margin = seen + sight;
 
-/// omega is the mean of four indicators: of what is within 3, 4, 5 and 6 cells of the pocket. They differ by the
+/// omega is the mean of four indicators: of the cells within 3, 4, 5 and 6 cells of the pocket. They differ by the
 /// distance of two rows of particles, so the row in which they cut the water does not matter.
 constexpr int first_cut = 3;
 constexpr int last_cut = 6;
@@ -29,7 +29,7 @@ double weight_of_layer(int layer) {
   return std::max(0.0, static_cast<double>(last_cut + 1 - std::max(layer, first_cut)) / (last_cut + 1 - first_cut));
 }
 
-/// How much of the air a cell sees.
+/// The weight of the air in a cell, by its layer.
 double sight_of_layer(int layer) {
   return std::clamp(static_cast<double>(seen - layer) / (seen - seen_in_full), 0.0, 1.0);
 }
@@ -43,8 +43,8 @@ void add_share(int pocket, double share, std::vector<PocketShare>& shares) {
   }
 }
 
-/// Cells of a block along an axis, at most: the cube of a particle is in three, or in four where cells are a little
-/// smaller than dx/2.
+/// Maximum number of cells of a block along an axis: the cube of a particle is in three, or in four where cells are a
+/// little smaller than dx/2.
 constexpr int most_along = 4;
 
 /// Calls `visit(offset, place)` for the cells `first` + `offset` of a block, `cells` along each axis, across a periodic
@@ -54,7 +54,7 @@ void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& 
                  const typename VoidGrid<Dim>::Cell& count, const typename VoidGrid<Dim>::Cell& first,
                  const typename VoidGrid<Dim>::Cell& cells, Visit&& visit) {
   constexpr std::int64_t outside = std::numeric_limits<std::int64_t>::min() / 4;
-  std::array<std::array<std::int64_t, most_along>, Dim> parts;  // of the place, by axis
+  std::array<std::array<std::int64_t, most_along>, Dim> parts;  // parts of the place, by axis
   std::int64_t stride = 1;
   for (int d = Dim - 1; d >= 0; --d) {
     for (int k = 0; k < cells[d]; ++k) {
@@ -113,7 +113,8 @@ std::int64_t PocketSpace<Dim>::place(const Cell& c) const {
   return place;
 }
 
-/// Whether a place, in cells, is in this space. Nothing outside sees a pocket or counts in its volume.
+/// Whether a place, in cells, is in this space. Outside, particles have no air of a pocket and do not count in its
+/// volume.
 template <int Dim>
 bool PocketSpace<Dim>::is_inside(const Vec<Dim>& at) const {
   for (int d = 0; d < Dim; ++d) {
@@ -171,7 +172,7 @@ void PocketSpace<Dim>::fill(const Voids<Dim>& voids, const CellMarks& walls, std
   }
 }
 
-/// Gives the cells of the water to the air that is nearest, in steps through the sides of cells.
+/// Assigns the cells of the water to the nearest air, in steps through the sides of cells.
 template <int Dim>
 void PocketSpace<Dim>::grow() {
   std::vector<Cell> front;
@@ -219,7 +220,7 @@ double PocketSpace<Dim>::weight_of(std::int64_t place) const {
   return place >= 0 && owner_[place] > 0 ? weight_of_layer(layer_[place]) : 0.0;
 }
 
-/// Takes the water of one particle out of the volumes. What of its cube is behind walls is in front of them in truth.
+/// Subtracts the water of one particle from the volumes. The part of its cube behind walls really is in front of them.
 template <int Dim>
 void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<double>& volumes) const {
   const Vec<Dim> at = grid_->in_cells(x);
@@ -290,7 +291,7 @@ std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
   if (pockets_ == 0) return shares;
   const Vec<Dim> at = grid_->in_cells(x);
   if (!is_inside(at)) return shares;
-  // Weights that fall to 0 at the faces of the cube: the shares are continuous in x.
+  // Weights that fall to 0 at the faces of the cube make the fractions continuous in x.
   constexpr int edge = 2 * sight;
   Cell first;
   Cell cells;

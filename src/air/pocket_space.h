@@ -1,13 +1,13 @@
-// The space in and around pockets, cell by cell: which air a cell is of, or of which it is the nearest. From it follow
-// the volume of a pocket, and how much of the air beside a particle is its.
+// The space in and around pockets, cell by cell: each cell has the air that it belongs to, or the nearest air. The
+// volume of a pocket and its fraction of the air beside a particle follow from this.
 //
-// Water covers cells within 1.1 dx of its particles, so that it has no holes; it reaches some 0.5 dx beyond its surface
-// then. The volume of a pocket is therefore not that of its void cells. It is, with shares omega from 1 near the
-// pocket to 0 some 3 dx inside the water,
+// Water covers cells within 1.1 dx of its particles, so that it has no holes. It then extends some 0.5 dx beyond its
+// surface. The volume of a pocket is therefore not that of its void cells. With weights omega from 1 near the pocket to
+// 0 some 3 dx inside the water it is
 //
 //   V = sum over cells c of omega_c |c| - sum over water j of w_j omega(j),
 //
-// where |c| is the part of the cell in front of walls, and omega(j) the mean over the cube of edge dx around j: a
+// where |c| is the part of the cell in front of walls, and omega(j) the mean over the cube of edge dx around j. A
 // lattice of such cubes leaves no gap, so V is exact above one. Cells between two pockets count for the nearer.
 #pragma once
 
@@ -23,10 +23,10 @@
 
 namespace tailwater {
 
-/// What a particle sees of a pocket.
+/// A pocket beside a particle.
 struct PocketShare {
   int pocket;    ///< index
-  double share;  ///< of all air beside it
+  double share;  ///< fraction of all air beside the particle
 };
 
 template <int Dim>
@@ -36,21 +36,21 @@ class PocketSpace {
   PocketSpace(std::shared_ptr<const VoidGrid<Dim>> grid, double spacing, const Voids<Dim>& voids,
               const CellMarks& walls, std::span<const FoundPocket> pockets);
 
-  /// The volume of each pocket [m^Dim], that of a cell at least; collective.
+  /// The volume of each pocket [m^Dim], at least that of a cell; collective.
   std::vector<double> volumes(const Boundary<Dim>& boundary, const Particles<Dim>& particles,
                               const Communicator& ranks) const;
 
   /// The pocket whose air is nearest to x, within dx; -1 where open air is nearer, or there is no air.
   int pocket_at(const Vec<Dim>& x) const;
 
-  /// Which share of the air near x is of which pocket; nothing where there is no pocket. Deep in the water the shares
+  /// The fraction of each pocket in the air near x; empty where there is no pocket. Deep in the water the fractions
   /// fall to 0 together.
   std::vector<PocketShare> shares_at(const Vec<Dim>& x) const;
 
  private:
   using Cell = typename VoidGrid<Dim>::Cell;
 
-  /// What a cell is of.
+  /// Owner of a cell.
   enum : std::int16_t { behind_wall = -2, in_water = -1, open_air = 0 };  // else 1 + index of the pocket
 
   void find_bounds(std::span<const FoundPocket> pockets);

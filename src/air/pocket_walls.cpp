@@ -1,6 +1,6 @@
-// Walls that move beside pockets. The space that a wall leaves to a pocket is counted by the force with which the
-// pocket pushes it: of the air itself, on the pieces of its faces as far as they see the air, and of the pairs of water
-// and wall, in which the pressure counts from that of the air.
+// Walls that move beside pockets. The volume that a wall leaves to a pocket is computed from the force of the pocket on
+// the wall. The force has two parts: that of the air itself, on the pieces of the faces according to their fractions,
+// and that of the pairs of water and wall, in which the pressure is relative to that of the air.
 #include "air/pocket_pressure.h"
 #include "base/for_each.h"
 #include "open_ends/open_ends.h"
@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// Columns of particles that may wait at an opening, or have come early.
+/// Columns of particles that may wait at an opening, or have entered early.
 constexpr double most_columns_waiting = 2.0;
 
 template <int Dim>
@@ -19,7 +19,7 @@ void subtract_fractions(const Flow<Dim>& flow, std::span<const std::pair<std::si
   flow.halo().exchange(field);
 }
 
-/// rad/s; of a rigid wall whose velocity is a function of the place.
+/// rad/s; angular velocity of a rigid wall whose velocity is a function of the place.
 template <int Dim>
 Turn<Dim> angular_velocity_of(const AffineMap<Dim>& velocity) {
   const Mat<Dim>& spin = velocity.linear;
@@ -82,7 +82,7 @@ std::vector<PocketPairs<Dim>> find_wall_pair_forces(
 }
 
 /// Calls visit(wall, velocity) for each wall that moves, with its velocity [m/s] as a function of the place, halfway
-/// through the step. A wall that turns has a velocity without divergence then, so a closed surface leaves no volume.
+/// through the step. A turning wall then has a velocity without divergence, so a closed surface leaves no volume.
 template <int Dim, class Visit>
 void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
   if (dt == 0.0) return;
@@ -114,8 +114,8 @@ std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim
 
 namespace {
 
-/// m^Dim; the volume that an end has brought up to the end of the step: the prescribed one, within the columns of
-/// particles that have come and wait at the opening.
+/// m^Dim; volume that an end has brought up to the end of the step: the prescribed one, within the columns of particles
+/// that have entered or wait at the opening.
 template <int Dim>
 double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state) {
   const double passed = state.arrived.volume - state.departed.volume;
@@ -123,7 +123,8 @@ double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state) {
   return std::clamp(state.asked, passed - waiting, passed + waiting);
 }
 
-/// Gives the reference pockets of sealed spaces the loss that makes pockets lose the volume that comes in.
+/// Adjusts the growth of the reference pockets of sealed spaces, so that all pockets together lose the volume that
+/// comes in.
 template <int Dim>
 void settle_references(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt, std::vector<double>& growth) {
   const std::vector<double> brought = brought_by_ends(flow);

@@ -1,5 +1,5 @@
-// Spaces that walls, plates and open ends close, without a way out for air: they keep their gas, however water parts
-// it. They are found from the walls alone, so water does not change which space a place is in.
+// Spaces that walls, plates and open ends close, without a way out for air. They keep their gas, however water divides
+// it. They are determined from the walls alone, so water does not change which space a place is in.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ class SealedSpaces {
   /// `closed` marks the cells behind walls, beside plates and on open ends.
   SealedSpaces(const VoidGrid<Dim>& grid, const CellMarks& closed);
 
-  /// Finds which spaces have a way out for air: those that an open part of the void reaches, as through an open end
-  /// that is not full of water.
+  /// Determines which spaces have a way out for air: those that an open part of the void reaches, as through an open
+  /// end that is not full of water.
   void find_ways_out(const Voids<Dim>& voids);
   /// Marks a space whose volume may change by more than walls and inflow change it, as through an end with a level.
   void set_yielding(int space) { is_rigid_[space] = 0; }
@@ -29,7 +29,7 @@ class SealedSpaces {
   int near(const VoidGrid<Dim>& grid, const Vec<Dim>& x, double spacing) const;
 
  private:
-  Voids<Dim> walled_;            ///< all that no wall closes, water or air
+  Voids<Dim> walled_;            ///< all space that no wall closes, water or air
   std::vector<char> is_sealed_;  ///< by part
   std::vector<char> is_rigid_;   ///< by part
 };

@@ -6,16 +6,16 @@
 namespace tailwater {
 namespace {
 
-/// gamma of the flow, which keeps its heat whatever the gas in the pocket does.
+/// gamma of the flow, which is adiabatic whatever the gas in the pocket does.
 constexpr double heat_ratio = 1.4;
 
 /// J/kg; p/rho of dry air at 20 degrees Celsius.
 constexpr double pressure_over_density = 287.05 * 293.15;
 
-/// Of G/V - 1; that flow is choked, and from less gas it is no other.
+/// Minimum of G/V - 1. That flow is choked, and less gas gives the same flow.
 constexpr double least_excess = -0.999;
 
-/// Halves an interval to the last digit.
+/// Number of bisections, to the last digit.
 constexpr int halvings = 60;
 
 }  // namespace
@@ -31,7 +31,7 @@ double vent_velocity(const GasLaw& law, double gas, double volume) {
   return std::copysign(std::sqrt(square), x);
 }
 
-// The more gas is there, the more flows out: there is one answer, between the gas of now and that at which none flows.
+// The more gas is left, the more flows out. So there is one solution, between the present gas and that without flow.
 double gas_after_venting(const GasLaw& law, double gas, double volume, double opening, double dt) {
   if (opening == 0.0) return gas;
   double low = std::min(gas, volume);

@@ -6,7 +6,7 @@
 namespace tailwater {
 namespace {
 
-/// Cells around the box: room for the rows of particles behind walls, and for air beside them.
+/// Cells around the box: space for the rows of particles behind walls, and for air beside them.
 constexpr int rim = 8;
 
 }  // namespace

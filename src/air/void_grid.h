@@ -20,12 +20,12 @@ class VoidGrid {
   using Cell = std::array<int, Dim>;
 
   VoidGrid() = default;
-  /// Covers the `box` and some cells around it, which begin at its lowest corner: walls that are drawn in multiples of
-  /// dx then are between cells.
+  /// Covers the `box` and some cells around it. Cells begin at the lowest corner of the box, so walls that are drawn in
+  /// multiples of dx are between cells.
   VoidGrid(const Eigen::AlignedBox<double, Dim>& box, double spacing, const PeriodicDomain<Dim>& domain);
 
   int rows() const { return rows_; }
-  int length() const { return count_[Dim - 1]; }  ///< cells of a row
+  int length() const { return count_[Dim - 1]; }  ///< number of cells of a row
   int count(int axis) const { return count_[axis]; }
   bool repeats(int axis) const { return repeats_[axis]; }
   double cell_volume() const { return edge_.prod(); }
@@ -35,7 +35,7 @@ class VoidGrid {
   int row_of(const Cell& c) const { return Dim == 2 ? c[0] : c[0] * count_[1] + c[Dim - 2]; }
   Cell cell(int row, int place) const;
 
-  /// The cell beside `c`, which may be the first of a repeating direction again. Returns false if there is none.
+  /// The cell beside `c`, across a periodic border too. Returns false if there is none.
   bool step(Cell& c, int axis, int direction) const;
   /// The row beside a row along one of the other axes; -1 if there is none.
   int row_beside(int row, int axis, int direction) const;
@@ -124,9 +124,9 @@ class CellMarks {
     }
     return false;
   }
-  /// The first place from `from` on, before `end`, that is marked; `end` if there is none.
+  /// The first marked place from `from` on, before `end`; `end` if there is none.
   int next_marked(int row, int from, int end) const { return next(row, from, end, 0); }
-  /// The first that is not.
+  /// The first unmarked place, in the same range.
   int next_unmarked(int row, int from, int end) const { return next(row, from, end, ~std::uint64_t{0}); }
 
   CellMarks& operator|=(const CellMarks& other);
@@ -142,7 +142,7 @@ class CellMarks {
     return mask;
   }
 
-  /// The first whose mark is not as in `unlike`.
+  /// The first place whose mark differs from `unlike`.
   int next(int row, int from, int end, std::uint64_t unlike) const;
 
   std::size_t words_per_row_ = 0;

@@ -1,4 +1,4 @@
-// The connected parts of what neither water nor walls fill.
+// The connected parts of the space that neither water nor walls fill.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,13 @@ struct CellRun {
   bool operator==(const CellRun&) const = default;
 };
 
-/// Runs of cells that are not filled, and which part of the void each is of. Cells are joined through their sides.
+/// Runs of cells that are not filled, and the part of the void that each belongs to. Cells are joined through their
+/// sides.
 template <int Dim>
 class Voids {
  public:
   Voids() = default;
-  /// Of a grid of which `water` and `walls` fill cells.
+  /// In the grid, `water` and `walls` fill cells.
   Voids(const VoidGrid<Dim>& grid, const CellMarks& water, const CellMarks& walls);
 
   struct Part {
@@ -58,7 +59,7 @@ class Voids {
 
   std::vector<CellRun> runs_;
   std::vector<std::size_t> row_begin_;
-  std::vector<int> part_of_;  ///< by run; while runs are joined, one that it is joined with
+  std::vector<int> part_of_;  ///< by run; while runs are joined, another run of the same part
   std::vector<Part> parts_;
 };
 
