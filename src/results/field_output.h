@@ -1,4 +1,4 @@
-// The fluid's fields at one instant, as the case asks for them, in the order of the particles' ids; and the walls.
+// The fluid's fields at one instant, as the case selects them, in the order of the particles' ids; and the walls.
 #pragma once
 
 #include <string>

@@ -11,12 +11,12 @@
 namespace tailwater {
 namespace {
 
-/// Enough to play a run for 16 seconds without a jump.
+/// Enough frames to play a run for 16 seconds without a visible jump.
 constexpr double default_frames = 400.0;
-/// By default no more than every eighth step makes a frame, which takes 6 to 7 % of a step: less than 1 % of the run.
+/// By default at most every eighth step makes a frame, which takes 6 to 7 % of a step: less than 1 % of the run.
 constexpr std::int64_t default_least_steps = 8;
 
-/// From where it is drawn to where it is now, of each pose of the scene.
+/// The transform of each pose of the scene from the drawn to the present position.
 template <int Dim>
 std::vector<AffineMap<Dim>> poses_of(const Flow<Dim>& flow) {
   const std::vector<int> pose_of_wall = pose_of_walls(flow.walls.boundary);
@@ -39,7 +39,7 @@ FrameOutput<Dim>::FrameOutput(const CaseSpec& spec, const RunFolder& folder, con
 
 template <int Dim>
 void FrameOutput<Dim>::begin(const CaseSpec& spec, const Flow<Dim>& flow) {
-  // Walls of the flow are where they are now; a viewer moves them from where they are drawn.
+  // Walls of the flow are at their present place; a viewer moves them from where they are drawn.
   std::string scene;
   do_on_root(flow.setup.ranks, [&] { scene = scene_json<Dim>(spec, make_boundary<Dim>(spec)).dump() + "\n"; });
   series_.write_beside(scene_name, scene, flow.setup.ranks);

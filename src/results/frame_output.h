@@ -19,17 +19,17 @@ class FrameOutput {
   void begin(const CaseSpec& spec, const Flow<Dim>& flow);
   /// Writes a frame if it is due.
   void write_due(const Flow<Dim>& flow);
-  /// Writes a frame of this moment unless it is written.
+  /// Writes a frame of the present time unless one is written already.
   void write(const Flow<Dim>& flow);
 
-  /// How far the stream has come, for a checkpoint, and going on from it.
+  /// The progress of the stream, for a checkpoint, and its continuation from one.
   Json saved() const;
   void restore(const Json& saved, const Communicator& ranks);
 
  private:
   FrameSeries<Dim> series_;
   Schedule schedule_;
-  std::int64_t least_steps_;  ///< from one frame that was due to the next
+  std::int64_t least_steps_;  ///< minimum from one due frame to the next
   std::int64_t next_step_ = 0;
 };
 

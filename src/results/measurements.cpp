@@ -14,10 +14,10 @@
 namespace tailwater {
 namespace {
 
-/// Shifts that are tried between 0 and the largest, either way.
+/// Number of shifts that are tried between 0 and the largest, in each direction.
 constexpr int shifts_each_way = 100;
 
-/// The measured samples that a run up to `end` [s] can be compared with, whatever the shift.
+/// The measured samples that a run up to `end` [s] can be compared with, for any shift.
 TimeSeries within_run(const TimeSeries& series, double end) {
   TimeSeries measured{.file = series.file, .line = {}, .time = {}, .columns = {}};
   measured.columns.resize(series.columns.size());
@@ -29,7 +29,7 @@ TimeSeries within_run(const TimeSeries& series, double end) {
   return measured;
 }
 
-/// Between values at ascending places; outside them the nearest.
+/// Interpolates between values at ascending places; outside them the nearest value counts.
 double interpolated(const std::vector<double>& places, const std::vector<double>& values, double where) {
   const auto after = std::ranges::upper_bound(places, where);
   if (after == places.begin()) return values.front();
@@ -39,7 +39,7 @@ double interpolated(const std::vector<double>& places, const std::vector<double>
   return values[k - 1] + share * (values[k] - values[k - 1]);
 }
 
-/// Linear between places and between times.
+/// Interpolates linearly between places and between times.
 double at(const ProbeProfiles& profiles, double when, double where) {
   const auto later = static_cast<std::size_t>(std::ranges::upper_bound(profiles.time, when) - profiles.time.begin());
   const auto value = [&](std::size_t k) { return interpolated(profiles.x[k], profiles.value[k], where); };
@@ -50,13 +50,13 @@ double at(const ProbeProfiles& profiles, double when, double where) {
   return (1.0 - share) * value(later - 1) + share * value(later);
 }
 
-/// The time that a sample stands for; all that matters is how the samples compare.
+/// The weight of a sample in time; only the ratios of the weights matter.
 double weight_of(const std::vector<double>& time, std::size_t k) {
   if (time.size() == 1) return 1.0;
   return 0.5 * (time[std::min(k + 1, time.size() - 1)] - time[k == 0 ? 0 : k - 1]);
 }
 
-/// Of values whose distance off(k) from the measured ones counts as weight(k).
+/// The difference for values whose error off(k) has the weight weight(k).
 template <class Off, class Weight>
 Difference difference_of(std::size_t count, double scatter, const Off& off, const Weight& weight) {
   double weights = 0.0;
@@ -74,7 +74,7 @@ Difference difference_of(std::size_t count, double scatter, const Off& off, cons
   return {std::sqrt(squares / weights), sum / weights, inside / weights};
 }
 
-/// `end` [s] is the last time that was computed, `with(measured, shift)` gives the difference with a shift.
+/// `end` [s] is the last computed time; `with(measured, shift)` returns the difference with a shift.
 template <class With>
 MeasurementScore scored(const MeasurementTable& measurement, std::optional<double> end, const With& with) {
   MeasurementScore score;
@@ -84,7 +84,7 @@ MeasurementScore scored(const MeasurementTable& measurement, std::optional<doubl
   score.scatter = measurement.scatter;
   score.most_shift = measurement.shift;
   if (!end) return score;
-  // What a late curve shows at the end of the run cannot be known, so the largest shift is left out at the end.
+  // The end of a late curve is not yet computed, so the largest shift is left out at the end.
   const TimeSeries measured = within_run(measurement.series, *end - measurement.shift);
   score.samples = measured.time.size();
   if (measured.time.empty()) return score;

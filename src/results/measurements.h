@@ -1,5 +1,5 @@
-// How far what probes have written is from what laboratories have measured. Made from the tables of the probes, so a
-// run that goes on after a stop tells the same as one that was never stopped.
+// The differences between the output of probes and measurements of laboratories. They are made from the tables of the
+// probes, so a resumed run reports the same differences as one that was never stopped.
 #pragma once
 
 #include <filesystem>
@@ -17,19 +17,19 @@ struct Curve {
   std::vector<double> time;  ///< s, ascending
   std::vector<double> value;
 
-  /// Before the first sample its value, after the last one that.
+  /// Before the first sample the first value, after the last sample the last value.
   double at(double when) const;
 };
 
-/// Of computed values less measured ones, at the times and places of the measured ones. Each counts as the time that it
-/// stands for, half of that to its neighbours; those of profiles count alike.
+/// The difference of computed and measured values, at the times and places of the measured ones. A sample in time has
+/// the weight of half the time between its neighbours; those of profiles have equal weights.
 struct Difference {
   double rms = 0.0;
   double bias = 0.0;          ///< mean
-  double share_inside = 0.0;  ///< of the time in which they are within the scatter
+  double share_inside = 0.0;  ///< fraction of the time in which they are within the scatter
 };
 
-/// `shift` [s]: how much later than the measured curve the computed one is taken.
+/// `shift` [s]: delay at which the computed curve is taken, relative to the measured one.
 Difference difference(const Curve& measured, const Curve& computed, double shift, double scatter);
 
 struct MeasurementScore {
@@ -37,14 +37,14 @@ struct MeasurementScore {
   std::string column;
   std::string unit;
   std::string file;
-  std::size_t samples = 0;  ///< measured ones within the time of the run
-  double from = 0.0;        ///< s; the time of the first and the last of them
+  std::size_t samples = 0;  ///< measured samples within the time of the run
+  double from = 0.0;        ///< s; the time of the first and the last sample
   double to = 0.0;
-  double scatter = 0.0;  ///< 0: not known
+  double scatter = 0.0;  ///< 0: unknown
   Difference as_timed;
-  double most_shift = 0.0;  ///< s, that is allowed
-  double best_shift = 0.0;  ///< s, within that: where the rms is least; above 0 where the computed curve is late
-  Difference shifted;       ///< with that
+  double most_shift = 0.0;  ///< s; largest allowed shift
+  double best_shift = 0.0;  ///< s, within that: shift with the smallest rms; above 0 where the computed curve is late
+  Difference shifted;       ///< difference with that shift
 
   /// Whether the rms, with the best shift, is no more than the scatter.
   bool is_inside() const { return scatter > 0.0 && shifted.rms <= scatter; }
@@ -52,12 +52,12 @@ struct MeasurementScore {
   std::string words() const;
 };
 
-/// Of what was measured and what was computed; of what does not reach a measured time, without samples.
+/// The score of a measurement; without samples if the computed curve does not reach a measured time.
 MeasurementScore score(const MeasurementTable& measurement, const Curve& computed);
 MeasurementScore score(const MeasurementTable& measurement, const ProbeProfiles& computed);
 
-/// Of each measurement, in the order of the case, from what is in the folder of a run. Throws IoError if a table cannot
-/// be read.
+/// The score of each measurement, in the order of the case, from the files in the folder of a run. Throws IoError if a
+/// table cannot be read.
 std::vector<MeasurementScore> measurement_scores(const CaseSpec& spec, const std::filesystem::path& run);
 
 /// The block "measurements" of the summary.

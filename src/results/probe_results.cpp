@@ -58,7 +58,7 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
   return quantity(column.largest_of_last, at(last_time));
 }
 
-/// Four digits, as one writes them.
+/// Four digits, without an exponent for sizes from 1e-4 to 1e7.
 std::string number_in_words(double value) {
   const double size = std::abs(value);
   if (size != 0.0 && (size < 1e-4 || size >= 1e7)) return fmt::format("{:.3e}", value);

@@ -1,6 +1,5 @@
-// What the probes of a run have found, in a few numbers and in words, as an engineer asks for it: "upstream: 0.2890 m
-// (mean of the second half)". They are made from the tables that the probes have written, so a run that goes on after a
-// stop tells the same as one that was never stopped.
+// The results of the probes of a run, in a few numbers and in words: "upstream: 0.2890 m (mean of the second half)".
+// They are made from the tables of the probes, so a resumed run reports the same results as one that was never stopped.
 #pragma once
 
 #include <optional>
@@ -15,7 +14,7 @@ namespace tailwater {
 
 struct Quantity {
   std::string name;   ///< "depth", "force x"
-  std::string label;  ///< what stands before the number in words; empty for what the probe is about
+  std::string label;  ///< text before the number in words; empty for the main quantity of the probe
   double value = 0.0;
   std::optional<double> to = {};  ///< the upper end, if it is a range
   std::string unit;
@@ -31,8 +30,8 @@ struct ProbeResult {
   std::string words() const;
 };
 
-/// Of each probe that has taken a reading, in the order of the case, after a run up to `time` [s]. Throws IoError if a
-/// table cannot be read.
+/// The result of each probe that has taken a reading, in the order of the case, after a run up to `time` [s]. Throws
+/// IoError if a table cannot be read.
 std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time);
 
 /// The block "results" of the summary: by probe its type, quantities and words.

@@ -47,7 +47,7 @@ void Progress::show(double time, std::int64_t step, const StepReport& report, co
 
 bool ProgressLine::is_due(double share) {
   const auto now = Clock::now();
-  const bool is_end = last_plain_share_ < 0.0 || share >= 1.0;  // either end
+  const bool is_end = last_plain_share_ < 0.0 || share >= 1.0;  // the first line or the last
   plain_is_due_ = is_end || now - last_plain_ > plain_interval || share - last_plain_share_ >= plain_share;
   live_is_due_ = is_on_terminal_ && (is_end || now - last_live_ > live_interval);
   return plain_is_due_ || live_is_due_;

@@ -11,10 +11,10 @@
 
 namespace tailwater {
 
-/// When a line is due, and where it goes.
+/// Decides when a line is due, and writes the line.
 class ProgressLine {
  public:
-  /// Shows `make_line()` if a new line is due, now that `share` of the work is done.
+  /// Shows `make_line()` if a new line is due, with the fraction `share` of the work done.
   template <class MakeLine>
   void show(double share, const MakeLine& make_line) {
     if (is_due(share)) put(share, make_line());
@@ -36,7 +36,7 @@ class ProgressLine {
 
 class Progress {
  public:
-  /// `elapsed` [s]: what earlier runs, which this one goes on with, have taken.
+  /// `elapsed` [s]: time of the earlier runs that this one continues.
   explicit Progress(double end_time, double elapsed = 0.0);
 
   /// Shows the state after a step if a new line is due.
@@ -50,8 +50,8 @@ class Progress {
   ProgressLine line_;
 };
 
-/// The line after `elapsed` seconds of work. The most important comes first, because a narrow terminal cuts off the
-/// end.
+/// The line after `elapsed` seconds of computing. The most important number comes first, because a narrow terminal cuts
+/// off the end.
 std::string progress_line(double time, double end_time, double elapsed, std::int64_t step, const StepReport& report,
                           const FlowMeasures& measures);
 

@@ -1,4 +1,4 @@
-// Where a result comes from: program, commit, compiler, libraries, machine.
+// The origin of a result: program, commit, compiler, libraries, machine.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// How evenly a run is shared among its ranks, and what they exchange: ranks.csv, with one line each time particles are
-// handed over, and a block of summary.json.
+// The load balance of a run among its ranks, and their messages: ranks.csv, with one line for each repartition of the
+// particles, and a block of summary.json.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ namespace tailwater {
 
 class RankLog {
  public:
-  /// Starts the file on the root, or goes on with `kept` bytes of an earlier one. Throws IoError, on all ranks.
+  /// Starts the file on the root, or continues after `kept` bytes of an earlier one. Throws IoError, on all ranks.
   RankLog(const Communicator& ranks, const std::filesystem::path& path, std::optional<std::int64_t> kept = {});
 
   /// Logs the result of a repartition and the traffic since the last call. Collective. Throws IoError, on all ranks.
@@ -49,7 +49,7 @@ class RankLog {
   std::int64_t lines_ = 0;
   std::int64_t cuts_ = 0;
   std::int64_t moved_ = 0;
-  double ghosts_sum_ = 0.0;  ///< of all ranks
+  double ghosts_sum_ = 0.0;  ///< sum over all ranks
   double imbalance_sum_ = 0.0;
   double imbalance_largest_ = 0.0;  ///< without the first line, which is that of the start
 };

@@ -12,14 +12,15 @@
 namespace tailwater {
 namespace {
 
-/// dx; lifts of all water by less are not seen.
+/// dx; smaller lifts of all water are not detected.
 constexpr double resolved_lift = 0.05;
 
-/// Share of the work of open ends up to which a rise may be the error of that work. An inlet's pressure is known to
-/// (dx/depth)^2 of it and some per cent more where the flow turns: 5 % for a box that fills through its floor.
+/// Fraction of the work of open ends up to which a rise may be the error of that work. The pressure of an inlet has a
+/// relative error of (dx/depth)^2, and some per cent more where the flow turns: 5 % for a box that fills through its
+/// floor.
 constexpr double doubt_of_ends = 0.1;
 
-/// What has grown by so many times since it was warned of is told again.
+/// Factor of growth since its warning above which an error is reported again.
 constexpr double worth_telling = 1.5;
 
 }  // namespace
@@ -41,8 +42,8 @@ ResultLimits::ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow)
 void ResultLimits::check(double time, double energy_rise, double work_of_ends, const FlowMeasures& measures) {
   const double density_error = std::abs(measures.density_error_mean);
   check(volume_, time, density_error, 0.0, density_error);
-  // The work of what is prescribed at open ends is an estimate, whose error grows with the water that passes. A case
-  // that fills has at the start hardly any energy to compare with.
+  // The work of the prescribed flow at open ends is an estimate, whose error grows with the water that passes. A case
+  // that fills has hardly any energy at the start as a reference.
   const double volume = volume_at_start_ + measures.arrived.volume;
   const double brought = volume * potential_scale_ + std::abs(work_of_ends);
   const double at_hand = brought + measures.kinetic_energy;

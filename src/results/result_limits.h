@@ -15,40 +15,39 @@ class ResultLimits {
   template <int Dim>
   ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow);
 
-  /// Call after every step; `energy_rise` [J] is the largest rise so far, `work_of_ends` [J] what the pressure at open
-  /// ends has done. Warns when an error passes its limit. Of a
-  /// rise of energy it does not warn as long as that would lift the water's surface by less than a tenth of dx: so well
-  /// a lattice that was cut by walls knows where it comes to rest. Throws SolverError, which names the key, beyond a
-  /// limit that ends the run.
+  /// Call after every step; `energy_rise` [J] is the largest rise so far, `work_of_ends` [J] the work of the pressure
+  /// at open ends. Warns when an error passes its limit. A rise of energy causes no warning as long as it would lift
+  /// the water's surface by less than a tenth of dx, because a lattice cut by walls determines its state of rest no
+  /// better. Throws SolverError, which names the key, beyond a limit that ends the run.
   void check(double time, double energy_rise, double work_of_ends, const FlowMeasures& measures);
-  /// Warns again of what has grown since it was warned of. Call at the end of the run.
+  /// Warns again of errors that have grown since their warning. Call at the end of the run.
   void warn_of_largest();
 
-  /// What has been warned of and what was largest, for a checkpoint, and from one.
+  /// The warned errors and the largest ones, for a checkpoint, and from one.
   Json saved() const;
   void restore(const Json& saved);
 
  private:
   struct Limit {
     const char* what;
-    const char* most;  ///< the same of the largest
+    const char* most;  ///< text for the largest error
     const char* keys;  ///< the keys are limits.KEYS_warning and limits.KEYS_stop
     double warning;
     double stop;
-    double told = 0.0;  ///< the growth when it was warned of
+    double told = 0.0;  ///< growth at its warning
     double largest = 0.0;
     double time_of_largest = 0.0;  ///< s
   };
 
-  /// Errors up to `harmless` are not warned of. `growth` is what is told of the largest.
+  /// Errors up to `harmless` cause no warning. `growth` is the reported size of the largest error.
   static void check(Limit& limit, double time, double error, double harmless, double growth);
 
   Limit energy_;
   Limit volume_;
   double volume_at_start_;   ///< m^Dim
   double kinetic_at_start_;  ///< J
-  double potential_scale_;   ///< J/m^Dim; of water L/2 above the ground
-  double unresolved_;        ///< J/m^Dim; of water lifted by dx/20, which lifts its surface by dx/10
+  double potential_scale_;   ///< J/m^Dim; energy of water L/2 above the ground
+  double unresolved_;        ///< J/m^Dim; energy of water lifted by dx/20, which lifts its surface by dx/10
 };
 
 }  // namespace tailwater

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 double number_of(const Json& block, const char* key) { return block.at(key).get<double>(); }
 std::string text_of_key(const Json& block, const char* key) { return printable(block.at(key).get<std::string>()); }
 
-/// Behind a unit: in 2D all is per metre of width. Summaries of earlier programs do not tell the dimension.
+/// Text behind a unit: in 2D all is per metre of width. Summaries of earlier programs do not contain the dimension.
 std::string_view per_metre(const Json& summary) { return summary.value("dimension", 3) == 2 ? " per m" : ""; }
 
 std::string water_line(const Json& summary) {
@@ -70,7 +70,7 @@ std::string air_line(const Json& air, std::string_view per_metre) {
   return line;
 }
 
-/// Seconds until a run that goes on is done, from how fast it went since it began; nothing if that is not known.
+/// Seconds until a running run is done, from its speed since its start; null if that is unknown.
 Json time_left(const fs::path& run, const Json& summary, double time, double end) {
   std::error_code error;
   const auto began = fs::last_write_time(run / summary_name, error);
@@ -81,7 +81,7 @@ Json time_left(const fs::path& run, const Json& summary, double time, double end
   return std::max(0.0, (end - time) / advance * gone.count());
 }
 
-/// What there is to say of a run that goes on, whose summary is of its start.
+/// The digest of a running run, whose summary is that of its start.
 std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::string, double>& step) {
   const auto value = [&](const char* name) {
     const auto found = step.find(name);
@@ -113,8 +113,7 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
   return lines;
 }
 
-/// How far a run that goes on is from what was measured, by the tables that it has written; nothing if they or the case
-/// cannot be read.
+/// The scores of a running run, from the tables that it has written; empty if these or the case cannot be read.
 Json scores_so_far(const fs::path& run) {
   try {
     return json_of(measurement_scores(read_effective_case(run / effective_case_name), run));
@@ -123,14 +122,14 @@ Json scores_so_far(const fs::path& run) {
   }
 }
 
-/// As viewers call it; a summary that says "running" where nobody is at work is of a run that was killed.
+/// The state as viewers name it. A summary with "running" but without a running process is that of a killed run.
 std::string state_of(const std::string& status, bool is_at_work) {
   if (is_at_work) return status == "running" ? "running" : "waiting";  // it has not begun its steps yet
   if (status == "done" || status == "failed") return status;
   return status.empty() ? "waiting" : "stopped";
 }
 
-/// What may be asked of a run: one that is done goes on only with a later end.
+/// The controls of a run: a run that is done can be resumed only with a later end.
 Json controls_of(const std::string& state, bool is_at_work) {
   if (is_at_work) return Json::array({"stop", "checkpoint"});
   return state == "done" ? Json::array() : Json::array({"resume"});
@@ -173,7 +172,7 @@ std::map<std::string, double> last_step(const fs::path& run) {
   const std::streamoff size = file.tellg();
   file.seekg(std::max<std::streamoff>(static_cast<std::streamoff>(head.size()), size - enough));
   const std::string tail(std::istreambuf_iterator<char>(file), {});
-  const std::vector<std::string_view> lines = split(tail, '\n');  // what is after the last end is no whole line
+  const std::vector<std::string_view> lines = split(tail, '\n');  // text after the last line end is no whole line
   if (lines.size() < 3) return {};
   const std::vector<std::string_view> names = split(head, ',');
   const std::vector<std::string_view> fields = split(lines[lines.size() - 2], ',');

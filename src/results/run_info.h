@@ -1,4 +1,4 @@
-// What is known of a run from its folder, whether it goes on or has ended.
+// Information about a run from its folder, whether it is running or has ended.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace tailwater {
 
-/// A line of a digest: "cost" and what there is to say about it.
+/// A line of a digest: "cost" and its text.
 struct InfoLine {
   std::string label;
   std::string text;
@@ -22,13 +22,13 @@ std::map<std::string, double> last_step(const std::filesystem::path& run);
 /// The summary that a run has left in its folder. Throws IoError.
 Json read_summary(const std::filesystem::path& run);
 
-/// What an engineer wants to know before the numbers of a run are used. Throws Json::exception if the
-/// summary is not of this version.
+/// The facts that a user needs before the numbers of a run are used. Throws Json::exception if the summary is not of
+/// this version.
 std::vector<InfoLine> summary_digest(const Json& summary);
 
-/// How a run is, for viewers: {state, time, end, progress, time_left, particles, lines, warnings, measurements,
-/// controls}
-/// (docs/reference/view.md). What cannot be read is left out: never throws for what is in the folder.
+/// The state of a run, for viewers: {state, time, end, progress, time_left, particles, lines, warnings, measurements,
+/// controls} (docs/reference/view.md). Unreadable parts are left out: the content of the folder never causes an
+/// exception.
 Json run_info(const std::filesystem::path& run);
 
 }  // namespace tailwater

@@ -1,4 +1,4 @@
-// When an output is due that comes at whole multiples of an interval, at the first step at or after each.
+// The times of an output at whole multiples of an interval: it is due at the first step at or after each.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ class Schedule {
   explicit Schedule(double interval) : interval_(interval) {}
 
   bool is_due(double time) const { return time >= next_; }
-  /// At the time of an output, when the one that was due is done.
+  /// Sets the next time, at the time of a completed output.
   void set_next(double time) { next_ = (std::floor(time / interval_) + 1.0) * interval_; }
 
   /// s; of the last output, or -1.

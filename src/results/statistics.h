@@ -20,13 +20,13 @@ class RunStatistics {
 
   /// J; largest rise of the energy, open ends and walls accounted for.
   double energy_rise() const { return energy_rise_; }
-  /// J; of the pressure at open ends.
+  /// J; work of the pressure at open ends.
   double work_of_ends() const { return brought_by_ends_; }
 
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
   Json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;
 
-  /// All of it is saved in a checkpoint.
+  /// A checkpoint saves all of it.
   TAILWATER_SAVED(friend, RunStatistics, steps_, passes_, iterations_, dt_sum_, dt_least_, dt_largest_,
                   divergence_reports_, divergence_old_squares_, divergence_new_squares_, divergence_moved_squares_,
                   density_error_sum_, density_error_squares_, energy_start_, energy_end_, energy_out_, energy_in_,

@@ -13,7 +13,7 @@ namespace tailwater {
 
 class StepLog {
  public:
-  /// With columns for the measures' `of_parts`. `kept`: bytes of the file of an earlier run to go on with
+  /// Has columns for the measures' `of_parts`. `kept`: bytes of the file of an earlier run that this run continues
   /// (io/csv_writer.h).
   explicit StepLog(const std::filesystem::path& path, const FlowMeasures& measures,
                    std::optional<std::int64_t> kept = {});

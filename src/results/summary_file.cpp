@@ -11,7 +11,7 @@
 namespace tailwater {
 namespace {
 
-/// Not an object if the file is none.
+/// The result is no object if the file does not contain one.
 Json parse_summary(const std::filesystem::path& path) {
   std::ifstream file = open_input_file(path);
   return Json::parse(file, nullptr, false);
@@ -36,7 +36,7 @@ void mark_as_failed(const std::filesystem::path& summary, ExitCode code, const s
   try {
     write_last_file(summary, json.dump(2) + "\n");
   } catch (const IoError&) {
-    // What went wrong first is what the user is told.
+    // The user must see the first error.
   }
 }
 

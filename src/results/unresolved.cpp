@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-/// dx; a surface that moves less is taken to be at rest: the water's edge on a beach moves by 0.32 dx before any wave.
+/// dx; a surface that moves less is considered at rest: the water's edge on a beach moves by 0.32 dx before any wave.
 constexpr double least_motion = 0.4;
 
 /// Probes with a height each, of which the largest is reported.

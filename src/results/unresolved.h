@@ -1,4 +1,4 @@
-// Warnings of a run about water surfaces that its particles have not resolved, from what its probes have read.
+// Warnings about water surfaces that the particles of a run have not resolved, from the readings of its probes.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace tailwater {
 
-/// A line for all gauges whose surface moved by less than the lowest resolved wave in a case with wave makers, and one
-/// for all gauges at which the water was never deeper than that. Both are for probes of depth; waves also for those of
-/// run-up. Throws IoError if a table cannot be read. By the root.
+/// One line for all gauges whose surface moved by less than the lowest resolved wave in a case with wave makers, and
+/// one for all gauges at which the water was never deeper than that. Both cover probes of depth; the line about waves
+/// also covers those of run-up. Throws IoError if a table cannot be read. Call on the root.
 std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder);
 
 }  // namespace tailwater

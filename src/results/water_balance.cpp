@@ -16,10 +16,11 @@
 namespace tailwater {
 namespace {
 
-/// A wall that a body falling from a place meets first.
+/// The first wall below a falling body.
 struct Landing {
-  double share = std::numeric_limits<double>::infinity();  ///< of the fall to where it meets the wall
-  double height = -1.0;                                    ///< m; of the place above it: positive if it meets the front
+  double share = std::numeric_limits<double>::infinity();  ///< fraction of the fall at which it meets the wall
+  /// m; height of the place above it: positive if it meets the front
+  double height = -1.0;
 };
 
 template <int Dim>
@@ -27,7 +28,7 @@ Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<D
   const Vec<Dim> lowest = x + fall;
   Landing first;
   const auto meets = [&](const WallFace<Dim>& face) {
-    // Of the two faces of a plate the one that looks at x counts.
+    // Only the face of a plate that faces x counts.
     if (face.height(x) <= 0.0 && boundary.walls[face.wall].is_plate) return;
     const double share = face.height(x) / (face.height(x) - face.height(lowest));
     if (share < first.share) first = {share, face.height(x)};
@@ -45,8 +46,8 @@ Landing landing_of(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<D
   return first;
 }
 
-/// The place and those of its images from which `fall` may lead through the domain: what leaves a periodic domain on
-/// one side goes on at the other.
+/// The place and those of its images from which `fall` may lead through the domain: a body that leaves a periodic
+/// domain on one side continues at the other.
 template <int Dim>
 std::vector<Vec<Dim>> images_along(const PeriodicDomain<Dim>& domain, const Vec<Dim>& x, const Vec<Dim>& fall) {
   std::vector<Vec<Dim>> images{x};

@@ -1,5 +1,5 @@
-// The water balance of a run: start + in = inside + outside + out. What is outside has left the walls over a rim; what
-// is out has left through an open end, and what is in has come through one.
+// The water balance of a run: start + in = inside + outside + out. Outside is water that has left the walls over a rim;
+// out is water that has left through an open end, and in is water that has come through one.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ namespace tailwater {
 /// "50 particles (0.5 m^3)".
 std::string text_of(const WaterAmount& water);
 
-/// All water that is computed, over all ranks; its energy is not counted, here and below. Collective.
+/// All water that is computed, over all ranks; energies are not counted, here and below. Collective.
 template <int Dim>
 WaterAmount water_in(const Flow<Dim>& flow);
 
-/// The water that has left the walls for good, over all ranks: it is beyond the box around walls and open ends, and
-/// straight below it along gravity there is no wall that would catch it, or it has fallen below all walls already and
-/// is no longer computed. Spray above an open tank is not lost. Nor does water on its way out through an open end
-/// belong to it. Collective.
+/// The water that has left the walls for good, over all ranks. Such water is beyond the box around walls and open ends,
+/// and no wall straight below it, along gravity, would catch it; or it has fallen below all walls already and is no
+/// longer computed. Spray above an open tank is not lost, and neither is water on its way out through an open end.
+/// Collective.
 template <int Dim>
 WaterAmount water_outside(const Flow<Dim>& flow);
 

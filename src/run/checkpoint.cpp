@@ -19,12 +19,12 @@
 namespace tailwater {
 namespace {
 
-/// Rows in a rank's table of walls are found anew, from ids.
+/// Rows in a rank's table of walls are not saved, because they follow from the ids.
 constexpr const char* not_saved = nullptr;
 constexpr std::array particle_fields{"position", "velocity", "pressure",        "second_pressure", "volume",
                                      "kind",     not_saved,  "layer_viscosity", "wall_distance",   "id"};
 
-/// Bytes for all that is not a field of particles.
+/// Bytes for all data except the fields of particles.
 constexpr std::size_t room_beside_fields = std::size_t{1} << 20;
 
 /// How an HDF5 file holds a value: as `columns` numbers.
@@ -77,14 +77,14 @@ void for_each_field(AnyParticles& particles, Body&& body) {
   });
 }
 
-/// Shares of `count` particles that are as equal as can be.
+/// Divides `count` particles into parts that are as equal as possible.
 std::vector<std::int64_t> equal_shares(std::int64_t count, int ranks) {
   std::vector<std::int64_t> shares;
   for (int q = 0; q < ranks; ++q) shares.push_back(count * (q + 1) / ranks - count * q / ranks);
   return shares;
 }
 
-/// The numbers of all ranks; for another number of ranks those of the first for each.
+/// The numbers of all ranks; if the number of ranks differs, each gets those of the first rank.
 std::vector<double> share_rank_log(const std::vector<double>& saved, std::size_t writers, std::size_t readers) {
   if (readers == writers) return saved;
   const auto first_end = saved.begin() + static_cast<std::ptrdiff_t>(saved.size() / writers);
@@ -93,7 +93,7 @@ std::vector<double> share_rank_log(const std::vector<double>& saved, std::size_t
   return shares;
 }
 
-/// A checkpoint whose checksum is right and whose parts do not fit together was written by something else.
+/// Reports a checkpoint with a right checksum but inconsistent parts as one that another program wrote.
 template <class Work>
 auto expecting_a_checkpoint(const std::filesystem::path& path, Work&& work) {
   const auto refuse = [&](const std::exception& error) {
@@ -110,7 +110,7 @@ auto expecting_a_checkpoint(const std::filesystem::path& path, Work&& work) {
   throw;
 }
 
-/// What every value of a field of particles is, in a run that was going well.
+/// The condition for every value of a field of particles in a sound run.
 template <class Value>
 bool is_sound(std::string_view name, const std::vector<Value>& field) {
   return std::all_of(field.begin(), field.end(), [&](const Value& value) {
@@ -141,11 +141,11 @@ void require_sound_numbers(const Checkpoint<Dim>& checkpoint) {
   require_fit(std::isfinite(checkpoint.reference_step) && checkpoint.reference_step >= 0.0, "run");
 }
 
-/// What the root reads and deals out to the ranks. Empty on the others.
+/// The data that the root reads and distributes to the ranks. Empty on the others.
 struct Dealt {
   std::int64_t writers = 0;          ///< ranks that wrote it
-  std::vector<std::int64_t> shares;  ///< of the particles, by rank
-  std::vector<std::string> cuts;     ///< by rank; empty ones for another number of ranks than that of the writers
+  std::vector<std::int64_t> shares;  ///< number of particles by rank
+  std::vector<std::string> cuts;     ///< by rank; empty if the number of ranks differs from that of the writers
   std::vector<double> rank_logs;
 };
 
@@ -174,7 +174,7 @@ Dealt deal(const Hdf5Reader& image, std::size_t ranks) {
   return dealt;
 }
 
-/// An array of the checkpoint whose values are those of a run that was going well.
+/// An array of the checkpoint, whose values must be those of a sound run.
 template <class Value>
 std::vector<Value> sound_values(const Hdf5Reader& image, const char* name) {
   std::vector<Value> values = get<Value>(image, name);
@@ -191,7 +191,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& 
       ranks.all_gather(static_cast<std::int64_t>(checkpoint.flow.state.particles.owned));
   const std::vector<std::string> cuts = ranks.gather(checkpoint.cuts);
   const std::vector<double> rank_log = ranks.gather(checkpoint.rank_log);
-  const Particles<Dim>& particles = checkpoint.flow.state.particles;  // without ghosts: lists are forgotten
+  const Particles<Dim>& particles = checkpoint.flow.state.particles;  // without ghosts: lists are discarded
   std::size_t bytes = room_beside_fields;
   const auto count = static_cast<std::size_t>(std::accumulate(owned.begin(), owned.end(), std::int64_t{0}));
   for_each_field(particles,

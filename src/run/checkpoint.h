@@ -1,4 +1,4 @@
-// A checkpoint: all that a run needs to go on bit for bit, and the file that holds it.
+// A checkpoint: all data that a run needs to resume with bit-identical results, and their file.
 #pragma once
 
 #include <filesystem>
@@ -13,30 +13,30 @@
 
 namespace tailwater {
 
-/// The version of the contents of a checkpoint. It grows when they change.
+/// Version of the contents of a checkpoint. It increases when they change.
 inline constexpr int checkpoint_format = 19;
 
-/// A moment at which particles have just been repartitioned and sorted, so that lists are forgotten and the
+/// The state of a run just after particles have been repartitioned and sorted. The lists are discarded then, so the
 /// state is complete.
 template <int Dim>
 struct Checkpoint {
-  SavedFlow<Dim> flow;               ///< of this rank
-  Json output;                       ///< how far the run's output has come (RunOutput::saved); on all ranks
-  std::vector<double> probe_memory;  ///< of the probes (ProbeSet::memory); on all ranks
-  std::vector<double> rank_log;      ///< of this rank (RankLog::saved)
+  SavedFlow<Dim> flow;               ///< flow of this rank
+  Json output;                       ///< progress of the run's output (RunOutput::saved); on all ranks
+  std::vector<double> probe_memory;  ///< state of the probes (ProbeSet::memory); on all ranks
+  std::vector<double> rank_log;      ///< sums of this rank (RankLog::saved)
   double reference_step = 0.0;       ///< s (StepGuard); the same on all ranks
-  std::string cuts;                  ///< of this rank (SpaceCuts::bytes); empty if space must be cut anew
+  std::string cuts;                  ///< of this rank (SpaceCuts::bytes); empty if space must be divided anew
   bool is_repartitioned = true;      ///< false where it was written by another number of ranks
 };
 
-/// Writes the checkpoint of all ranks as one file, which is on the disk when this returns. `case_text` is the effective
-/// case. Collective; throws IoError, on all ranks.
+/// Writes the checkpoint of all ranks as one file, which is on the disk when this function returns. `case_text` is the
+/// effective case. Collective; throws IoError, on all ranks.
 template <int Dim>
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint<Dim>& checkpoint,
                       const std::string& case_text, const Communicator& ranks);
 
-/// The checkpoint in a file that the root has read; `file` counts there only. Another number of ranks than wrote it
-/// gets equal shares of the particles. Collective; throws IoError, on all ranks.
+/// The checkpoint in a file that the root has read; `file` counts there only. If the number of ranks has changed, each
+/// gets an equal part of the particles. Collective; throws IoError, on all ranks.
 template <int Dim>
 Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& ranks);
 

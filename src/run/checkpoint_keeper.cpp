@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 /// The older one is used when the newer is damaged.
 constexpr std::size_t kept_files = 2;
 
-/// What a run that was killed has left half-written.
+/// Removes half-written files of a killed run.
 void remove_parts(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {

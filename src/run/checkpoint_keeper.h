@@ -1,5 +1,5 @@
-// Keeps the last moment from which a run can go on, and writes it as a checkpoint when that is due or asked for. So a
-// checkpoint is written at once, whenever it is wanted, and a run that goes on from it repeats the last few steps.
+// Keeps the last state from which a run can resume, and writes it as a checkpoint when that is due or requested. A
+// requested checkpoint is therefore written at once, and a run that resumes from it repeats the last few steps.
 #pragma once
 
 #include <chrono>
@@ -19,8 +19,8 @@ class CheckpointKeeper {
   /// Borrows the folder.
   CheckpointKeeper(const CaseSpec& spec, const RunFolder& folder, const Communicator& ranks);
 
-  /// The run goes on from the checkpoint of this step, and every later one in the folder is of no use: it is removed.
-  /// Collective; throws IoError, on all ranks.
+  /// Prepares the folder for a run that resumes from the checkpoint of this step: removes every later one, which is of
+  /// no use. Collective; throws IoError, on all ranks.
   void go_on_from(std::int64_t step);
 
   /// Call right after particles were repartitioned and sorted.
@@ -29,8 +29,8 @@ class CheckpointKeeper {
   /// Whether the interval of the case has passed since the last checkpoint was written. The root's clock counts.
   bool is_due() const;
 
-  /// Writes what `remember` was given last, unless it is written. Keeps the last two files. Returns false if nothing
-  /// was remembered yet. Collective; throws IoError, on all ranks.
+  /// Writes the state of the last call of `remember`, unless it is written already. Keeps the last two files. Returns
+  /// false if there is no such state yet. Collective; throws IoError, on all ranks.
   bool write(const Flow<Dim>& flow, const RunOutput<Dim>& output);
 
  private:

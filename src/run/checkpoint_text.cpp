@@ -63,7 +63,7 @@ BodyState<Dim> body_of(const Json& json) {
 
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
-  // A member that is new in State does not compile here until it is saved.
+  // A new member of State does not compile here until it is saved.
   const auto& [time, step, particles, wall_velocity, motion, approach, energy_rise, density_share] =
       checkpoint.flow.state;
   Json json{{"time", time},

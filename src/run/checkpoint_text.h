@@ -1,4 +1,4 @@
-// What a checkpoint tells as text (JSON): everything that is the same on all ranks and not an array of numbers.
+// The text (JSON) of a checkpoint: all data that are the same on all ranks, except arrays of numbers.
 #pragma once
 
 #include <string>

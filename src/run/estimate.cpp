@@ -21,15 +21,15 @@
 namespace tailwater {
 namespace {
 
-/// Without the first step, which builds lists and patterns and has no pressure to start from.
+/// The first step does not count: it builds lists and patterns and has no pressure to start from.
 constexpr int trial_steps = 3;
 
-/// Most particles in the tank whose steps stand for those of a case that is too large to try. A small case costs more
-/// per particle, so its tank is as small.
+/// Maximum number of particles in the tank that replaces a case that is too large to try. A small case costs more per
+/// particle, so its tank is as small.
 constexpr double most_in_tank = 1e4;
 constexpr double least_in_tank = 100.0;
 
-/// Of the water that there is in the mean: with less than this at the start its steps tell nothing about the run's.
+/// Minimum fraction of the mean amount of water at the start. With less the trial steps do not represent the run.
 constexpr double share_to_try = 0.5;
 
 /// At a millisecond per step, which is fast, this many take twelve days.
@@ -38,8 +38,8 @@ constexpr double most_steps = 1e9;
 /// bytes; memory of a run without any particle, libraries included
 constexpr double program_memory = 1.1e8;
 
-/// s of CPU time, which other programs do not lengthen as they do the time by the clock; for one step of the flow,
-/// after the first
+/// s of CPU time, which, unlike elapsed time, does not depend on other programs; for one step of the flow after the
+/// first.
 template <int Dim>
 double time_of_a_step(Flow<Dim>& flow, double end) {
   sort_particles(flow);
@@ -91,16 +91,17 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   constexpr double number = sizeof(double);
   constexpr double index = 4.0;
   constexpr double single = sizeof(float);
-  // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like;
-  // three times, for the state before the step and the solver's vectors, and for the checkpoint in memory and its file.
+  // Position, velocity, their predicted and old values, force and shift; pressure, volume, viscosity and the like. They
+  // count three times, for the state before the step and the solver's vectors, and for the checkpoint in memory and its
+  // file.
   constexpr double fields = 3.0 * (6 * Dim + 10) * number;
-  // Per pair: the neighbour's index, which is the matrix's column too, and the matrix's weight.
+  // Per pair: the neighbour's index, which is also the matrix's column, and the matrix's weight.
   constexpr double pair = index + single;
-  // Rows of dummies hold the fluid's half of their neighbourhood.
+  // Rows of dummies contain only the fluid half of their neighbourhood.
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
-  // The solver has vectors of its own, and memory has holes. The peak in summary.json after some steps, less that of a
-  // run of 200 particles (51 MB), is 1.20 times the arrays for cases/zhou1999 at dx = 0.003 m with the implicit
-  // integrator (130 MB; explicit 127). Walls that stay dry take less: it is 0.95 times the arrays for
+  // The solver has vectors of its own, and memory is fragmented. The peak in summary.json after some steps, less that
+  // of a run of 200 particles (51 MB), is 1.20 times the arrays for cases/zhou1999 at dx = 0.003 m with the implicit
+  // integrator (130 MB; explicit 127). Walls that stay dry take less: the peak is 0.95 times the arrays for
   // benchmarks/dam_break_3d.toml at 0.00969 m, where a third of the particles are of walls (1.59 GB).
   constexpr double slack = 1.2;
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
@@ -108,7 +109,7 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
 
 namespace {
 
-/// What to look at first in a case with a mesh, which may be drawn in another unit.
+/// A hint for a case with a mesh, which may be drawn in another unit.
 template <int Dim>
 Clause length_of_longest_mesh(const Boundary<Dim>& boundary) {
   Clause hint;
@@ -155,7 +156,7 @@ Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, doubl
 
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
   const double largest_step = rule.largest(0.0, 0.0);
-  // Not a quotient, which may overflow for a mistyped end time.
+  // No quotient is used, since it may overflow for a mistyped end time.
   if (spec.time.end > most_steps * largest_step) {
     throw CaseError(
         {"{} = {:g} is out of reach: steps of at most {:.3g} s make more than {:g} of them",

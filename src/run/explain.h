@@ -1,4 +1,4 @@
-// What a case is, in a few sentences that an engineer can check against what was meant.
+// A summary of a case in a few sentences, with which an engineer can check the case.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace tailwater {
 
-/// Of the water, the walls and what moves, the open ends, the measurements, the method, and what the run takes.
+/// Sentences about the water, the walls and moving parts, the open ends, the measurements, the method and the cost.
 std::vector<std::string> explain_case(const CaseSpec& spec, const RunEstimate& estimate);
 
 }  // namespace tailwater

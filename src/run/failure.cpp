@@ -23,7 +23,7 @@ std::string describe_particle(const Particles<Dim>& particles, std::size_t i) {
                      place<Dim>(particles.velocity[i]), particles.pressure[i]);
 }
 
-/// Call where the flow has lists; a step that is refused before it has looked for neighbours has none.
+/// Call where the flow has lists; a step that is refused before its neighbour search has none.
 template <int Dim>
 void list_neighbours(const Flow<Dim>& flow, const Particles<Dim>& last_good, std::size_t i, std::string& report) {
   auto out = std::back_inserter(report);

@@ -1,4 +1,4 @@
-// What a failed run leaves behind: the particle that went wrong, its surroundings, and the last good fields.
+// The files of a failed run: a report of the failed particle and its surroundings, and the last good fields.
 #pragma once
 
 #include <optional>

@@ -14,19 +14,19 @@ namespace tailwater {
 template <int Dim>
 class FolderOutput final : public RunObserver<Dim> {
  public:
-  /// Makes the folder and observes the simulation, or goes on from a checkpoint, whose state and cuts the simulation
-  /// takes. Borrows all but the checkpoint. Throws as RunOutput does.
+  /// Makes the folder and observes the simulation, or resumes from a checkpoint, whose state and cuts the simulation
+  /// takes. Borrows all but the checkpoint. Throws the exceptions of RunOutput.
   FolderOutput(const CaseSpec& spec, const RunOptions& options, Simulation<Dim>& simulation,
                std::optional<Checkpoint<Dim>> checkpoint = {});
 
   const RunFolder& folder() const { return output_.folder(); }
 
-  /// Call before the first step; then one of the last two functions at the end.
+  /// Call before the first step; then call finish or finish_failed at the end.
   void begin() { output_.begin(flow_); }
   void finish(ExitCode code) { output_.finish(flow_, code); }
   void finish_failed(ExitCode code, const std::string& message) { output_.finish_failed(flow_, code, message); }
 
-  /// As CheckpointKeeper.
+  /// See CheckpointKeeper.
   bool checkpoint_is_due() const { return keeper_.is_due(); }
   bool write_checkpoint() { return keeper_.write(flow_, output_); }
 

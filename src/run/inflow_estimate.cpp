@@ -10,9 +10,9 @@
 namespace tailwater {
 namespace {
 
-constexpr int moments = 1000;  ///< of the run that are looked at
+constexpr int moments = 1000;  ///< number of times in the run that are evaluated
 
-/// The basin that stands for the case.
+/// The basin that replaces the case.
 struct Basin {
   double floor = 0.0;    ///< m; the lowest point of walls and open ends, upwards
   double surface = 1.0;  ///< m^(Dim-1); area
@@ -35,7 +35,7 @@ Basin basin_of(const Boundary<Dim>& boundary, const std::vector<ChannelEnd<Dim>>
   return {.floor = up[axis] > 0.0 ? box.min()[axis] : -box.max()[axis], .surface = std::max(sides.prod(), 1e-12)};
 }
 
-/// Into the case, m^Dim/s.
+/// Discharge into the case, m^Dim/s.
 template <int Dim>
 double discharge_of(const ChannelEnd<Dim>& end, const Basin& basin, double volume, double time) {
   const double level = basin.level(volume);

@@ -12,13 +12,13 @@
 namespace tailwater {
 namespace {
 
-/// Long enough for a file system that a whole cluster shares.
+/// Long enough for a file system that serves a whole cluster.
 constexpr auto time_between_looks_for_files = std::chrono::milliseconds(100);
 
-/// How many times the longest step so far, with all it wrote, is kept for the end of a run: for the present step, the
+/// Time kept for the end of a run, in units of the longest step so far with all its output: for the present step, the
 /// checkpoint and the last fields.
 constexpr double steps_kept_for_the_end = 3.0;
-/// The least share of the wall time that is kept for the end.
+/// Minimum fraction of the wall time that is kept for the end.
 constexpr double share_kept_for_the_end = 0.01;
 
 volatile std::sig_atomic_t stop_signal_has_come = 0;
@@ -69,7 +69,7 @@ void Requests::look_for_files(Clock::time_point now) {
   if (now - last_look_for_files_ < time_between_looks_for_files) return;
   last_look_for_files_ = now;
   std::error_code error;
-  // If it cannot be removed, the next run does.
+  // If the file cannot be removed, the next run removes it.
   if (std::filesystem::exists(stop_file_, error)) stop_was_found_ = true;
   if (stop_was_found_) std::filesystem::remove(stop_file_, error);
   if (std::filesystem::exists(checkpoint_file_, error)) checkpoint_was_found_ = true;
@@ -114,7 +114,7 @@ bool RequestSender::make(const std::filesystem::path& file, bool& is_sent) const
   return true;
 }
 
-/// When the last run in the folder became ready; the earliest possible time if there was none.
+/// The time when the last run in the folder became ready; the earliest possible time if there was none.
 std::filesystem::file_time_type RequestSender::last_start() const {
   std::error_code error;
   return std::filesystem::last_write_time(summary_, error);

@@ -12,21 +12,22 @@
 
 namespace tailwater {
 
-/// What a run is asked for.
+/// The requests to a run.
 struct Asked {
   bool stop = false;
   bool checkpoint = false;
 };
 
-/// The wall-clock time that a run has, as batch systems give it.
+/// The time limit of a run in elapsed time, as set by batch systems.
 struct WallTime {
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::optional<std::chrono::duration<double>> limit;
 };
 
-/// While this object lives, the first SIGINT, SIGTERM or SIGUSR1 (batch systems) asks the run to stop; a second one of
-/// the same kind ends the program at once. SIGHUP, which says that the terminal is gone, asks for a checkpoint. The
-/// files STOP and CHECKPOINT in the run's folder ask for the same. The wall time asks the run to stop in time.
+/// During the lifetime of this object the first SIGINT, SIGTERM or SIGUSR1 (batch systems) requests a stop of the run;
+/// a second one of the same kind ends the program at once. SIGHUP, sent when the terminal closes, requests a
+/// checkpoint. The files STOP and CHECKPOINT in the run's folder make the same requests. The wall time requests a stop
+/// in time.
 class Requests {
  public:
   Requests(const RunFolder& folder, const Communicator& ranks, const WallTime& wall_time = {});
@@ -34,11 +35,11 @@ class Requests {
   Requests(const Requests&) = delete;
   Requests& operator=(const Requests&) = delete;
 
-  /// What any rank has been asked for since the start; the same on all ranks. `checkpoint_is_due` on any rank counts as
-  /// asking. Removes the file STOP when it finds it. Collective.
+  /// The requests to any rank since the start; the same on all ranks. `checkpoint_is_due` on any rank counts as a
+  /// request. Removes the file STOP if it exists. Collective.
   Asked look(bool checkpoint_is_due = false);
 
-  /// The checkpoint that was asked for is written: removes the file CHECKPOINT, which tells whoever made it. Throws
+  /// Call when the requested checkpoint is written: removes the file CHECKPOINT, which confirms the request. Throws
   /// IoError, on all ranks.
   void fulfil_checkpoint();
 
@@ -63,12 +64,12 @@ class Requests {
   struct sigaction old_hang_up_ {};
 };
 
-/// Hands requests on to a run; used in the process that started it.
+/// Sends requests to a run; used in the process that started it.
 class RequestSender {
  public:
   /// Call before starting the run that writes into `folder`, which need not exist yet.
   explicit RequestSender(const std::filesystem::path& folder);
-  /// Removes the files again if the run has ended without seeing them.
+  /// Removes the files again if the run has ended without reading them.
   ~RequestSender();
   RequestSender(const RequestSender&) = delete;
   RequestSender& operator=(const RequestSender&) = delete;

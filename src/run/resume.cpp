@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view changeable_keys =
     "time.end, output.fields_interval, output.view_interval and output.checkpoint_interval";
 
-/// The case with the keys that a run may change on its way taken from `other`.
+/// The case with its changeable keys taken from `other`.
 CaseSpec with_changeable_keys_of(const CaseSpec& other, CaseSpec spec) {
   spec.time.end = other.time.end;
   spec.output.fields_interval = other.output.fields_interval;
@@ -49,7 +49,7 @@ std::vector<std::string> keys_of_case(const CaseSpec& spec) {
   return keys;
 }
 
-/// The newest checkpoint that is whole; nothing if there is no checkpoint. Warns of damaged ones.
+/// The newest intact checkpoint; empty if there is no checkpoint. Warns of damaged ones.
 std::optional<SealedFile> find_checkpoint(const RunOptions& options, fs::path& found) {
   std::string problems;
   for (const fs::path& path : checkpoints_in(options.out)) {
@@ -75,7 +75,7 @@ void require_readable_format(const SealedFile& file, const fs::path& path) {
       path.string(), file.format, version_line(), checkpoint_format, file.writer);
 }
 
-/// Another program computes the same flow with other last digits.
+/// Warns if another program wrote the checkpoint: it computes the same flow with other last digits.
 void tell_of_another_writer(const SealedFile& file) {
   if (file.writer == version_line()) return;
   warn("the checkpoint was written by {}, and this is {}: perhaps not bit for bit the same", file.writer,
@@ -118,7 +118,7 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
           "'{}' is not the folder of a run: it has no {}; remedy: name the folder that a run was given by --out",
           options.out.string(), effective_case_name);
     }
-    FolderLock::require_free(options.out);  // before anything is read that a run replaces as it goes
+    FolderLock::require_free(options.out);  // before reading files that a running run replaces
   });
   const CaseSpec before = read_effective_case(case_file);
   const CaseSpec spec = read_effective_case(case_file, overrides);
@@ -148,7 +148,7 @@ int ranks_of_run(const fs::path& run) {
   try {
     for (const fs::path& path : checkpoints_in(run)) return read_head_of_sealed_file(path).ranks;
   } catch (const IoError&) {
-    // `resume_run` tells what is wrong with it.
+    // `resume_run` reports the problem.
   }
   return ranks_named_in(run / summary_name);
 }

@@ -25,14 +25,14 @@
 namespace tailwater {
 namespace {
 
-/// dx; what is checked beside walls is nearer.
+/// dx; all checks beside walls are within this distance.
 constexpr double reach_of_checks = 3.0;
 
-/// A simulation with its folder, until it ends, fails or is asked to stop.
+/// A simulation with its folder, until it ends, fails or receives a request to stop.
 template <int Dim>
 class Run {
  public:
-  /// Goes on from the checkpoint if there is one.
+  /// Resumes from the checkpoint if there is one.
   Run(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
       std::optional<Checkpoint<Dim>> checkpoint)
       : goes_on_(checkpoint.has_value()),
@@ -66,7 +66,7 @@ class Run {
     return ExitCode::done;
   }
 
-  bool goes_on_;  ///< from a checkpoint
+  bool goes_on_;  ///< whether it resumes from a checkpoint
   WallTime wall_time_;
   Simulation<Dim> simulation_;
   FolderOutput<Dim> output_;
@@ -105,12 +105,12 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
 template <int Dim>
 void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, CaseWarnings warnings) {
   Boundary<Dim> boundary = make_boundary<Dim>(spec);
-  // What a machine has for its ranks is enough for as many times more on all machines.
+  // The memory of this machine for its ranks is scaled to the ranks of all machines.
   const double available = available_memory() * ranks.size() / ranks_on_this_machine(ranks);
   Findings findings = check_memory(spec, boundary, ranks.least(available));
   if (findings.empty()) {
     boundary.file_faces(reach_of_checks * spec.particles.spacing);
-    // The velocities are found, and refused, when the flow is made.
+    // The velocities are computed, and refused if wrong, when the flow is made.
     const auto fluid = make_fluid_particles(spec, boundary, ranks, 0, StartVelocities::left_out);
     findings = check_geometry(spec, boundary, fluid);
   }

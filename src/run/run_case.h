@@ -9,10 +9,10 @@
 
 namespace tailwater {
 
-/// Of a case that needs more memory than there is.
+/// Remedy for a case that needs more memory than is available.
 inline constexpr const char* remedy_for_memory = "remedy: a larger particles.spacing (see: tailwater check)";
 
-/// Does `work`, and adds the positions in the case file to a CaseError that it throws.
+/// Calls `work`, and adds the positions in the case file to a CaseError that it throws.
 template <class Work>
 auto with_places(const CaseSpec& spec, const Work& work) {
   try {
@@ -22,18 +22,19 @@ auto with_places(const CaseSpec& spec, const Work& work) {
   }
 }
 
-/// Warnings are left out where an earlier run of the case has told them, or its own run will.
+/// Warnings are left out where an earlier run of the case has printed them, or its own run will.
 enum class CaseWarnings { told, left_out };
 
-/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are told by
+/// Checks the case's geometry as `check` does; `run` calls it before anything is written. Warnings are printed by
 /// io/messages.h. Throws CaseError with all errors found.
 void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks = {},
                             CaseWarnings warnings = CaseWarnings::told);
 
 /// Runs the case to its end, or until it is interrupted, on all ranks together. Returns done or interrupted. Throws
-/// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then says so,
-/// and failure/ holds the last good fields; likewise, without these fields, when memory ends. Throws a later IoError on
-/// all ranks; the summary says so if it can be written. With a `checkpoint`, which counts on the root, goes on from it.
+/// InputError and IoError before anything is written. Throws SolverError when a step fails; summary.json then has the
+/// failure, and failure/ holds the last good fields. If memory is exhausted, summary.json has the failure too, but
+/// there are no such fields. Throws a later IoError on all ranks; summary.json records it if it can be written. Resumes
+/// from `checkpoint` if it is given on the root.
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks = {},
                   const SealedFile* checkpoint = nullptr);
 

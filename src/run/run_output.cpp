@@ -27,10 +27,10 @@ namespace {
 
 constexpr double default_field_files = 100.0;
 
-/// A file system that a whole cluster shares is asked no more often whether the run's folder is still there.
+/// Interval of the tests whether the run's folder still exists, long enough for the file system of a cluster.
 constexpr auto time_between_looks_at_folder = std::chrono::milliseconds(100);
 
-/// Spaces after the summary of a run that goes on, so that the last one fits into its place on a full disk.
+/// Spaces after the summary of a running run, so that the last summary fits into the same bytes on a full disk.
 constexpr std::size_t room_for_last_summary = 4096;
 
 double cpu_seconds_of_process() {
@@ -48,7 +48,7 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// Bytes of a file to go on with; none for a new run.
+/// Bytes of a file that this run continues; none for a new run.
 std::optional<std::int64_t> kept_bytes(const Json* kept, const char* file) {
   if (kept == nullptr) return std::nullopt;
   const auto bytes = kept->at("bytes").at(file).get<std::int64_t>();
@@ -61,7 +61,7 @@ std::vector<ProbeMark> marks_of(const Json& kept) {
   return marks;
 }
 
-/// Of all pockets of air.
+/// The totals of all pockets of air.
 template <int Dim>
 PocketTotals pocket_totals(const EnclosedAir<Dim>& air) {
   const AirMeasures all = air.measures();
@@ -106,7 +106,7 @@ RunFolder RunOutput<Dim>::make_folder(const Flow<Dim>& flow, bool goes_on) const
   RunFolder folder =
       goes_on ? RunFolder::open(options_.out, ranks_) : RunFolder::create(options_.out, options_.force, ranks_);
   open_log(folder.log());
-  // First of all, because a run that is killed from now on can be started again from it.
+  // This file comes first, because a run that is killed from now on can be started again from it.
   do_on_root(ranks_, [&] { write_text_file(folder.effective_case(), effective_case(spec_)); });
   return folder;
 }
@@ -168,7 +168,7 @@ double RunOutput<Dim>::cpu_seconds() const {
   return cpu_seconds_before_ + ranks_.sum(cpu_seconds_of_process() - cpu_start_);
 }
 
-/// Tells others, too, that the run is ready (RequestSender).
+/// Also signals that the run is ready (RequestSender).
 template <int Dim>
 void RunOutput<Dim>::begin(const Flow<Dim>& flow) {
   write_summary(flow, "running", std::nullopt,
@@ -192,7 +192,7 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
   give_back_free_memory();
   const FluidFields<Dim> fields(flow, flow.state.particles, spec_.output.fields);
   series_.write(flow.state.time, fields.view(), ranks_);
-  // Walls at rest are written once, in 3D: a picture needs them, and no chain of points in the case tells of a mesh.
+  // Walls at rest are written once, in 3D: a picture needs them, and the case has no chain of points for a mesh.
   const bool is_first = Dim == 3 && series_.size() == 1;
   if (is_first || !flow.setup.wall_motion.moving().empty()) {
     do_on_root(ranks_, [&] { wall_series_.write(flow.state.time, WallFields<Dim>(flow.walls.boundary).view()); });
@@ -255,7 +255,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   }
 }
 
-/// A folder that was removed or replaced takes no more lines, and no write to an open file says so.
+/// A folder that was removed or replaced takes no more lines, but a write to an open file reports no error.
 template <int Dim>
 void RunOutput<Dim>::require_folder_in_place() {
   const auto now = Clock::now();
@@ -297,7 +297,7 @@ void RunOutput<Dim>::finish_failed(const Flow<Dim>& flow, ExitCode code, const s
   try {
     write_summary(flow, "failed", code, message);
   } catch (const IoError&) {
-    // What went wrong first is what the user is told.
+    // The user must see the first error.
   }
 }
 
@@ -337,7 +337,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
         results_ = probe_results(spec_, folder_, flow.state.time);
         scores_ = measurement_scores(spec_, folder_.path());
       } catch (const IoError&) {
-        if (message.empty()) throw;  // of a run that has failed the summary counts more than its results
+        if (message.empty()) throw;  // the summary of a failed run counts more than its results
       }
       summary["results"] = json_of(results_);
       if (!scores_.empty()) summary["measurements"] = json_of(scores_);

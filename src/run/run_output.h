@@ -32,25 +32,25 @@ namespace tailwater {
 template <int Dim>
 class RunOutput {
  public:
-  /// The last check of a case: throws InputError for a probe in the wrong place, an end time out of reach or an
-  /// unusable folder, and then leaves nothing behind. Otherwise creates the folder. Borrows `spec` and `options`.
-  /// With `kept`, which is what an earlier run has `saved`, goes on with its files and cuts off what came later.
+  /// The last check of a case. It throws InputError for a probe in the wrong place, an end time out of reach or an
+  /// unusable folder, and then leaves no files. Otherwise it creates the folder. Borrows `spec` and `options`. `kept`
+  /// is the result of `saved` of an earlier run: its files are continued, and their later parts are cut off.
   RunOutput(const CaseSpec& spec, const RunOptions& options, const Flow<Dim>& flow, const Json* kept = nullptr);
 
   const RunFolder& folder() const { return folder_; }
   RankLog& rank_log() { return rank_log_; }
   const RankLog& rank_log() const { return rank_log_; }
 
-  /// How far the output has come, for a checkpoint: clocks, sums, and the sizes of all files. Not collective; the sizes
+  /// The progress of the output, for a checkpoint: clocks, sums, and the sizes of all files. Not collective; the sizes
   /// are those of the root.
   Json saved() const;
-  /// What the probes remember, and taking it up again (probe_set.h).
+  /// The state of the probes, and its restoration (probe_set.h).
   std::vector<double> probe_memory() const { return probes_.memory(); }
   void restore_probe_memory(std::span<const double> memory) { probes_.restore(memory, folder_.checkpoints()); }
-  /// Adds to it what the run has cost so far. Collective.
+  /// Adds the cost of the run so far to `saved`. Collective.
   void add_costs(Json& saved) const;
 
-  /// Writes the summary of a run that goes on, which stays if the program is killed.
+  /// Writes the summary of a running run, which remains if the program is killed.
   void begin(const Flow<Dim>& flow);
 
   /// Writes fields, and a frame for viewers, if they are due.
@@ -58,13 +58,13 @@ class RunOutput {
   /// Records the probes that are due after a step of dt [s]; 0 at the start.
   void record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt = 0.0);
   void record_repartition(const Flow<Dim>& flow, const Repartition& repartition);
-  /// Writes and shows everything that follows a step. Throws SolverError, with fields for a look, beyond a limit of the
-  /// case.
+  /// Writes and shows all output that follows a step. Throws SolverError beyond a limit of the case, after writing
+  /// fields for inspection.
   void record_step(const Flow<Dim>& flow, const StepReport& report);
 
   /// Writes the last fields and the summary.
   void finish(const Flow<Dim>& flow, ExitCode code);
-  /// Writes the summary of a failed run, if that can be.
+  /// Writes the summary of a failed run, if possible.
   void finish_failed(const Flow<Dim>& flow, ExitCode code, const std::string& message);
 
  private:
@@ -73,7 +73,7 @@ class RunOutput {
   RunFolder make_folder(const Flow<Dim>& flow, bool goes_on) const;
   void restore(const Json& kept);
   void require_folder_in_place();
-  double wall_seconds() const;  ///< of the earlier runs too, as the next
+  double wall_seconds() const;  ///< includes the earlier runs, as cpu_seconds does
   double cpu_seconds() const;   ///< of all ranks; collective
   void write_fields(const Flow<Dim>& flow);
   void warn_if_outside(const Flow<Dim>& flow, std::size_t outside);
@@ -86,7 +86,7 @@ class RunOutput {
   const RunOptions& options_;
   std::string case_file_;  ///< as named in the summary
   Communicator ranks_;
-  std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves nothing behind
+  std::vector<Probe<Dim>> probe_list_;  // made before the folder: a probe in the wrong place leaves no files
   RunFolder folder_;
   PvdSeries series_;
   PvdSeries wall_series_;  ///< only when a wall moves
@@ -105,7 +105,7 @@ class RunOutput {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_look_at_folder_;
   double cpu_start_;
-  // Of the earlier runs that this one goes on with.
+  // Totals of the earlier runs that this one continues.
   double wall_seconds_before_ = 0.0;
   double cpu_seconds_before_ = 0.0;
   int runs_before_ = 0;

@@ -12,8 +12,8 @@
 namespace tailwater {
 namespace {
 
-/// Particles drift slowly out of cache order and out of their rank's part of space. Sorting and repartition at
-/// this interval costs next to nothing.
+/// Steps between sorts. Particles drift slowly out of cache order and out of their rank's part of space. Sort and
+/// repartition at this interval cost almost nothing.
 constexpr std::int64_t steps_between_sorts = 10;
 
 }  // namespace
@@ -43,8 +43,8 @@ double Simulation<Dim>::prepare() {
   const double dt = next_time_step(flow_);
   guard_.require_sound_step(dt);
   rearrange();
-  // The last step is not cut to the end time: the density source is proportional to 1/dt^2, and a tiny step would
-  // kick the water.
+  // The last step is not shortened to the end time: the density source is proportional to 1/dt^2, and a tiny step would
+  // accelerate the water.
   dt_ = std::min(dt, end_);
   return dt_;
 }
@@ -70,9 +70,9 @@ StepReport Simulation<Dim>::step() {
   return report;
 }
 
-/// Everything that changes the indices of particles: every few steps all are repartitioned and sorted, and those that
-/// have passed an open end are removed, and new ones come in. A checkpoint is of the moment between: before water
-/// that may have limited the time step has left.
+/// Makes all changes to the indices of particles. Every few steps all particles are repartitioned and sorted; then
+/// those that have passed an open end are removed, and new ones come in. A checkpoint has the state in between: before
+/// water that may have limited the time step has left.
 template <int Dim>
 void Simulation<Dim>::rearrange() {
   const bool is_repartitioned = flow_.state.step % steps_between_sorts == 0;

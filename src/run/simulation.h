@@ -1,4 +1,4 @@
-// A run as an object that steps: the flow of a case, in memory. Nothing is written; an observer may do that
+// A run as an object that steps: the flow of a case, in memory. It writes nothing itself; an observer may do that
 // (folder_output.h). `run_case` is this loop with a folder:
 //
 //   Simulation<2> simulation(spec);
@@ -30,29 +30,29 @@ class Simulation {
   const Flow<Dim>& flow() const { return flow_; }
   Flow<Dim>& flow() { return flow_; }
 
-  /// Borrows the observer, and the folder, where a step that fails leaves the last good fields and a report.
+  /// Borrows the observer, and the folder, where a failed step leaves the last good fields and a report.
   void observe(RunObserver<Dim>& observer, const RunFolder& folder);
 
-  /// Finds the pressure at the start. Throws SolverError.
+  /// Computes the pressure at the start. Throws SolverError.
   void start();
 
-  /// Whether the time has come to the end of the case.
+  /// Whether the time has reached the end of the case.
   bool has_ended() const { return flow_.state.time >= end_; }
 
-  /// Makes the next step ready: particles are repartitioned, water leaves and enters at open ends. Returns its size
-  /// [s]. Throws SolverError when it has collapsed. Does nothing if a step is ready.
+  /// Prepares the next step: particles are repartitioned, water leaves and enters at open ends. Returns its size [s].
+  /// Throws SolverError when the size has collapsed. Does nothing if a step is prepared already.
   double prepare();
   bool is_prepared() const { return dt_ > 0.0; }
-  /// After walls have been steered anew: takes less of the step that is ready if they go too far in it. Returns its
+  /// Call after the motion of walls was set again: shortens the prepared step if walls go too far in it. Returns its
   /// size.
   double shorten();
 
-  /// Takes a step, with the loads of a script, which are then gone. Makes it ready first if need be. Throws SolverError
-  /// when the step fails; the flow is then as it was before it.
+  /// Takes a step, with the loads of a script, which are then discarded. Prepares it first if needed. Throws
+  /// SolverError when the step fails; the flow then has the state before the step.
   StepReport step();
 
-  /// Goes on from a saved flow, with the `reference_step` [s] of then. `cuts` are those of its space, if particles are
-  /// distributed by them. Returns false if its walls, the motion of these or its parts are not those of the case.
+  /// Resumes from a saved flow, with its `reference_step` [s]. `cuts` are those of its space, if particles are
+  /// distributed by them. Returns false if its walls, their motion or its parts are not those of the case.
   bool go_on_from(SavedFlow<Dim> saved, double reference_step, std::optional<std::string> cuts);
 
  private:
@@ -63,8 +63,8 @@ class Simulation {
   Flow<Dim> flow_;
   StepGuard<Dim> guard_{flow_};
   RunObserver<Dim>* observer_ = nullptr;
-  double dt_ = 0.0;                     ///< s; of the step that is ready, or 0
-  std::int64_t repartition_step_ = -1;  ///< at which particles are as a checkpoint has them
+  double dt_ = 0.0;                     ///< s; size of the prepared step, or 0
+  std::int64_t repartition_step_ = -1;  ///< step at which particles are as in a checkpoint
 };
 
 }  // namespace tailwater

@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-/// A run fails when a step is below this share of the step for the water at the start.
+/// A run fails when a step is below this fraction of the step for the water at the start.
 constexpr double smallest_share = 1e-3;
 
 /// The fastest particle of this rank; none if the rank owns none.
@@ -51,7 +51,7 @@ std::string fastest_wall(const Flow<Dim>& flow, double dt) {
 
 }  // namespace
 
-/// Within a step particles only come, behind the others.
+/// Within a step particles are only added, behind the others.
 template <int Dim>
 Particles<Dim> StepGuard<Dim>::last_good() const {
   Particles<Dim> particles = flow_.state.particles;
@@ -74,7 +74,7 @@ template <int Dim>
 void StepGuard<Dim>::require_sound_step(double dt) {
   const Setup<Dim>& setup = flow_.setup;
   if (reference_step_ == 0.0) {
-    // Without gravity no speed is too high for the water but by comparison with the start.
+    // Without gravity a speed can only be judged by comparison with the start.
     const double speed = setup.time_step_rule.reference_speed > 0.0 ? 0.0 : largest_speed(flow_);
     reference_step_ = setup.time_step_rule.largest(speed, setup.liquid.viscosity.at_speed(speed));
     if (!setup.wall_motion.moving().empty()) reference_step_ = std::min(reference_step_, dt);  // walls limit it too
@@ -133,8 +133,8 @@ void StepGuard<Dim>::attempt(const StepStart<Dim>& start, const std::function<vo
   if (!failure.empty()) fail(failure, std::nullopt);
 }
 
-/// Fails the run because of a particle that went wrong, on the first rank that has one. `describe` says what went wrong
-/// with it. The message names instability as the cause.
+/// Fails the run because of a particle with invalid values, on the first rank that has one. `describe` returns the
+/// fault of the particle. The message names instability as the cause.
 template <int Dim>
 template <class Describe>
 void StepGuard<Dim>::blame(std::optional<std::size_t> culprit, const Describe& describe) {
