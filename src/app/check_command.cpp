@@ -44,8 +44,8 @@ struct CheckOptions {
   bool takes_trial_steps = false;
 };
 
-/// Where the preview goes. Its own name is free for it; under a name that was asked for only another preview is
-/// replaced.
+/// The file of the preview. Under its default name it replaces any own file; under a name that the user chose it
+/// replaces only another preview.
 std::filesystem::path preview_file(const CheckOptions& options) {
   const bool is_asked_for = !options.preview.empty();
   const std::filesystem::path preview =
@@ -63,7 +63,7 @@ std::filesystem::path preview_file(const CheckOptions& options) {
   return preview;
 }
 
-/// The text of a case file, "-" for that on standard input.
+/// The text of a case file; "-" is standard input.
 std::string text_of_case(const std::filesystem::path& path) {
   if (path == "-") return read_case_from(std::cin);
   return read_case_file(path, largest_case_file);
@@ -71,13 +71,13 @@ std::string text_of_case(const std::filesystem::path& path) {
 
 void print_as_json(const CheckOptions& options) {
   const std::string origin = options.case_file == "-" ? "case" : options.case_file.string();
-  const std::filesystem::path folder = options.case_file.parent_path();  // of "-" none: the working folder
+  const std::filesystem::path folder = options.case_file.parent_path();  // empty for "-": the working folder
   const TrialSteps trial = options.takes_trial_steps ? TrialSteps::some : TrialSteps::none;
   fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, folder, options.overrides, trial)
                          .dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// Writes the previews, with the places that are wrong marked, and says where they are.
+/// Writes the previews, with the places of errors marked, and prints their paths.
 template <int Dim>
 void write_previews(const CaseSpec& spec, const CheckOptions& options, const Boundary<Dim>& boundary,
                     const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
@@ -96,7 +96,7 @@ void write_previews(const CaseSpec& spec, const CheckOptions& options, const Bou
   }
 }
 
-/// Draws what can be drawn of a case whose shapes are wrong, if the findings have places.
+/// Draws the valid parts of a case whose shapes are wrong, if the findings have places.
 template <int Dim>
 void show_bad_places(const CaseSpec& spec, const CheckOptions& options, const Findings& findings) {
   const std::vector<Vec<Dim>> places = places_of<Dim>(findings);
@@ -105,7 +105,7 @@ void show_bad_places(const CaseSpec& spec, const CheckOptions& options, const Fi
     const BrokenCase<Dim> drawing = draw_broken_case<Dim>(spec);
     write_previews<Dim>(spec, options, drawing.boundary, drawing.fluid, {}, places);
   } catch (const InputError&) {
-    // Nothing can be drawn, for the reason that the findings give.
+    // Nothing can be drawn, for the reason in the findings.
   } catch (const IoError& problem) {
     warn("no preview: {}", problem.what());
   }
@@ -157,9 +157,9 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
 }
 
 void check_case(const CheckOptions& options) {
-  if (!options.draws_nothing) preview_file(options);  // for its errors, before there is work
+  if (!options.draws_nothing) preview_file(options);  // for its errors, before the check begins
   const CaseSpec spec = read_case(options.case_file, options.overrides);
-  std::error_code error;  // no preview yet: nothing to protect
+  std::error_code error;  // without a preview there is nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {
     throw InputError("--preview {} is the case file itself; remedy: another name", options.preview.string());
   }

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t most_drawn_particles = 20000;
 
-/// `origin`: what messages call the case.
+/// `origin`: name of the case in messages.
 Json json_of(const Finding& finding, const std::string& origin) {
   const auto& [file, line, column, end_column] = finding.position;
   const bool is_of_text = file.empty() || file == origin;  // else of an override
@@ -52,7 +52,7 @@ void add_findings(Json& answer, const Findings& findings, const std::string& ori
   for (const Finding& finding : findings) answer["findings"].push_back(json_of(finding, origin));
 }
 
-/// Adds to each thing of the drawing the lines of its table.
+/// Adds to each object of the drawing the lines of its table.
 void add_lines(Json& drawing, const CaseSources& sources) {
   const auto add = [&](Json& thing, const std::string& table) {
     if (const auto lines = sources.lines(CaseLabel(table, thing["name"].get<std::string>()))) thing["lines"] = *lines;
@@ -69,7 +69,7 @@ void add_lines(Json& drawing, const CaseSources& sources) {
   }
 }
 
-/// The water at the start, not all of it where there is much.
+/// The water at the start; a selection of it if there is much.
 template <int Dim>
 Json particles_json(const FluidParticles<Dim>& fluid) {
   const std::size_t count = fluid.position.size();
@@ -129,11 +129,11 @@ void check_sound(const CaseSpec& spec, const std::string& origin, TrialSteps tri
   answer["summary"].push_back(fmt::format("{} fluid particles and about {:.0f} of walls, {:g} m apart; about {:.0f} MB",
                                           fluid.position.size(), count.wall, spec.particles.spacing,
                                           memory_bytes / 1e6));
-  make_probes<Dim>(spec, boundary);  // for what it throws
+  make_probes<Dim>(spec, boundary);  // only for its exceptions
   if (trial == TrialSteps::some && !has_error(geometry)) add_time<Dim>(spec, answer);
 }
 
-/// What can be drawn of walls that cannot be made.
+/// The drawing of the valid parts of walls that cannot be made.
 template <int Dim>
 Json broken_drawing(const CaseSpec& spec) {
   try {

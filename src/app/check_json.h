@@ -1,4 +1,4 @@
-// What `tailwater check --json` tells: of a case while somebody writes it.
+// The output of `tailwater check --json`, for a case that is being written.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace tailwater {
 
-/// Whether the time of a run is estimated, by a few steps of it, which take a second or some.
+/// Whether the time of a run is estimated from a few trial steps, which take a second or some.
 enum class TrialSteps { none, some };
 
-/// What is wrong with the text of a case, what it looks like, and how large it is: {findings, drawing, summary, cost}
-/// (docs/reference/view.md). `origin` is what messages call the text; files that it names are relative to `folder`.
-/// Throws only what is not the fault of the case.
+/// The findings about the text of a case, its drawing and its size: {findings, drawing, summary, cost}
+/// (docs/reference/view.md). `origin` is the name of the text in messages; files that it names are relative to
+/// `folder`. Faults of the case are findings, not exceptions.
 Json check_as_json(const std::string& text, const std::string& origin, const std::filesystem::path& folder,
                    const std::vector<std::string>& overrides, TrialSteps trial);
 

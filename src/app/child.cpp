@@ -26,7 +26,7 @@ using std::chrono::milliseconds;
   throw IoError("cannot start {}: {}", program, std::generic_category().message(errno));
 }
 
-/// A pipe whose ends are closed with it.
+/// A pipe whose ends are closed by its destructor.
 class Pipe {
  public:
   explicit Pipe(const std::string& program) {
@@ -53,7 +53,7 @@ struct Streams {
   int input, output, errors;
 };
 
-/// In a new process, where only the simplest calls are allowed: becomes the program.
+/// Replaces a new process, where only the simplest calls are allowed, by the program.
 [[noreturn]] void turn_into(char* const* words, const char* folder, const Streams& streams) {
   sigset_t none;
   sigemptyset(&none);
@@ -72,7 +72,7 @@ milliseconds until(std::chrono::steady_clock::time_point deadline) {
   return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(deadline - std::chrono::steady_clock::now()));
 }
 
-/// Appends what can be read now; closes the pipe at its end.
+/// Appends the bytes that can be read now; closes the pipe at its end.
 void take(Pipe& pipe, std::string& text) {
   std::array<char, 65536> buffer;
   const ssize_t count = read(pipe.reader(), buffer.data(), buffer.size());
@@ -99,7 +99,7 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   std::size_t written = 0;
   while (out.reader() >= 0 || errors.reader() >= 0) {
     if (written == input.size()) in.close_end(1);
-    // poll passes over descriptors below 0.
+    // poll ignores descriptors below 0.
     std::array<pollfd, 3> waiting{{{in.writer(), POLLOUT, 0}, {out.reader(), POLLIN, 0}, {errors.reader(), POLLIN, 0}}};
     const int count = poll(waiting.data(), waiting.size(), static_cast<int>(until(deadline).count()));
     if (count < 0 && errno == EINTR) continue;
@@ -125,7 +125,7 @@ void start_apart(const std::vector<std::string>& command, const std::filesystem:
   const std::vector<char*> words = arguments_of(owned);
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   Pipe errors(owned[0]);
-  // The child leaves at once; its own child belongs to nobody, and nobody need wait for its end.
+  // The child ends at once; its own child then has no parent that must wait for it.
   const pid_t child = fork();
   if (child < 0) throw_no_start(owned[0]);
   if (child == 0) {

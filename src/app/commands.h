@@ -1,4 +1,4 @@
-// The commands of the program. Each adds itself to the command line; its callback does the work and sets the exit code.
+// The commands of the program. Each adds itself to the command line; its callback runs it and sets the exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,7 @@ void add_new_command(CLI::App& app, ExitCode& code);
 void add_check_command(CLI::App& app, ExitCode& code);
 void add_explain_command(CLI::App& app, ExitCode& code);
 void add_migrate_command(CLI::App& app, ExitCode& code);
-/// `words` are those of the command line after the program, with which other ranks are started.
+/// `words` are the words of the command line after the program, with which other ranks are started.
 void add_run_command(CLI::App& app, ExitCode& code, const Communicator& ranks, const std::vector<std::string>& words);
 void add_resume_command(CLI::App& app, ExitCode& code, const Communicator& ranks,
                         const std::vector<std::string>& words);

@@ -22,7 +22,7 @@ void become_fastest_build([[maybe_unused]] char** arguments) {
     std::exit(static_cast<int>(ExitCode::bad_input));
   }
   const std::filesystem::path prefix = std::filesystem::path(this_program()).parent_path().parent_path();
-  execv((prefix / "lib" / "tailwater" / "tailwater-v3").c_str(), arguments);  // not there in a build tree
+  execv((prefix / "lib" / "tailwater" / "tailwater-v3").c_str(), arguments);  // absent in a build tree
 #endif
 }
 

@@ -1,4 +1,4 @@
-// Files that a command is asked to replace, and that may be someone else's.
+// Files that a command would replace, and that may belong to another user.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace tailwater {
 /// user's file.
 void require_own_regular_file(const std::filesystem::path& path);
 
-/// Whether the file is a picture that `tailwater check` has drawn: it says so at its begin.
+/// Whether the file is a picture that `tailwater check` has drawn, according to its first bytes.
 bool is_preview(const std::filesystem::path& path);
 
 }  // namespace tailwater

@@ -17,7 +17,7 @@ namespace tailwater {
 namespace {
 
 struct OptionText {
-  std::vector<std::string> names;  ///< with dashes; of a positional its bare name
+  std::vector<std::string> names;  ///< with dashes; bare name of a positional argument
   std::string description;
   bool takes_value;
 };
@@ -56,13 +56,13 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 
 // ------------------------------------------------------------------------------------------------------- man page
 
-/// Text that troff prints as it is.
+/// Text that troff prints unchanged.
 std::string roff(const std::string& text) {
   const std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
   return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;
 }
 
-/// Lines of an example or a footer, which keep their breaks.
+/// Lines of an example or a footer, with their breaks.
 std::string roff_lines(const std::string& text) {
   std::string lines = ".nf\n";
   for (const std::string_view line : split(text, '\n')) lines += roff(std::string(line)) + "\n";

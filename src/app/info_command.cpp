@@ -24,7 +24,7 @@ void show_program() {
              machine["processor"].get<std::string>(), machine["cores"].get<int>());
 }
 
-/// What an engineer wants to know before the numbers of a run are used.
+/// Prints the facts that a user needs before the numbers of a run are used.
 void show_digest(const Json& summary) {
   fmt::print("{}\n", printable(summary.at("title").get<std::string>()));
   for (const auto& [label, text] : summary_digest(summary)) fmt::print("{:<10} {}\n", label + ":", text);

@@ -68,7 +68,7 @@ class HelpFormatter : public CLI::Formatter {
 std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> command = app.get_subcommands();
   const std::vector<std::string> rest = app.remaining();
-  const std::vector<std::string> all_rest = app.remaining(true);  // of commands, too
+  const std::vector<std::string> all_rest = app.remaining(true);  // including those of commands
   const auto option = std::ranges::find_if(all_rest, [](const std::string& word) { return word.starts_with('-'); });
   if (option != all_rest.end()) {
     const bool is_before_command = !rest.empty() && *option == rest.front();
@@ -86,7 +86,7 @@ std::string command_line_problem(CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("unknown command \"{}\"; {}", rest.front(), unknown_name_hint(rest.front(), names));
 }
 
-/// What is not text could be shown by no message, and stand in no file of results.
+/// Rejects arguments that are no text: no message could show them, and no file of results could contain them.
 void require_printable(int argc, char** argv) {
   for (int k = 1; k < argc; ++k) {
     if (is_printable(argv[k])) continue;
@@ -97,7 +97,7 @@ void require_printable(int argc, char** argv) {
   }
 }
 
-/// MPI for the whole program where several ranks were started, so that they can end together.
+/// MPI for the whole program if several ranks were started, so that they can end together.
 class Ranks {
  public:
   Ranks() {
@@ -127,9 +127,9 @@ class Ranks {
   MPI_Comm meeting_ = MPI_COMM_SELF;
 };
 
-/// When standard output has not taken everything. `error_number` is 0 if it has failed before.
+/// The outcome if standard output has not taken all data. `error_number` is 0 if it has failed before.
 Outcome output_failure(int error_number) {
-  if (error_number == EPIPE) return {};  // the reader has read enough
+  if (error_number == EPIPE) return {};  // the reader has closed the pipe
   return {ExitCode::io_failed,
           fmt::format("cannot write to standard output{}",
                       error_number == 0 ? "" : ": " + std::generic_category().message(error_number))};
@@ -156,7 +156,7 @@ void show_lines(const std::string& text) {
   for (const std::string_view line : lines_of(text)) tell(line);
 }
 
-/// Does what the command line asks for.
+/// Executes the command line.
 Outcome execute(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(
       "Tailwater simulates free-surface water flow with incompressible smoothed\n"
@@ -192,7 +192,7 @@ Outcome execute(int argc, char** argv, const Communicator& ranks) {
     }
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) return output_failure(errno);
-    if (std::ferror(stdout) != 0) return output_failure(0);  // seen by MPI, which flushes too when it ends
+    if (std::ferror(stdout) != 0) return output_failure(0);  // MPI detects it too, because it flushes when it ends
   } catch (const CLI::Success& request) {                    // --help and --version
     if (ranks.is_root()) app.exit(request);
   } catch (const CLI::ParseError& error) {

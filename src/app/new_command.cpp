@@ -40,7 +40,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"floating-box", templates::floating_box},
 };
 
-/// What a template reads, written beside it: name and content.
+/// The files that a template reads, which are written beside it: name and content.
 const std::map<std::string, std::pair<std::string, const char*>> files_read_by_template{
     {"pier", {"pier.obj", templates::pier_obj}},
     {"river-reach", {"bed.csv", templates::bed_csv}},
@@ -52,7 +52,7 @@ struct NewOptions {
   bool force = false;
 };
 
-/// Refuses to take the place of what is there, unless it is a file of this user and that is asked for.
+/// Refuses to replace an existing file, unless it belongs to this user and `force` is given.
 void require_place(const std::filesystem::path& file, bool force) {
   const std::filesystem::file_status status = std::filesystem::symlink_status(file);
   if (!std::filesystem::exists(status)) return;

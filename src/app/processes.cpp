@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-/// In the new process: becomes the program, or says through `failure` why not.
+/// Replaces the new process by the program, or reports the reason through `failure` if that fails.
 [[noreturn]] void become(std::vector<std::string> command, const sigset_t& signals, int standard_error, int failure) {
   setpgid(0, 0);
   sigprocmask(SIG_SETMASK, &signals, nullptr);
@@ -36,12 +36,13 @@ namespace {
 AwaitedSignals::AwaitedSignals() {
   sigemptyset(&awaited_);
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGCHLD}) sigaddset(&awaited_, signal);
-  std::signal(SIGCHLD, SIG_DFL);  // whoever ignores it hands that on, and would get no word of a process's end
+  // a parent that ignores it passes that on, and would not be notified of the end of a process
+  std::signal(SIGCHLD, SIG_DFL);
   sigprocmask(SIG_BLOCK, &awaited_, &before_);
 }
 
 AwaitedSignals::~AwaitedSignals() {
-  while (next(std::chrono::milliseconds(0)) != 0) continue;  // nobody waits for what came late
+  while (next(std::chrono::milliseconds(0)) != 0) continue;  // signals that came late are discarded
   sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 

@@ -1,4 +1,4 @@
-// The commands that are programs in Python. Each explains its own options.
+// The commands that are programs in Python. Each prints the help of its own options.
 #include <array>
 #include <string>
 

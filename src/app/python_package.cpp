@@ -21,11 +21,11 @@ namespace {
 
 constexpr const char* python = TAILWATER_PYTHON_PROGRAM;
 
-// Below the prefix of an installation, or in the build tree.
+// Folders below the prefix of an installation, or in the build tree.
 constexpr const char* validation = "share/tailwater/validation";
 constexpr const char* package = "lib/python3/dist-packages";
 
-/// The nearest folder above this program that has the module, of one of the two.
+/// The nearest folder above this program that contains the module, in one of the two folders.
 std::filesystem::path prefix_with(const std::string& module) {
   std::string file = module + ".py";
   std::ranges::replace(file.begin(), file.end() - 3, '.', '/');
@@ -42,7 +42,7 @@ std::filesystem::path prefix_with(const std::string& module) {
   return above;
 }
 
-/// Python looks there first from now on.
+/// Makes Python search these folders first.
 void put_first(const std::string& folders) {
   const char* path = std::getenv("PYTHONPATH");
   if (path == nullptr) {
@@ -52,7 +52,7 @@ void put_first(const std::string& folders) {
   }
 }
 
-/// The command line of a module that is a program, started by one that tells what is missing for it.
+/// The command line of a module that is a program. It starts through a launcher that reports missing dependencies.
 std::vector<std::string> python_command(const std::string& module, const std::vector<std::string>& options) {
   const std::filesystem::path prefix = prefix_with(module);
   put_first((prefix / validation).string() + ":" + (prefix / package).string());
@@ -100,7 +100,7 @@ void run_python(const std::string& module, const std::vector<std::string>& optio
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (status == 0) return;
-  // The last line says what is wrong, of a traceback too.
+  // The last line has the error, also in a traceback.
   const std::size_t last = told.find_last_not_of(" \n");
   if (last == std::string::npos) throw IoError("{} ended with status {}", module, status);
   const std::size_t begin = told.rfind('\n', last) + 1;

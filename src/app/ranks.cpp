@@ -44,13 +44,13 @@ int number_in_environment(std::initializer_list<const char*> names) {
   return -1;
 }
 
-/// A batch system says where ranks may run; mpirun asks it.
+/// Whether a batch system decides where ranks may run; mpirun queries it.
 bool is_in_batch_job() {
   const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
   return is_set("SLURM_JOB_ID") || is_set("PBS_JOBID") || is_set("LSB_JOBID");
 }
 
-/// That of the MPI with which this program was built, or one that is in PATH.
+/// The mpirun of the MPI with which this program was built, or one that is in PATH.
 std::optional<std::string> find_mpirun() {
   if (access(TAILWATER_MPIRUN, X_OK) == 0) return TAILWATER_MPIRUN;
   const char* path = std::getenv("PATH");
@@ -62,7 +62,7 @@ std::optional<std::string> find_mpirun() {
   return std::nullopt;
 }
 
-/// Fluid particles that a run has in the mean; 0 if they need more memory than there is, which the run will tell.
+/// Mean number of fluid particles of a run; 0 if they need more memory than there is, which the run will report.
 template <int Dim>
 double particles_of_water(const CaseSpec& spec) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
@@ -72,15 +72,15 @@ double particles_of_water(const CaseSpec& spec) {
   return estimate_water(spec, boundary, at_start * of_a_particle).mean / of_a_particle;
 }
 
-/// `session` is a folder of its own for each mpirun, or of Open MPI if it is empty. Where several share one, as they do
-/// by default, one that ends may remove a folder that another is just about to use.
+/// `session` is a folder of its own for each mpirun; if it is empty, Open MPI chooses one. By default several mpirun
+/// use one folder, and one that ends may remove a folder that another is just about to use.
 std::vector<std::string> mpirun_command(int count, const std::filesystem::path& session,
                                         const std::vector<std::string>& arguments) {
-  // Quiet: that a rank ended with an exit code is ours to tell.
+  // Quiet, because this program reports the exit code of a rank itself.
   std::vector<std::string> command{find_mpirun().value_or("mpirun"), "--quiet", "-n", std::to_string(count)};
   if (!session.empty()) command.insert(command.end(), {"--mca", "orte_tmpdir_base", session.string()});
   if (geteuid() == 0) command.emplace_back("--allow-run-as-root");
-  // Ranks of two runs at once would be bound to the same cores.
+  // Otherwise ranks of two simultaneous runs would be bound to the same cores.
   if (!is_in_batch_job())
     command.insert(command.end(), {"--oversubscribe", "--use-hwthread-cpus", "--bind-to", "none"});
   command.push_back(this_program());
@@ -89,12 +89,12 @@ std::vector<std::string> mpirun_command(int count, const std::filesystem::path& 
 }
 
 struct Ending {
-  int code;  ///< exit code, or 128 and the number of the signal that ended the process
+  int code;  ///< exit code, or 128 plus the number of the signal that ended the process
   bool was_asked;
 };
 
-/// Waits for mpirun. The first SIGINT, SIGTERM or SIGUSR1 asks the ranks to end in order. A second one, or the first
-/// when their run has not begun, makes mpirun kill them. SIGHUP asks for a checkpoint.
+/// Waits for mpirun. The first SIGINT, SIGTERM or SIGUSR1 requests the end of the ranks. A second one, or the first
+/// when their run has not begun, makes mpirun kill them. SIGHUP requests a checkpoint.
 Ending wait_for(pid_t mpirun, const AwaitedSignals& signals, RequestSender& requests) {
   bool was_asked = false;
   while (true) {
@@ -127,7 +127,7 @@ int ranks_by_default(const CaseSpec& spec) {
   if (ranks_in_environment() > 0 || is_in_batch_job()) return 1;
   const int cores = cores_of(usable_processors());
   if (cores == 1 || !find_mpirun()) return 1;
-  // docs/scaling.md has what a second rank gains with so many particles each.
+  // docs/scaling.md has the gain by a second rank for so many particles per rank.
   const bool is_2d = spec.general.dimension == 2;
   const double of_a_rank = is_2d ? 50e3 : 20e3;
   const double water =

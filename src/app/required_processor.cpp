@@ -1,6 +1,7 @@
-// A program that is built for AVX2 ends with a word on a processor without it, in place of an illegal instruction. That
-// must be before anything of C++ is initialised, of libraries too, which call templates that are compiled here: as an
-// entry of .preinit_array, which the loader runs first. And it must have no such instruction of its own.
+// A program that is built for AVX2 ends with a message on a processor without AVX2, instead of with an illegal
+// instruction. The test must run before any C++ initialisation, including that of libraries, which call templates that
+// are compiled here. It is therefore an entry of .preinit_array, which the loader runs first. It must not contain such
+// an instruction itself.
 #include <unistd.h>
 
 #include <cstring>

@@ -15,7 +15,7 @@
 namespace tailwater {
 namespace {
 
-/// Takes a number off the front; nothing if there is none.
+/// Takes a number off the front; empty if there is none.
 std::optional<double> take_number(std::string_view& text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);

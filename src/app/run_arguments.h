@@ -1,4 +1,4 @@
-// What the commands `run` and `resume` have in common on the command line.
+// The arguments that the commands `run` and `resume` have in common.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -28,23 +28,23 @@ struct RunArguments {
 /// The options -n and --wall-time.
 void add_rank_and_time_options(CLI::App& command, RunArguments& arguments, const std::string& about_ranks);
 
-/// The option --jobs, of sweeps.
+/// The option --jobs, for sweeps.
 void add_jobs_option(CLI::App& command, RunArguments& arguments);
 
 /// The options --pictures and --quiet.
 void add_picture_and_voice_options(CLI::App& command, RunArguments& arguments);
 
-/// First of all in a command that runs: what is told goes to the user, on the root alone and unless `quiet`, and the
-/// end of the terminal is no reason to die. (Once a run goes, it writes a checkpoint then: run/requests.h.)
+/// Call first in a command that runs a case. Messages go to the user, from the root alone and unless `quiet`, and
+/// SIGHUP no longer ends the process. (A running run writes a checkpoint then: run/requests.h.)
 void ignore_hangup_and_open_messages(const Communicator& ranks, bool quiet);
 
 /// Throws InputError for a number of ranks with which this program cannot run.
 void require_possible(int ranks);
 
-/// "3h", "90min", "1h30min", "45s" or "2:30:00"; nothing for an empty text. Throws InputError.
+/// "3h", "90min", "1h30min", "45s" or "2:30:00"; empty for an empty text. Throws InputError.
 std::optional<std::chrono::duration<double>> wall_time_of(const std::string& text);
 
-/// Calls `run` with MPI at work, tells the user how it ended if it did not fail, and draws the pictures.
+/// Calls `run` with MPI running, prints how the run ended if it did not fail, and draws the pictures.
 ExitCode run_here(const RunArguments& arguments, const Communicator& ranks, const std::function<ExitCode()>& run);
 
 }  // namespace tailwater

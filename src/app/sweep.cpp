@@ -35,20 +35,20 @@ namespace fs = std::filesystem;
 
 constexpr auto time_between_looks_at_members = std::chrono::milliseconds(500);
 
-/// A member is not begun with less than this left of the wall time.
+/// Minimum remaining wall time with which a member is started.
 constexpr std::chrono::duration<double> least_time_for_a_member(1.0);
 
-/// A member has not ended before its last files are written.
+/// Largest fraction shown for a running member: it has not ended before its last files are written.
 constexpr double largest_share_at_work = 0.999;
 
-/// Of a run that has begun, or not [s].
+/// The time [s] that a run has reached, begun or not.
 double time_reached(const fs::path& run) {
   const std::map<std::string, double> step = last_step(run);
   const auto time = step.find("time_s");
   return time == step.end() ? 0.0 : time->second;
 }
 
-/// Takes all that was written to a file.
+/// Reads the whole text of a file.
 std::string text_of(int file) {
   std::string text;
   char part[4096];
@@ -69,7 +69,7 @@ std::string as_message(const std::string& told) {
   return fmt::format("{}", fmt::join(lines, "; "));
 }
 
-/// Time grows with the particles, which are dx^-Dim, and with the steps, which are 1/dx.
+/// The work grows with the particles, as dx^-Dim, and with the steps, as 1/dx.
 double expected_work(const CaseSpec& spec) {
   return spec.time.end * std::pow(spec.particles.spacing, -(spec.general.dimension + 1));
 }
@@ -108,9 +108,9 @@ class Sweep {
   struct Member {
     fs::path folder;
     double end = 0.0;   ///< s
-    double work = 0.0;  ///< of the whole, in any unit
+    double work = 0.0;  ///< work of the whole run, in any unit
     bool is_to_do = true;
-    double share = 0.0;  ///< of its time that it has reached
+    double share = 0.0;  ///< fraction of its time that it has reached
     pid_t process = 0;
     int standard_error = -1;
   };
@@ -166,7 +166,7 @@ class Sweep {
     write_table();
   }
 
-  /// Requests to the sweep are requests to all that run.
+  /// Forwards requests to the sweep to all running members.
   void take(int signal) {
     if (signal == 0 || signal == SIGCHLD) return;
     if (signal != SIGHUP) is_asked_to_stop_ = true;
@@ -246,8 +246,8 @@ class Sweep {
   std::optional<int> first_failure_;
 };
 
-/// Throws InputError unless the folder can be that of this sweep: there is nothing in it, or a sweep that this one has
-/// all members of, with the same cases.
+/// Throws InputError unless the folder can be that of this sweep: it is empty, or it has a sweep all of whose members
+/// are in this one, with the same cases.
 void require_same_sweep(const fs::path& out, const SweepPlan& plan, const std::vector<CaseSpec>& cases) {
   std::error_code error;
   if (!is_sweep(out)) {

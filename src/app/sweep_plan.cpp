@@ -25,10 +25,10 @@
 namespace tailwater {
 namespace {
 
-/// Folders in one folder; more is a mistake in the values.
+/// Maximum number of folders in one folder; more is a mistake in the values.
 constexpr std::size_t most_members = 1000;
 
-/// Bytes in the name of a member's folder; file systems take 255.
+/// Bytes in the name of a member's folder; file systems allow 255.
 constexpr std::size_t longest_folder_name = 200;
 
 constexpr int sweep_record_format = 1;
@@ -85,7 +85,7 @@ SweepKey parse_sweep_key(const std::string& option) {
 
 std::string override_text(const std::string& key, const std::string& value) { return fmt::format("{}={}", key, value); }
 
-/// "particles.spacing=0.02_scheme.integrator=implicit"; what a shell or a file system might take amiss becomes "_".
+/// "particles.spacing=0.02_scheme.integrator=implicit"; special characters of shells and file systems become "_".
 std::string folder_name(const std::vector<std::string>& keys, const std::vector<std::string>& values) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < keys.size(); ++k) parts.push_back(override_text(keys[k], values[k]));
@@ -115,7 +115,7 @@ CaseSpec read_member(const std::filesystem::path& case_file, const std::vector<s
   return spec;
 }
 
-/// A finding about a member's case with the option of the command line that it comes from, or else with the member.
+/// A finding about a member's case with the option of the command line that causes it, or else with the member.
 std::string line_of_sweep(const Finding& finding, const std::vector<std::string>& swept, const std::string& folder) {
   for (const std::string& text : swept) {
     if (finding.position.file != fmt::format("{}{}", override_prefix, text)) continue;

@@ -1,4 +1,4 @@
-// What a sweep runs: one member for each value of a key of the case, or for each set of values of several keys.
+// The plan of a sweep: one member for each value of a key of the case, or for each set of values of several keys.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ struct SweepKey {
 };
 
 struct SweepMember {
-  std::string folder;               ///< in the folder of the sweep, named after the values
-  std::vector<std::string> values;  ///< of the keys, in their order
+  std::string folder;               ///< name in the folder of the sweep, made from the values
+  std::vector<std::string> values;  ///< values of the keys, in their order
 
   bool operator==(const SweepMember&) const = default;
 };
@@ -30,14 +30,14 @@ struct SweepPlan {
 /// fastest. Commas inside brackets and quotes belong to a value. Throws InputError, which names the option.
 SweepPlan sweep_plan(const std::vector<std::string>& options);
 
-/// The cases of the members, read and checked as a run checks them before it writes. `overrides` (`--set`) hold for
-/// all. Throws InputError with what is wrong with any of them; IoError if the file cannot be read.
+/// The cases of the members, read and checked as a run checks them before it writes. `overrides` (`--set`) apply to
+/// all. Throws InputError with the problems of all members; IoError if the file cannot be read.
 std::vector<CaseSpec> cases_of_sweep(const std::filesystem::path& case_file, const std::vector<std::string>& overrides,
                                      const SweepPlan& plan);
 
 inline constexpr std::string_view sweep_record_name = "sweep.json";
 
-/// Whether a folder is that of a sweep.
+/// Whether the folder is that of a sweep.
 bool is_sweep(const std::filesystem::path& folder);
 
 /// The plan that a sweep has left in its folder. Throws IoError.

@@ -51,7 +51,7 @@ constexpr std::array<TableColumn, 26> summary_columns{{
     {"restarted_solves", "/interventions/restarted_solves"},
 }};
 
-/// The summary of a member; empty if it has none that can be read.
+/// The summary of a member; empty if there is none or it cannot be read.
 Json summary_of(const std::filesystem::path& member) {
   std::ifstream file = open_input_file(member / summary_name);
   Json summary = Json::parse(file, nullptr, false);
@@ -68,21 +68,21 @@ std::string quoted_field(const std::string& text) {
 std::string status_of(const Json& summary, const MemberNews& news) {
   if (news.is_running) return "running";
   const std::string status = summary.value("status", "waiting");
-  if (status == "running") return "killed";  // nobody is at work
+  if (status == "running") return "killed";  // no process is running
   const bool has_failed_before_its_summary = news.exit_code.value_or(0) == 2 || news.exit_code.value_or(0) == 4;
   return status != "done" && has_failed_before_its_summary ? "failed" : status;
 }
 
-/// A number of the summary as the table shows it; nothing where there is none.
+/// A number of the summary as the table shows it; empty where there is none.
 std::string number_at(const Json& summary, const char* place) {
   const Json::json_pointer pointer(place);
   return summary.contains(pointer) && summary.at(pointer).is_number() ? summary.at(pointer).dump() : "";
 }
 
-/// What a member's run says of a measurement: its name in the table, and the places of its numbers.
+/// The scores of a member's run: for each measurement its name in the table and its numbers.
 using Scores = std::map<std::string, Json>;
 
-/// By "PROBE_COLUMN", of a second file of both "PROBE_COLUMN_2".
+/// Keys are "PROBE_COLUMN", for a second file of both "PROBE_COLUMN_2".
 Scores scores_of(const Json& summary) {
   Scores scores;
   for (const Json& score : summary.value("measurements", Json::array())) {
@@ -100,7 +100,7 @@ constexpr std::array<TableColumn, 5> score_columns{{{"rms", "/rms"},
                                                     {"shifted_rms", "/shifted/rms"},
                                                     {"is_inside", "/is_inside"}}};
 
-/// As number_at, and a truth as 0 or 1.
+/// See number_at; a boolean is shown as 0 or 1.
 std::string score_at(const Scores& scores, const std::string& name, const char* place) {
   const auto found = scores.find(name);
   if (found == scores.end()) return "";
@@ -111,7 +111,7 @@ std::string score_at(const Scores& scores, const std::string& name, const char* 
   return number_at(found->second, place);
 }
 
-/// Of all measurements of all members, in the order of their names.
+/// The names of all measurements of all members, in their order.
 std::set<std::string> measured_in(const std::vector<Json>& summaries) {
   std::set<std::string> names;
   for (const Json& summary : summaries) {
@@ -144,7 +144,7 @@ std::string sweep_table(const std::filesystem::path& sweep, const SweepPlan& pla
     const SweepMember& member = plan.members[m];
     Json& summary = summaries[m];
     const std::string status = status_of(summary, news[m]);
-    if (status == "running") summary = Json::object();  // of its start, or of an earlier part
+    if (status == "running") summary = Json::object();  // that of its start, or of an earlier part
     std::vector<std::string> fields{quoted_field(member.folder)};
     for (const std::string& value : member.values) fields.push_back(quoted_field(value));
     fields.push_back(status);

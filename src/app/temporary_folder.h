@@ -1,4 +1,4 @@
-// A folder that only this user can read, gone with its object.
+// A folder that only this user can read; it is removed with its object.
 #pragma once
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@ namespace tailwater {
 
 class TemporaryFolder {
  public:
-  /// In another folder, that of temporary files if none is named.
+  /// Made in another folder, that of temporary files if none is named.
   explicit TemporaryFolder(std::filesystem::path where = {}) {
     std::error_code error;
     if (where.empty()) where = std::filesystem::temp_directory_path(error);
@@ -25,7 +25,7 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  /// Empty if it cannot be made; errno says why.
+  /// Empty if it cannot be made; errno has the reason.
   const std::filesystem::path& path() const { return path_; }
 
  private:

@@ -47,7 +47,7 @@ fs::path working_folder(const ViewContent& content) {
   return content.runs.empty() ? fs::current_path() : content.runs.front().path.parent_path();  // a report may show none
 }
 
-/// my_run, my_run_2, ...: the first that is free.
+/// The first free name of my_run, my_run_2, ...
 std::string free_name(const fs::path& folder, const std::string& stem) {
   std::error_code error;
   for (int k = 1;; ++k) {
@@ -63,7 +63,7 @@ void require_plain_name(const std::string& name) {
   throw InputError("\"{}\" is no name for a folder beside the case; remedy: a name without '/'", name);
 }
 
-/// Whether a file has been written since.
+/// Returns whether a file has been written since this call.
 std::function<bool()> is_written_anew(const fs::path& file) {
   const auto last_time = [file] {
     std::error_code error;
@@ -104,7 +104,7 @@ bool ask_sweep(const fs::path& sweep, const std::string& what) {
   return true;
 }
 
-/// What `tailwater check - --json` tells of a text.
+/// The output of `tailwater check - --json` for a text.
 Json check_by_child(const fs::path& folder, const std::string& text, TrialSteps trial) {
   std::vector<std::string> command{this_program(), "check", "-", "--json"};
   if (trial == TrialSteps::some) command.emplace_back("--trial-steps");
@@ -115,7 +115,7 @@ Json check_by_child(const fs::path& folder, const std::string& text, TrialSteps 
                                           : fmt::format("the check has ended: {}", end.errors));
 }
 
-/// One at a time, whoever asks.
+/// One check at a time, for all requests.
 std::function<Json(const std::string&)> checking(const fs::path& folder, TrialSteps trial) {
   return [folder, trial, one_at_a_time = std::make_shared<std::mutex>()](const std::string& text) {
     const std::lock_guard lock(*one_at_a_time);

@@ -1,4 +1,4 @@
-// What the server behind `tailwater view` does by other commands of the program.
+// The actions of the server behind `tailwater view` that use other commands of the program.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// `sweeps`: the folders of those whose members are shown.
+/// `sweeps`: the folders of the sweeps whose members are shown.
 ViewActions view_actions(const ViewContent& content, const std::vector<std::filesystem::path>& sweeps);
 
 }  // namespace tailwater

@@ -58,7 +58,7 @@ void add_members(const fs::path& sweep, ViewContent& content) {
   }
 }
 
-/// A report of `tailwater validate`, and those of its runs that it shows.
+/// Adds a report of `tailwater validate`, and those of its runs that it shows.
 void add_report(const fs::path& folder, ViewContent& content) {
   content.mode = "report";
   content.report = Json::parse(FolderReader(folder).text_of({std::string(report_name)}), nullptr, false);
@@ -78,7 +78,7 @@ void add_report(const fs::path& folder, ViewContent& content) {
 
 bool goes_up(const fs::path& path) { return path.is_absolute() || std::ranges::find(path, "..") != path.end(); }
 
-/// What `tailwater study` found, and its runs at the spacings.
+/// Adds the results of `tailwater study`, and its runs at the spacings.
 void add_study(const fs::path& folder, ViewContent& content) {
   content.mode = "study";
   content.report = Json::parse(FolderReader(folder).text_of({std::string(study_name)}), nullptr, false);
@@ -98,7 +98,7 @@ std::string name_of_folder(const fs::path& folder) {
   return whole.filename().string();
 }
 
-/// Of a folder that cannot be shown: the runs that it holds, with the command that shows them, or what it lacks.
+/// Describes a folder that cannot be shown: its runs, with the command that shows them, or the missing files.
 std::string what_it_has(const fs::path& folder) {
   constexpr std::size_t most_named = 4;
   std::vector<std::string> runs;
@@ -114,7 +114,7 @@ std::string what_it_has(const fs::path& folder) {
   return fmt::format("runs in it; remedy: tailwater view {}", fmt::join(runs, " "));
 }
 
-/// What the paths of the command line are; adds those that are sweeps to `sweeps`.
+/// Classifies the paths of the command line; adds those that are sweeps to `sweeps`.
 ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>& sweeps) {
   ViewContent content{.mode = "run", .runs = {}, .case_file = {}};
   for (const fs::path& path : paths) {
@@ -147,14 +147,14 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
   return content;
 }
 
-/// Where a desktop keeps what only its user may read; empty if there is none.
+/// The folder for files that only this user may read, as set by a desktop; empty if there is none.
 fs::path runtime_folder() {
   const char* folder = getenv("XDG_RUNTIME_DIR");
   return folder == nullptr ? "" : folder;
 }
 
-/// Opens the address in the user's browser. Other users see the words of a command, so the token is in a file of
-/// `folder`, which sends the browser on. Where that cannot be done the user opens the address that is printed.
+/// Opens the address in the user's browser. Other users can see the words of a command, so the token is in a file of
+/// `folder`, which redirects the browser. Where this fails the user opens the printed address.
 void open_in_browser(const std::string& address, const fs::path& folder) {
   if (folder.empty()) return;
   try {
