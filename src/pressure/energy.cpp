@@ -1,4 +1,4 @@
-// The balance of the energy, and what it leaves to the density source.
+// The balance of the energy, and the resulting fraction of the density source.
 #include <algorithm>
 #include <cmath>
 
@@ -10,12 +10,12 @@
 namespace tailwater {
 namespace {
 
-/// Share of what walls and open ends bring that is not counted as a rise if it was more: the force on a wall, summed
-/// over the kernel, is known to some (dx/depth)^2, 4 % at 12 rows of particles.
+/// Fraction of the energy from walls and open ends that does not count as a rise, because that energy is uncertain. The
+/// force on a wall, summed over the kernel, has a relative error of some (dx/depth)^2, 4 % at 12 rows of particles.
 constexpr double in_doubt = 0.25;
 
-/// [speed/L]; at which a rise is forgotten. Water at rest dissipates nothing that could pay for lifting a lattice that
-/// was placed too close: it rises slowly.
+/// [speed/L]; rate at which a rise is forgotten. Water at rest dissipates no energy that could balance the lifting of a
+/// lattice that was placed too close: it rises slowly.
 constexpr double fading_rate = 1.4;
 
 template <int Dim>
@@ -29,8 +29,8 @@ double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pr
   });
 }
 
-/// Work [J] of the pressure on the expansion that the density source asks for: the energy it takes to lift water that
-/// had come too close.
+/// Work [J] of the pressure on the expansion of the density source: the energy for lifting water whose particles had
+/// come too close.
 template <int Dim>
 double density_work(const Flow<Dim>& flow, const PosedEquation& equation, double dt) {
   if (equation.density_source.empty()) return 0.0;

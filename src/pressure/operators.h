@@ -1,4 +1,4 @@
-// What several stages ask of the formulation's gradient and divergence.
+// Uses of the formulation's gradient and divergence by several stages.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// What each of these owned wall particles pushes the fluid with by a pressure field (flow/formulation.h).
+/// The force of each of these owned wall particles on the fluid by a pressure field (flow/formulation.h).
 template <int Dim>
 std::vector<Vec<Dim>> reactions_of_walls(const Flow<Dim>& flow, std::span<const std::size_t> walls,
                                          const std::vector<double>& pressure);

@@ -1,6 +1,7 @@
-// A projection like the first, but of the velocity that is there, and where the particles are: no gravity, no target,
-// no density source. It is done once. What is left then is what the pair of divergence and gradient reads in a
-// disordered set; taking that out too costs pressure and velocity more than it mends (docs/theory/robustness.md).
+// A second projection of the present velocity, at the present positions of the particles: no gravity, no target, no
+// density source. It is done once. The remaining divergence comes from the errors of the pair of divergence and
+// gradient in a disordered set. Removing it too would harm pressure and velocity more than it improves them
+// (docs/theory/robustness.md).
 #include <cmath>
 
 #include "base/for_each.h"

@@ -11,7 +11,7 @@
 namespace tailwater {
 namespace {
 
-/// The pressure rows where nothing else is solved for.
+/// The pressure rows where no other unknowns are solved for.
 template <int Dim>
 class RowsAlone final : public CoupledUnknowns {
  public:
@@ -31,7 +31,7 @@ std::unique_ptr<CoupledUnknowns> couple(Flow<Dim>& flow, const PosedEquation& eq
   return std::make_unique<RowsAlone<Dim>>(flow);
 }
 
-/// The pressure that this projection found last, without what parts and a second projection added to it.
+/// The last pressure of this projection, without the contributions of parts and a second projection.
 template <int Dim>
 std::vector<double> guess(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -41,8 +41,8 @@ std::vector<double> guess(const Flow<Dim>& flow) {
   return pressure;
 }
 
-/// Limits tension in the equation where a rough pressure has more than it may keep. Returns the guess of what the
-/// equation then gives.
+/// Limits tension in the equation where a rough pressure exceeds the allowed one. Returns the guess of the solution of
+/// the limited equation.
 template <int Dim>
 std::vector<double> limit_tension(Flow<Dim>& flow, const std::vector<double>& allowed, std::vector<double> rough) {
   for_each(flow.state.particles.owned, [&](std::size_t i) {
@@ -89,7 +89,7 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<D
   PressureReport rough;
   pressure = guess(flow);
   if (flow.setup.has_air()) {
-    // Only to find where water near the surface would pull; and it is the guess of the second solve.
+    // Only to find tension of water near the surface; the result is also the guess of the second solve.
     rough = report_of(unknowns->solve_roughly(rough_tolerance(tolerance)));
     shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, pressure);
     pressure = limit_tension(flow, allowed, std::move(pressure));

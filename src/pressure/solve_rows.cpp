@@ -9,7 +9,7 @@ SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double to
   const std::size_t owned = flow.state.particles.owned;
   flow.halo().exchange(pressure);
   {
-    const std::vector<double> guess = pressure;  // some wall models' rows look at each other
+    const std::vector<double> guess = pressure;  // rows of some wall models depend on each other
     for_each(owned, [&](std::size_t i) {
       if (!has_equation(flow.role[i])) pressure[i] = flow.pressure_rows.answer(i, guess.data());
     });

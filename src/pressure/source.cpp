@@ -1,4 +1,4 @@
-// The pressure equation of a step: what it aims at, and its rows with their sources.
+// The pressure equation of a step: its target divergence, and its rows with their sources.
 #include <utility>
 
 #include "base/for_each.h"

@@ -1,21 +1,22 @@
-// How much tension (pressure below 0) a particle may keep where there is air.
+// The tension (pressure below 0) that a particle may keep where there is air.
 #pragma once
 
 #include "flow/flow.h"
 
 namespace tailwater {
 
-/// Share of a pressure below 0 that owned particle i may keep where there is air: `interior` for water, 1 for water
-/// whose pressure a part gives, 0 for walls.
+/// Fraction of a pressure below 0 that owned particle i may keep where there is air: `interior` for water, 1 for water
+/// whose pressure a part determines, 0 for walls.
 template <int Dim>
 double tension_share(const Flow<Dim>& flow, std::size_t i) {
   if (flow.role[i] == Role::water) return flow.surroundings.interior[i];
   return flow.state.particles.is_fluid(i) ? 1.0 : 0.0;
 }
 
-/// Tension [Pa] that particles, water or wall, keep in full; empty where there is none. Beside pockets of air it is by
-/// how much the pressure that the pockets alone make is off that of their air: in the outermost rows this pressure
-/// makes a velocity with a divergence, and what mends that pulls by as much at most. Collective.
+/// Tension [Pa] that particles, water or wall, keep in full; empty where there is none. Beside pockets of air it is the
+/// difference between the pressure that the pockets alone make and that of their air. In the outermost rows this
+/// pressure makes a velocity with a divergence, and the correction of that velocity has at most this tension.
+/// Collective.
 template <int Dim>
 std::vector<double> allowed_tension(const Flow<Dim>& flow) {
   std::vector<double> tension;
@@ -23,7 +24,7 @@ std::vector<double> allowed_tension(const Flow<Dim>& flow) {
   return tension;
 }
 
-/// Of one particle.
+/// The allowed tension of one particle.
 inline double tension_at(const std::vector<double>& allowed, std::size_t i) {
   return allowed.empty() ? 0.0 : allowed[i];
 }

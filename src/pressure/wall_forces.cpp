@@ -6,7 +6,7 @@
 namespace tailwater {
 namespace {
 
-/// The share of a pair's force that acts through its fluid particle, by wall particle, ghosts included; 0 at fluid.
+/// The fraction of a pair's force that acts through its fluid particle, by wall particle, ghosts included; 0 at fluid.
 template <int Dim>
 std::vector<double> shares_of_water(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;

@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// [dx] of the cells of a multigrid (linear/cell_multigrid.h).
+/// [dx]; edge of the cells of a multigrid (linear/cell_multigrid.h).
 constexpr double cell_edge = 2.0;
 
 }  // namespace

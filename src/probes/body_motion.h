@@ -1,4 +1,4 @@
-// How a floating body has moved: probe "motion".
+// The motion of a floating body: probe "motion".
 #pragma once
 
 #include "case/spec.h"

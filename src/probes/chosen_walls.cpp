@@ -11,7 +11,7 @@
 namespace tailwater {
 namespace {
 
-/// dx; the part of a patch in a region is found from pieces of this size.
+/// dx; the part of a patch in a region is computed from pieces of this size.
 constexpr double longest_piece_edge = 0.4;
 
 /// By wall, whether the probe names it.

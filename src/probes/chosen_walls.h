@@ -1,4 +1,4 @@
-// The part of the walls that a probe asks for.
+// The part of the walls that a probe selects.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class ChosenWalls {
   std::function<bool(const Vec<Dim>&)> is_inside_;  ///< empty if there is no region
 };
 
-/// The share of each patch, 0 to 1, that is chosen. Throws InputError as above, and if nothing is.
+/// The selected fraction of each patch, 0 to 1. Throws InputError as above, and if nothing is selected.
 template <int Dim>
 std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary,
                                   std::span<const WallPatch<Dim>> patches);

@@ -1,4 +1,4 @@
-// What a probe sees of a flow at one moment, and what it returns.
+// The data of a flow at one instant for the probes, and the readings that probes return.
 #pragma once
 
 #include <algorithm>
@@ -23,30 +23,30 @@
 
 namespace tailwater {
 
-/// Of all pockets of enclosed air. In 2D per metre of width.
+/// Totals of all pockets of enclosed air. In 2D per metre of width.
 struct PocketTotals {
-  double pressure = 0.0;  ///< Pa; above the atmosphere's, of the largest
+  double pressure = 0.0;  ///< Pa; pressure of the largest pocket, above the atmosphere's
   double volume = 0.0;    ///< m^Dim
-  double gas = 0.0;       ///< m^Dim; at the pressure of the atmosphere
-  double vented = 0.0;    ///< m^Dim; the same of the gas that has left through vents, less what came in
+  double gas = 0.0;       ///< m^Dim; gas at the pressure of the atmosphere
+  double vented = 0.0;    ///< m^Dim; the same unit: gas that has left through vents, less gas that came in
   double energy = 0.0;    ///< J
-  double pockets = 0.0;   ///< how many
+  double pockets = 0.0;   ///< number of pockets
 };
 
 /// Measures of the whole flow on all ranks. In 2D per metre of width.
 struct FlowTotals {
   double kinetic_energy = 0.0;      ///< J
   double potential_energy = 0.0;    ///< J; relative to the origin
-  double density_error_mean = 0.0;  ///< of C/C_0 - 1 away from the surface
+  double density_error_mean = 0.0;  ///< mean of C/C_0 - 1 away from the surface
   double density_error_rms = 0.0;
   double volume_out = 0.0;                   ///< m^Dim; volume that has left through open ends
   double volume_in = 0.0;                    ///< m^Dim; volume that has come through them
-  std::vector<double> section_volumes = {};  ///< m^Dim; one per discharge probe, what has passed it
+  std::vector<double> section_volumes = {};  ///< m^Dim; one per discharge probe, volume that has passed it
   PocketTotals air = {};
 };
 
-/// Borrows the particles, whose ghosts must be up to date. `grid` holds all of them, where they are now, and reaches as
-/// far as the kernel's support.
+/// Borrows the particles, whose ghosts must be up to date. `grid` contains all particles at their present places; its
+/// cells reach as far as the kernel's support.
 template <int Dim>
 struct ProbeContext {
   const Particles<Dim>& particles;
@@ -59,18 +59,18 @@ struct ProbeContext {
   double time;       ///< s
   FlowTotals totals;
   Communicator ranks = {};
-  /// How water feels each particle, as in visible_fraction. Needed where there are plates.
+  /// For visible_fraction: the plates through which water interacts with each particle. Needed where there are plates.
   std::span<const int> felt_through = {};
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
-  std::span<const BodyState<Dim>> bodies = {};   ///< that float
-  /// Pa; of the air at a place, above the atmosphere's. On all ranks the same; empty where there are no pockets of it.
+  std::span<const BodyState<Dim>> bodies = {};   ///< floating bodies
+  /// Pa; pressure of the air at a place, above the atmosphere's. The same on all ranks; empty without pockets.
   std::function<double(const Vec<Dim>&)> air_pressure = {};
 
   double air_pressure_at(const Vec<Dim>& x) const { return air_pressure ? air_pressure(x) : 0.0; }
 
-  /// The same moment of other particles. What belongs to particles or ranks is left out.
+  /// This instant for other particles. Data that belong to particles or ranks are left out.
   ProbeContext of(const Particles<Dim>& others, const CellGrid<Dim>& their_grid) const {
     return {.particles = others,
             .grid = their_grid,
@@ -85,7 +85,7 @@ struct ProbeContext {
   }
 };
 
-/// The fraction of a particle that is felt at a place past the screens of walls.
+/// The visible fraction of a particle at a place, past the screens of walls.
 template <int Dim>
 double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
   if (context.boundary.screens.empty()) return 1.0;
@@ -95,8 +95,8 @@ double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& x, 
                                felt);
 }
 
-/// Calls body(j, v w_j W(|x - x_j|)) for every particle j within the support around `x` of which the visible fraction v
-/// is not 0.
+/// Calls body(j, v w_j W(|x - x_j|)) for every particle j within the support around `x` whose visible fraction v is not
+/// 0.
 template <int Dim, class Body>
 void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&& body) {
   std::visit(
@@ -113,7 +113,7 @@ void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&&
 
 using Row = std::vector<double>;
 
-/// Where a probe looks: all places within `margin` of a segment, and all places in the direction `along` from these.
+/// The region of a probe: all places within `margin` of a segment, and all places in the direction `along` from these.
 template <int Dim>
 struct Region {
   Vec<Dim> from;
@@ -133,7 +133,7 @@ struct Region {
   /// Whether `x` is in the region or at most `reach` [m] away.
   bool contains(const Vec<Dim>& x, double reach) const { return distance(x) <= margin + reach; }
 
-  /// Holds all places that `contains` accepts, up to rounding; without bounds in directions in which `along` leads.
+  /// Contains all places that `contains` accepts, up to rounding; unbounded in the directions of `along`.
   Eigen::AlignedBox<double, Dim> box(double reach) const {
     Vec<Dim> sideways = Vec<Dim>::Constant(margin + reach);
     for (int d = 0; d < Dim; ++d) {
@@ -146,7 +146,7 @@ struct Region {
   Vec<Dim> across(const Vec<Dim>& v) const { return v - v.dot(along) * along; }
 };
 
-/// A measurement set up for one place: the columns of its table, and how to take it, as one or more rows.
+/// A measurement set up for one place: the columns of its table, and the function that takes it, as one or more rows.
 template <int Dim>
 struct Reading {
   std::vector<OutputColumn> columns;
@@ -154,13 +154,13 @@ struct Reading {
   /// On several ranks the root takes the measurement, from the particles of all ranks within the kernel's support of
   /// this region at `time` [s]. If empty, every rank takes it from its own particles, and the root's rows count.
   std::function<Region<Dim>(double time)> region = {};
-  /// What it remembers from reading to reading; null: nothing. The root's counts: a checkpoint keeps it, and a run that
-  /// goes on puts them back.
+  /// The state of the probe between readings; null: there is none. The root's state counts: a checkpoint saves it, and
+  /// a resumed run restores it.
   std::shared_ptr<std::vector<double>> memory = {};
-  bool memory_grows = false;  ///< else it always has as many numbers
-  /// It adds up over time: taken at every step, whatever interval is between the lines of its table.
+  bool memory_grows = false;  ///< else its number of values is constant
+  /// Whether it sums over time: it is then taken at every step, whatever interval is between the lines of its table.
   bool adds_up = false;
-  /// The totals of its type (totals_of), from its memory; the last ones are left out where there are none yet.
+  /// The totals of its type (totals_of), from its memory; the last ones are left out as long as they are undefined.
   std::function<std::vector<double>()> totals = {};
   /// Writes its map at `time` [s] as VTP, or beside `path` as CSV, from its memory. Throws IoError.
   std::function<void(const std::filesystem::path& path, double time)> write_map = {};

@@ -13,11 +13,11 @@ namespace {
 
 /// [dx]; with two columns on each side the tent counts a lattice exactly wherever it stands.
 constexpr double half_width_over_spacing = 2.0;
-/// What has passed is smoothed over the time in which a long wave in water as deep as the section is high goes so many
-/// spacings. Single particles vanish in such a mean, and what changes in such water does not.
+/// Smoothing time of the volume that has passed, in spacings: the time in which a long wave in water as deep as the
+/// section is high travels so far. Single particles vanish in such a mean, but changes of such water do not.
 constexpr double smoothing_over_spacing = 20.0;
 
-/// Which of the discharge probes it is.
+/// Index of the probe among the discharge probes.
 std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec) {
   std::size_t number = 0;
   for (const ProbeTable& other : spec.probes) {
@@ -27,7 +27,7 @@ std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec)
   return number;
 }
 
-/// The flux [m^Dim/s] of the water within two spacings of the section, at one moment.
+/// The flux [m^Dim/s] of the water within two spacings of the section, at one instant.
 template <int Dim>
 double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
   const Particles<Dim>& particles = context.particles;
@@ -42,7 +42,7 @@ double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) 
   return context.ranks.sum(flux) / half;
 }
 
-/// What a probe remembers from reading to reading, in the numbers that checkpoints keep.
+/// The state of a probe between readings, as the numbers that checkpoints save.
 struct Memory {
   explicit Memory(std::vector<double>& numbers)
       : largest(numbers[0]), time_of_largest(numbers[1]), time(numbers[2]), volume(numbers[3]), discharge(numbers[4]) {}
@@ -52,8 +52,8 @@ struct Memory {
 
   double& largest;
   double& time_of_largest;
-  double& time;    ///< of the last reading; below 0: there was none
-  double& volume;  ///< then
+  double& time;    ///< time of the last reading; below 0: there was none
+  double& volume;  ///< volume at that time
   double& discharge;
 };
 

@@ -42,7 +42,7 @@ Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   std::make_heap(heap.begin(), heap.end());
   const double half = 0.5 * context.spacing;
   const double front = heap.front().first + half;
-  // Checks the foremost particles one by one until one is connected.
+  // Tests the foremost particles one by one until one is connected.
   while (!heap.empty()) {
     if (is_connected(context, heap.front().second)) return {front, heap.front().first + half};
     std::pop_heap(heap.begin(), heap.end());

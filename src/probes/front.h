@@ -1,5 +1,6 @@
-// How far the water has come in a direction: the edge of the foremost fluid particle, dx/2 beyond its centre, once for
-// all fluid and once for connected fluid. A particle is connected when Dim + 3 fluid particles lie within its support.
+// The position of the water front in a direction: the edge of the foremost fluid particle, dx/2 beyond its centre, once
+// for all fluid and once for connected fluid. A particle is connected when Dim + 3 fluid particles lie within its
+// support.
 #pragma once
 
 #include "case/spec.h"

@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// The values of a particle that probes read, as sent between ranks.
+/// The data of a particle that probes read, as sent between ranks.
 template <int Dim>
 struct Sample {
   std::int64_t id;
@@ -37,7 +37,7 @@ template <int Dim>
 GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions) {
   const Particles<Dim>& particles = context.particles;
   const double reach = kernel_radius(context.kernel);
-  std::vector<Eigen::AlignedBox<double, Dim>> boxes;  // most places are outside all of them, which is told at once
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes;  // a quick test: most places are outside all of them
   for (const Region<Dim>& region : regions) boxes.push_back(region.box(reach));
   const auto is_near = [&](std::size_t i) {
     const Vec<Dim>& x = particles.position[i];

@@ -14,7 +14,7 @@ struct GatheredParticles {
 };
 
 /// On the root: all particles, ghosts included, within the kernel's support of one of the regions, each once and in the
-/// order of ids. On other ranks: none. All count as `owned`. Rows of walls are not given. Collective.
+/// order of ids. On other ranks: none. All count as `owned`. Rows of walls are left out. Collective.
 template <int Dim>
 GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions);
 

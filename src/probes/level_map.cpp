@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-/// Of a line; a checkpoint keeps these numbers.
+/// The values of a line; a checkpoint saves these numbers.
 enum LevelValue { largest, time_of_largest, integral, last, values_per_line };
 constexpr std::size_t values_before_lines = 2;  // the time of the last reading, and the time that all cover
 
@@ -132,7 +132,7 @@ struct LevelMap {
   };
 
   std::vector<double> totals() const {
-    // Levels that differ by rounding alone are equal, so the place does not depend on the number of ranks.
+    // Levels that differ by rounding alone count as equal, so the place does not depend on the number of ranks.
     const double rounding = 1e-9 * std::abs(piece[0]);
     const double top = largest_over(lines.size(), of(0, largest), [&](std::size_t k) { return of(k, largest); });
     std::size_t highest = 0;

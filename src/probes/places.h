@@ -9,8 +9,7 @@
 
 namespace tailwater {
 
-/// The key `step`, which is dx if it is 0. Throws CaseError where it is so small that particles cannot tell its places
-/// apart.
+/// The key `step`; 0 means dx. Throws CaseError where it is so small that particles cannot resolve its places.
 inline double step_of(const ProbeTable& probe, double spacing) {
   constexpr double least = 0.1;  // dx
   if (probe.step > 0.0 && probe.step < least * spacing) {
@@ -21,10 +20,10 @@ inline double step_of(const ProbeTable& probe, double spacing) {
   return probe.step > 0.0 ? probe.step : spacing;
 }
 
-/// Most places of a probe; each of them is read by itself.
+/// Maximum number of places of a probe; each of them is read separately.
 inline constexpr double most_places = 1e6;
 
-/// Throws CaseError for more places, which may be any number, before there is memory for them.
+/// Throws CaseError if there are too many places, before memory is requested for them.
 inline void require_few_places(const ProbeTable& probe, double places) {
   if (places <= most_places) return;
   throw CaseError({"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places, most_places},

@@ -15,11 +15,11 @@ namespace {
 template <int Dim>
 struct PressureMap {
   std::vector<WallPatch<Dim>> patches;
-  std::vector<Vec<Dim>> drawn_corners;  ///< of one patch after the other
+  std::vector<Vec<Dim>> drawn_corners;  ///< one patch after the other
   std::vector<std::int64_t> wall;       ///< of each patch
   double area = 0.0;                    ///< m or m^2; of all patches
 
-  // What a checkpoint keeps: two numbers, then three for each patch.
+  // The saved state of a checkpoint: two numbers, then three for each patch.
   std::shared_ptr<std::vector<double>> memory;
   double& last_time() const { return (*memory)[0]; }                             // s
   double& duration() const { return (*memory)[1]; }                              // s
@@ -65,8 +65,8 @@ struct PressureMap {
     return row;
   }
 
-  /// The first patch of those with the highest pressure: pressures that differ by rounding alone, as those along a
-  /// level bed do, are equal, so the place does not depend on the number of ranks.
+  /// The first patch of those with the highest pressure. Pressures that differ by rounding alone, as those along a
+  /// level bed, count as equal, so the place does not depend on the number of ranks.
   template <class Of>
   std::size_t first_of_highest(Of&& of) const {
     constexpr double rounding = 1e-9;
@@ -101,7 +101,7 @@ struct PressureMap {
     return pressure;
   }
 
-  /// `of(k)` for each corner of each patch k.
+  /// Returns `of(k)` for each corner of each patch k.
   template <class Of>
   auto at_corners(Of&& of) const {
     std::vector<std::decay_t<decltype(of(0))>> values;

@@ -1,7 +1,7 @@
 // The largest and the mean pressure over the run on patches of walls: probe "pressure-map", file probes/NAME.vtp.
 //
-// The pressure is that of wall_pressure.h at the centre of each patch. Its sums over particles are taken by every rank
-// over its own particles and their periodic images, and added up: no rank needs the particles of others.
+// The pressure is that of wall_pressure.h at the centre of each patch. Every rank sums over its own particles and their
+// periodic images, and the sums of all ranks are added: no rank needs the particles of others.
 #pragma once
 
 #include "case/spec.h"

@@ -16,7 +16,7 @@
 
 namespace tailwater {
 
-/// A probe: what it reads and when.
+/// A probe: its reading and the times of its readings.
 template <int Dim>
 struct Probe {
   std::string name;
@@ -26,12 +26,12 @@ struct Probe {
   std::vector<double> times;  ///< s, ascending; if any, they replace the interval
 };
 
-/// The case's probes. Throws InputError, which names the probe, for a place where it cannot measure. Names and keys are
-/// already checked when the case is read.
+/// The case's probes. Throws InputError, which names the probe, for a place where it cannot measure. Names and keys
+/// have been checked when the case was read.
 template <int Dim>
 std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// How far a probe has come.
+/// The progress of a probe.
 struct ProbeMark {
   std::size_t taken = 0;  ///< intervals or times that have passed
   std::int64_t size = 0;  ///< bytes of its file; on the root
@@ -40,17 +40,17 @@ struct ProbeMark {
 template <int Dim>
 class ProbeSet {
  public:
-  /// Starts one file per probe, probes/NAME.csv, on the root; or goes on with those of an earlier run from where its
-  /// marks say. Throws IoError, on all ranks.
+  /// Starts one file per probe, probes/NAME.csv, on the root; or continues those of an earlier run at its marks. Throws
+  /// IoError, on all ranks.
   ProbeSet(std::vector<Probe<Dim>> probes, const RunFolder& folder, const Communicator& ranks = {},
            const std::optional<std::vector<ProbeMark>>& marks = {});
 
-  /// Of each probe.
+  /// The mark of each probe.
   std::vector<ProbeMark> marks() const;
 
-  /// What the probes remember, one after the other; that of the root counts.
+  /// The states of all probes, one after the other; that of the root counts.
   std::vector<double> memory() const;
-  /// Takes it up again. Throws IoError, which names the folder that the newest checkpoint is in, if it is not of these
+  /// Restores the states. Throws IoError, which names the folder of the newest checkpoint, if they are not of these
   /// probes.
   void restore(std::span<const double> memory, const std::filesystem::path& checkpoints);
 
@@ -67,7 +67,7 @@ class ProbeSet {
   /// Whether any probe is to be read at `time` [s].
   bool is_due(double time) const;
 
-  /// Reads these, and appends to the files of all that are due. Collective; throws IoError, on all ranks.
+  /// Reads all probes that are due, and appends to their files. Collective; throws IoError, on all ranks.
   void record(const ProbeContext<Dim>& context);
 
  private:

@@ -27,7 +27,7 @@ struct RunUp {
 
   RunUp(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
       : up(upwards<Dim>(probe, spec)), walls(probe, spec, boundary) {
-    // For its errors: somewhere there must be a wall.
+    // Called only for its errors: there must be a wall somewhere.
     chosen_shares<Dim>(probe, spec, boundary, make_wall_patches(boundary, longest_patch_edge * spec.particles.spacing));
     largest() = highest() = range(boundary).low;
   }
@@ -37,7 +37,7 @@ struct RunUp {
     double high = -std::numeric_limits<double>::max();
   };
 
-  /// Where the walls are now.
+  /// The range of heights of the walls at their present places.
   Heights range(const Boundary<Dim>& boundary) const {
     Heights heights;
     for (const WallFace<Dim>& face : boundary.faces) {
@@ -65,7 +65,7 @@ struct RunUp {
   Row read(const ProbeContext<Dim>& context) const {
     const Heights heights = range(context.boundary);
     const double bin = height_of_bin * context.spacing;
-    // The highest reach in each bin, with its sign changed, since the least of all ranks is asked for.
+    // The highest reach in each bin, with its sign changed, because the ranks are reduced by their minimum.
     std::vector<double> connected(static_cast<std::size_t>((heights.high - heights.low) / bin) + 2, -heights.low);
     double highest_now = heights.low;
     for (std::size_t i = 0; i < context.particles.owned; ++i) {  // in order: many particles mark one bin

@@ -1,10 +1,10 @@
-// How high the water has run up walls: probe "run-up".
+// The run-up of the water on walls: probe "run-up".
 //
 // Water that is at most dx from one of the walls wets it, up to half a spacing along the wall above the particle's foot
-// on it. `connected_m` is the height that is reached from the lowest wet place up without a gap, by particles that have
-// D + 3 others in their support, as a connected front has; `highest_m` is that of any water on the wall. Heights are
-// above the origin, against gravity; of a dry wall that of its lowest point. A gap is found if it is 4 dx high, and one
-// of 2 dx or less is none.
+// on it. `connected_m` is the height reached without a gap from the lowest wet place up, by particles with D + 3 others
+// in their support, as for a connected front. `highest_m` is the height of any water on the wall. Heights are above the
+// origin, against gravity; a dry wall has that of its lowest point. A gap of 4 dx is detected, and one of 2 dx or less
+// is not.
 #pragma once
 
 #include "case/spec.h"

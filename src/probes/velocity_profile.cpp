@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// Sums over the time between readings; a checkpoint keeps these numbers.
+/// Sums over the time between readings; a checkpoint saves these numbers.
 enum ProfileSum { time_of_last_reading, duration, depth_integral, velocity_integral };
 
 template <int Dim>

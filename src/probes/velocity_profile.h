@@ -1,7 +1,7 @@
 // Velocities over the depth at a place: probe "velocity-profile".
 //
 // From the bed (water_column.h) to the surface of the connected water, the velocity is read (point.h) in the middle of
-// pieces of equal height, the topmost of which is what is left. So places have the same heights at all times, and the
+// pieces of equal height; the topmost piece is the remainder. So places have the same heights at all times, and the
 // mean over the pieces is exact where the velocity is linear over the height.
 #pragma once
 

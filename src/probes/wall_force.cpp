@@ -22,11 +22,11 @@
 namespace tailwater {
 namespace {
 
-/// e: the share of a force that a patch takes whatever its normal. Without it, nearly parallel normals would enlarge
+/// e: the fraction of a force that a patch takes whatever its normal. Without it, nearly parallel normals would enlarge
 /// forces along both of them by one over their angle; ten times as much would mix the walls of a corner of 30 degrees.
 constexpr double indifference = 1e-3;
 
-/// Weight of patches that take no part in a force, over that of the others. It counts where there are no others.
+/// Relative weight of patches that take no part in a force. It counts where there are no others.
 constexpr double weight_of_others = 1e-6;
 
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
@@ -40,7 +40,7 @@ struct WallLoads {
   Vec<Dim> pressure = Vec<Dim>::Zero();
   Vec<Dim> friction = Vec<Dim>::Zero();
   Moment<Dim> moment = Moment<Dim>::Zero();
-  double power = 0.0;  ///< of the walls on the water
+  double power = 0.0;  ///< power of the walls on the water
 
   WallLoads& operator+=(const WallLoads& other) {
     pressure += other.pressure;
@@ -52,7 +52,7 @@ struct WallLoads {
   friend WallLoads operator+(WallLoads a, const WallLoads& b) { return a += b; }
   Vec<Dim> force() const { return pressure + friction; }
 
-  /// Adds up those of all ranks. Collective.
+  /// Sums the loads of all ranks. Collective.
   void gather(const Communicator& ranks) {
     Eigen::Vector<double, 2 * Dim + turns<Dim> + 1> sums;
     sums << pressure, friction, moment, power;
@@ -64,7 +64,7 @@ struct WallLoads {
   }
 };
 
-/// What patches take of a force, over what all patches near a particle take: the sum of their A_k.
+/// The sums of the A_k over patches near a particle, from which the fraction of some patches follows.
 template <int Dim>
 struct Shares {
   double weight = 0.0;
@@ -74,9 +74,9 @@ struct Shares {
     weight += weight_of_patch;
     normals += (weight_of_patch * n) * n.transpose();
   }
-  /// Of the pressure's.
+  /// The sum for pressure.
   Mat<Dim> across() const { return normals + indifference * weight * Mat<Dim>::Identity(); }
-  /// Of friction.
+  /// The sum for friction.
   Mat<Dim> along() const { return (1.0 + indifference) * weight * Mat<Dim>::Identity() - normals; }
   Vec<Dim> across_inverse(const Vec<Dim>& force) const { return (across() / weight).inverse() * (force / weight); }
   Vec<Dim> along_inverse(const Vec<Dim>& force) const { return (along() / weight).inverse() * (force / weight); }
@@ -158,7 +158,7 @@ class WallForceProbe {
     around_chosen_.max().array() += reach_;
   }
 
-  /// Of each wall: from a place on it to its mean velocity there during the step.
+  /// For each wall the map from a place on it to its mean velocity there during the step.
   std::vector<AffineMap<Dim>> find_velocities(const ProbeContext<Dim>& context) const {
     std::vector<AffineMap<Dim>> maps(paths_.size(), {Mat<Dim>::Zero(), Vec<Dim>::Zero()});
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
@@ -178,7 +178,7 @@ class WallForceProbe {
     return maps;
   }
 
-  /// What pockets of air do to the chosen patches that look into them; the same on all ranks. Collective.
+  /// The loads of pockets of air on the selected patches beside them; the same on all ranks. Collective.
   WallLoads<Dim> loads_of_air(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) const {
     WallLoads<Dim> loads;
     for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, patches_, chosen_)) {
@@ -191,8 +191,8 @@ class WallForceProbe {
 
   Moment<Dim> moment(const Vec<Dim>& x, const Vec<Dim>& force) const { return moment_of<Dim>(x - about_, force); }
 
-  /// All that acts through owned particle i. Friction acts on the wall itself, and the arm of the pressure, which is
-  /// across the wall, is the same there.
+  /// All loads through owned particle i. Friction acts on the wall itself, and the arm of the pressure, which is across
+  /// the wall, is the same there.
   WallLoads<Dim> loads_at(const ProbeContext<Dim>& context, std::size_t i) const {
     WallLoads<Dim> loads;
     loads.pressure = context.wall_forces->pressure[i] + context.wall_forces->through_water[i];
@@ -208,7 +208,7 @@ class WallForceProbe {
     return wall.face < 0 ? x : wall.point;
   }
 
-  /// The part of the loads through particle i that is this probe's.
+  /// The part of the loads through particle i that belongs to this probe.
   WallLoads<Dim> part_of(const WallLoads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
                          const std::vector<AffineMap<Dim>>& velocity) const {
     const Vec<Dim>& x = context.particles.position[i];
@@ -254,10 +254,10 @@ class WallForceProbe {
     });
   }
 
-  /// Calls body(k, weights, normal) for each patch k near a particle at x. Its own patches are those on whose side it
-  /// is: behind the plane for a wall particle, in front of it for water. The pressure's force is for all patches but
-  /// those that face the nearest of these, so that nothing is taken across a gap or through a thin body; friction is
-  /// for its own.
+  /// Calls body(k, weights, normal) for each patch k near a particle at x. The particle's own patches are those whose
+  /// side it is on: behind the plane for a wall particle, in front of it for water. The pressure's force counts for all
+  /// patches except those that face the nearest of the own ones, so that no force is transferred across a gap or
+  /// through a thin body. Friction counts for the own patches.
   template <class Body>
   void for_each_share_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, bool is_water, Body&& body) const {
     const auto normal_of = [&](std::int32_t k) -> const Vec<Dim>& { return boundary.faces[patches_[k].face].normal; };
@@ -281,19 +281,20 @@ class WallForceProbe {
   }
 
   std::vector<WallPatch<Dim>> patches_;
-  std::vector<double> chosen_;  ///< share of each patch
+  std::vector<double> chosen_;  ///< selected fraction of each patch
   bool takes_all_;
   Vec<Dim> about_;
   double reach_;                                     ///< m; R
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
-  std::vector<Vec<Dim>> centres_;                 ///< of the patches, where they are
-  CellGrid<Dim> grid_;                            ///< of these
-  Eigen::AlignedBox<double, Dim> around_chosen_;  ///< all that chosen patches take a share of is in it
+  std::vector<Vec<Dim>> centres_;  ///< centres of the patches at their present places
+  CellGrid<Dim> grid_;             ///< grid of the centres
+  /// contains all particles in whose loads selected patches have a part
+  Eigen::AlignedBox<double, Dim> around_chosen_;
 };
 
-/// Largest and mean force so far, as numbers that a checkpoint keeps.
+/// Largest and mean force so far, as numbers that a checkpoint saves.
 template <int Dim>
 struct ForceMemory {
   std::vector<double>& numbers;

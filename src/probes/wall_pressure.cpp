@@ -57,7 +57,7 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   return {point, std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall))};
 }
 
-/// The region around the points, which need not lie on one line.
+/// The region around the points, which may lie on several lines.
 template <int Dim>
 Region<Dim> region_of(const std::vector<PointOnWall<Dim>>& points, double time) {
   Region<Dim> region{points.front().at(time), points.back().at(time)};
@@ -65,15 +65,15 @@ Region<Dim> region_of(const std::vector<PointOnWall<Dim>>& points, double time) 
   return region;
 }
 
-/// The normal of the wall at `x`; of any wall if none is near, which point_on_wall refuses later.
+/// The normal of the wall at `x`; of any wall if none is near, which point_on_wall rejects later.
 template <int Dim>
 Vec<Dim> normal_at(const Vec<Dim>& x, const Boundary<Dim>& boundary) {
   const NearestWall<Dim> nearest = boundary.nearest(x, std::numeric_limits<double>::infinity());
   return nearest.face < 0 ? Vec<Dim>(Vec<Dim>::Unit(0)) : boundary.faces[nearest.face].normal;
 }
 
-/// Places over a disc in the wall, each of the same share of it: the centres of the squares, at most dx/2 long, of a
-/// square around it that are in the disc.
+/// Places over a disc in the wall, all with the same weight: the centres of those squares, at most dx/2 long, of a
+/// square around the disc that are in the disc.
 template <int Dim>
 std::vector<Vec<Dim>> places_on_disc(const ProbeTable& probe, const Vec<Dim>& centre, const CaseSpec& spec,
                                      const Boundary<Dim>& boundary) {
@@ -120,13 +120,14 @@ std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& s
   }
 }
 
-/// Pa; of the air at a place on a wall with this normal. It is read dx in front of it: a plate has other air behind it.
+/// Pa; pressure of the air at a place on a wall with this normal. It is read dx in front, as a plate has other air
+/// behind.
 template <int Dim>
 double air_pressure_on(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& normal) {
   return context.air_pressure_at(x_w + context.spacing * normal);
 }
 
-/// A pressure with its impulse since the start. What a step has read at its end acts in all of it.
+/// A pressure with its impulse since the start. The reading at the end of a step counts for the whole step.
 template <int Dim>
 Reading<Dim> with_impulse(Reading<Dim> reading) {
   reading.memory = std::make_shared<std::vector<double>>(2, 0.0);

@@ -4,7 +4,7 @@
 //
 // The second term extrapolates each particle's pressure to the wall along the hydrostatic gradient. In still water the
 // result is exactly rho g times the depth, at any distance of the particles from the wall. In a falling jet the
-// gradient is not hydrostatic; there the term may not create a suction that no particle has. Where the wall is dry,
+// gradient is not hydrostatic; there the term may not create a tension that no particle has. Where the wall is dry,
 // c(x_w) <= 1/2 (water_share.h), the pressure is that of the air: 0, or that of a pocket. A wall in still water is wet
 // up to the surface; a layer one particle thick wets it, a single particle does not.
 #pragma once
@@ -19,13 +19,13 @@
 
 namespace tailwater {
 
-/// The sums of this formula and of c, over particles or over some of them.
+/// The sums of this formula and of c, over all or some particles.
 template <int Dim>
 struct WallPressureSums {
   double water = 0.0;     ///< S_f
   double wall = 0.0;      ///< S_w
   double pressure = 0.0;  ///< Pa; not yet divided by S_f
-  double least = 0.0;     ///< Pa; of 0 and the pressures of fluid particles
+  double least = 0.0;     ///< Pa; smallest of 0 and the pressures of fluid particles
 
   /// Adds the particle at `x_j` with w_j W = `weight`.
   void add(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, std::int32_t j, const Vec<Dim>& x_j, double weight);
@@ -33,11 +33,11 @@ struct WallPressureSums {
   /// Adds the owned particles whose images, moved by `shift` [m], are near.
   void add_owned(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& shift);
 
-  /// Pressure on the wall, Pa; none where it is dry.
+  /// Pressure on the wall, Pa; empty where the wall is dry.
   std::optional<double> value() const;
 };
 
-/// Pressure on the wall at `x_w`, Pa; none where it is dry.
+/// Pressure at a place of a wall.
 struct PressureOnWall {
   double value = 0.0;  ///< Pa; of the water, or of the air where the wall is dry
   bool is_wet = false;
@@ -46,7 +46,7 @@ struct PressureOnWall {
 template <int Dim>
 PressureOnWall wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w);
 
-/// The same from the sums at a place of a wall with this normal.
+/// The pressure from the sums at a place of a wall with this normal.
 template <int Dim>
 PressureOnWall wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, const Vec<Dim>& normal,
                              const WallPressureSums<Dim>& sums);
@@ -59,21 +59,20 @@ struct AirPush {
   Vec<Dim> force;  ///< N; in 2D per metre of width
 };
 
-/// What pockets of air do to the chosen shares of patches that look into them, each as far as it is dry, 1 - c; the
-/// same on all ranks. Collective.
+/// The forces of pockets of air on the selected fractions of the patches beside them, each in proportion to its dry
+/// fraction 1 - c; the same on all ranks. Collective.
 template <int Dim>
 std::vector<AirPush<Dim>> pushes_of_air(const ProbeContext<Dim>& context, std::span<const WallPatch<Dim>> patches,
                                         std::span<const double> chosen);
 
 /// Pressure at the point of a wall nearest to `at`; with a `diameter` the mean over a disc in the wall (2D: a stretch).
-/// Throws InputError when no wall is within a support of `at`, or of
-/// a place of the disc.
+/// Throws InputError when no wall is within a support of `at`, or of a place of the disc.
 template <int Dim>
 Reading<Dim> wall_pressure_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 
 /// Mean pressure over the stretch from `from` to `to`, with a `width` over the rectangle in the wall around it, from
-/// places at most dx/2 apart; dry places count with the air's. Throws InputError as
-/// above, for any of these places, and for a width in 2D.
+/// places at most dx/2 apart; dry places count with the air's pressure. Throws InputError as above, for any of these
+/// places, and for a width in 2D.
 template <int Dim>
 Reading<Dim> wall_pressure_mean_reading(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary);
 

@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-/// Adds the faces of walls that count which the line through `place` meets.
+/// Adds the crossings of the line through `place` with the faces of walls for which counts() is true.
 template <int Dim, class Counts>
 void add_crossings(const Boundary<Dim>& boundary, const Vec<Dim>& place, double spacing, Counts&& counts,
                    UprightLine<Dim>& line) {
@@ -46,13 +46,13 @@ std::shared_ptr<const WallPath<Dim>> path_of_bed(const ProbeTable& probe, const 
   return std::make_shared<WallPath<Dim>>(spec, spec.walls[wall], wall_label(boundary, wall));
 }
 
-/// dx; a level that trembles by less about its mean has no waves.
+/// dx; a level with smaller oscillations about its mean has no waves.
 constexpr double wave_band = 0.125;
 
-/// dx; a drop that was thrown higher above the bed is not looked for.
+/// dx; the search for drops above the bed ends at this height.
 constexpr double tallest_column = 1e4;
 
-/// Where the straight line from (0, `low`) to (`step`, `high`) passes the surface share.
+/// The position where the straight line from (0, `low`) to (`step`, `high`) crosses the surface fraction.
 double passage(double low, double high, double step) { return step * (surface_share - low) / (high - low); }
 
 /// The water column on `bed`; c is sampled up to the height `top`.
@@ -72,7 +72,7 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
   bool is_connected = bed_is_wet;
   double depth = 0.0;
   double share = bed_is_wet ? 1.0 : 0.0;
-  double wet_from = 0.0;  // where the water that the line is in begins
+  double wet_from = 0.0;  // begin of the present water on the line
   while (depth < end) {
     const double step = std::min(0.25 * context.spacing, end - depth);
     const double next_share = share_at(depth + step);

@@ -20,7 +20,7 @@ struct WaterColumn {
   double bed = 0.0;        ///< m; height of the bed above the origin
   double connected = 0.0;  ///< m; from the bed to the first surface
   double highest = 0.0;    ///< m; from the bed to the last surface
-  double wet = 0.0;        ///< m; length of the line that is under water, which is what a wire gauge reads
+  double wet = 0.0;        ///< m; length of the line that is under water, the reading of a wire gauge
 };
 
 /// A wall face that an upright line crosses.
@@ -31,7 +31,7 @@ struct Crossing {
   int wall;  ///< index into Boundary::walls
 };
 
-/// A line and the walls on it at one moment.
+/// A line and the walls on it at one instant.
 template <int Dim>
 struct UprightLine {
   Vec<Dim> foot;                         ///< its point at height 0
@@ -39,13 +39,13 @@ struct UprightLine {
   std::vector<Crossing<Dim>> crossings;  ///< highest first
 };
 
-/// A line against gravity, as drawn. Where its bed is a wall that moves on a path, as in a tank that is shaken, it
-/// moves and turns with it, and heights are those in the tank. Other walls that move are found where they are.
+/// A line against gravity, as drawn. If its bed is a wall that moves on a path, as in a shaken tank, the line moves and
+/// turns with the bed, and heights are relative to the tank. Other moving walls count at their present place.
 template <int Dim>
 class UprightGauge {
  public:
-  /// Throws InputError, which names the probe, if there is no gravity, no bed on the line, or a bed that moves as the
-  /// water makes it.
+  /// Throws InputError, which names the probe, if there is no gravity, no bed on the line, or a bed whose motion
+  /// depends on the water.
   UprightGauge(const ProbeTable& probe, const Vec<Dim>& at, const CaseSpec& spec, const Boundary<Dim>& boundary);
 
   const UprightLine<Dim>& drawn() const { return drawn_; }
@@ -59,16 +59,16 @@ class UprightGauge {
   Vec<Dim> at_;
   double spacing_;
   UprightLine<Dim> drawn_;
-  std::vector<Crossing<Dim>> resting_;  ///< of the crossings those of walls that rest
+  std::vector<Crossing<Dim>> resting_;  ///< the crossings with walls at rest
   bool has_moving_walls_;
-  std::shared_ptr<const WallPath<Dim>> path_;  ///< of its bed; null: it rests
+  std::shared_ptr<const WallPath<Dim>> path_;  ///< path of its bed; null: the bed rests
 };
 
-/// Against gravity. Throws InputError, which names the probe, if there is none.
+/// The direction against gravity. Throws InputError, which names the probe, if there is no gravity.
 template <int Dim>
 Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec);
 
-/// The water of one moment, as upright lines measure it.
+/// The water at one instant, for measurements on upright lines.
 template <int Dim>
 class WaterColumns {
  public:
@@ -80,7 +80,7 @@ class WaterColumns {
   Vec<Dim> low_, high_;  ///< m; corners of the box around all water
 };
 
-/// Around all gauges.
+/// The region around all gauges.
 template <int Dim>
 Region<Dim> region_of(const std::vector<UprightGauge<Dim>>& gauges, double time) {
   Region<Dim> region = gauges.front().region(time);

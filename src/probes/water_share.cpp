@@ -3,7 +3,7 @@
 namespace tailwater {
 namespace {
 
-/// is_water(j) says whether particle j counts as water; all others are wall.
+/// Particles j with is_water(j) count as water; all others are wall.
 template <int Dim, class IsWater>
 double share(const ProbeContext<Dim>& context, const Vec<Dim>& x, IsWater&& is_water) {
   double water = 0.0;

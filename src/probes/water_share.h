@@ -1,10 +1,10 @@
-// The share of water in the space around a place that walls leave free:
+// The fraction of water in the space around a place that walls leave free:
 //
 //   c(x) = S_f / max(1 - S_w, 2^-Dim),    S_f = sum over fluid w W(x - x_j),    S_w = sum over wall particles
 //
 // Under water c = 1, in air c = 0, and on a flat surface c = 1/2: a lattice whose top row is dx/2 below the surface has
 // the surface as plane of symmetry. Fluid and air then each have half of the sum over the full lattice, which is 1 up
-// to the error of kernel quadrature. Walls that cut the surface at a right angle take the same share of both halves,
+// to the error of kernel quadrature. Walls that cut the surface at a right angle take equal fractions of both halves,
 // and c stays 1/2. Walls leave at least 2^-Dim free, up to a right-angled corner. Behind them the bound lets c fall to
 // 0.
 #pragma once

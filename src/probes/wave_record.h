@@ -1,6 +1,5 @@
-// The waves at a gauge while a run goes on: heights between crest and trough and periods between upward crossings of
-// the mean so far, in the summary of the run. What a window, a spectrum or several gauges say is left to `tailwater
-// waves`.
+// The waves at a gauge during a run, for its summary: heights between crest and trough, and periods between upward
+// crossings of the mean so far. `tailwater waves` evaluates windows, spectra and several gauges.
 #pragma once
 
 #include <memory>
@@ -10,17 +9,17 @@ namespace tailwater {
 
 class WaveRecord {
  public:
-  /// A new one. The level must go beyond the mean by `band` [m] on either side before a crossing counts, which leaves
-  /// out the trembling of particles.
+  /// Starts a record. The level must exceed the mean by `band` [m] on either side before a crossing counts, which
+  /// excludes small oscillations of particles.
   explicit WaveRecord(double band);
 
-  /// All that it knows, for a checkpoint; one number more with each wave.
+  /// The whole state, for a checkpoint; it grows by one number with each wave.
   const std::shared_ptr<std::vector<double>>& memory() const { return memory_; }
 
-  /// A level [m] at a time [s] after the last.
+  /// Adds a level [m] at a time [s] after the last.
   void add(double now, double reading);
 
-  /// The totals of a depth probe. Nothing before the first reading, and only the first three without waves.
+  /// The totals of a depth probe. Empty before the first reading, and only the first three without waves.
   std::vector<double> totals() const;
 
  private:
