@@ -1,4 +1,4 @@
-// Bytes as letters, for texts that must hold them (RFC 4648).
+// Encodes bytes as letters, for texts that must contain them (RFC 4648).
 #pragma once
 
 #include <string>

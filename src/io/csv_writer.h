@@ -14,9 +14,9 @@ namespace tailwater {
 
 class CsvWriter {
  public:
-  /// Opens (and empties) `path` and writes the line of column names, which carry their units: "time_s", "depth_m".
-  /// With `kept`, which is a former `size()`, goes on with the file instead and takes off what follows these bytes.
-  /// Throws IoError, also when the file to go on with is not there, is too short or has other columns.
+  /// Opens (and empties) `path` and writes the line of column names, which carry their units: "time_s", "depth_m". With
+  /// `kept`, a former `size()`, continues the file instead and removes everything after these bytes. Throws IoError,
+  /// also when the existing file is missing, too short or has other columns.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
             std::optional<std::int64_t> kept = {});
 
@@ -27,7 +27,8 @@ class CsvWriter {
   /// Bytes written so far.
   std::int64_t size() const { return size_; }
 
-  /// Throws IoError if the file is no longer at its place: what is written after that would be lost without a word.
+  /// Throws IoError if the file is no longer at its place: everything written afterwards would be lost without a
+  /// message.
   void require_in_place() const;
 
  private:
@@ -44,7 +45,7 @@ class CsvWriter {
   std::int64_t size_ = 0;
 };
 
-/// Takes off what follows the first `kept` bytes of a file that nobody writes to. Throws IoError.
+/// Removes everything after the first `kept` bytes of a file that no process writes to. Throws IoError.
 void cut_file(const std::filesystem::path& path, std::int64_t kept);
 
 }  // namespace tailwater

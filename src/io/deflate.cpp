@@ -15,7 +15,7 @@ struct Free {
   void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
 };
 
-/// Kept for the next call: making one takes as long as deflating some 10 kB.
+/// Kept for the next call, because making one takes as long as deflating some 10 kB.
 libdeflate_compressor* compressor_of(int level) {
   thread_local std::array<std::unique_ptr<libdeflate_compressor, Free>, 13> kept;
   auto& compressor = kept[static_cast<std::size_t>(level)];

@@ -6,7 +6,7 @@
 
 namespace tailwater {
 
-/// The bytes as one zlib stream, which are the same for the same bytes. `level`: 1, quick, to 12, small. Throws
+/// The bytes as one zlib stream; equal bytes give equal streams. `level`: from 1, quick, to 12, small. Throws
 /// std::bad_alloc.
 std::string deflated(std::string_view raw, int level);
 

@@ -29,7 +29,8 @@ std::string this_process() {
                      gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown machine");
 }
 
-/// Takes the lock. Others may look at it for an instant (is_held), which is no reason to give up.
+/// Takes the lock. Several attempts are needed, because other processes may hold it for an instant to test it
+/// (is_held).
 bool take_lock(int file) {
   constexpr int attempts = 5;
   for (int k = 0; k < attempts; ++k) {
@@ -41,7 +42,7 @@ bool take_lock(int file) {
   return false;
 }
 
-/// Throws the error that another run is going, with what that run has written into the locked file.
+/// Throws the error that another run is running, with the text that it has written into the locked file.
 [[noreturn]] void throw_busy(int file, const fs::path& folder) {
   std::array<char, 300> text{};
   const ssize_t size = pread(file, text.data(), text.size() - 1, 0);
@@ -57,10 +58,10 @@ int open_lock(const fs::path& folder) {
   return open((folder / lock_file_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
 
-/// Whether somebody else has locked it.
+/// Whether another process has locked it.
 bool is_locked(int file) { return flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
 
-/// Whether the file that is open is still the one of that name: the run that held it may just have removed it.
+/// Whether the open file still has that name: the run that held it may just have removed it.
 bool is_file(int file, const fs::path& path) {
   struct stat open_one {};
   struct stat named {};
@@ -100,7 +101,7 @@ FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
 
 FolderLock::~FolderLock() {
   if (file_ < 0) return;
-  std::error_code error;  // a folder that is gone needs no lock
+  std::error_code error;  // a missing folder needs no lock
   fs::remove(path_, error);
   close(file_);
 }

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>);
 
-/// Of the byte by which a file that is open for writing says so, in the head that HDF5 gives files by default.
+/// Position of the byte that marks a file as open for writing, in the default head of HDF5 files.
 constexpr std::size_t place_of_open_flag = 20;
 
 /// Owns an HDF5 identifier.
@@ -33,14 +33,14 @@ void require_hdf5(herr_t status, std::string_view what) {
   if (status < 0) throw IoError("HDF5 cannot {}", what);
 }
 
-/// Errors are ours to tell, and HDF5 prints them by default.
+/// Turns off HDF5's own error output, because this program reports errors itself.
 void begin_hdf5() {
   const SuspendFpTraps suspended;
   require_hdf5(H5open(), "start");
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Access to a file that lives in memory, which it gets `room` bytes at a time, and never on disk.
+/// Access to a file in memory, which grows by `room` bytes at a time, and is never on disk.
 Handle in_memory(std::size_t room) {
   const Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list of properties");
   require_hdf5(H5Pset_fapl_core(*access, room, false), "work in memory");
@@ -48,7 +48,7 @@ Handle in_memory(std::size_t room) {
   return access;
 }
 
-/// HDF5 takes files in memory of equal name for one and the same.
+/// A new name for each file, because HDF5 identifies files in memory by their names.
 std::string new_name() {
   static int files = 0;
   return fmt::format("image {}", files++);
@@ -71,7 +71,7 @@ hid_t type_of() {
 }  // namespace
 
 Hdf5Writer::Hdf5Writer(std::size_t room) {
-  // HDF5 does not always look whether it got memory. Here its end is an exception.
+  // HDF5 does not always test whether it got memory. Here a failed allocation is an exception.
   constexpr std::size_t own_room = std::size_t{16} << 20;
   ::operator delete(::operator new(room + own_room));
   begin_hdf5();
@@ -112,7 +112,7 @@ Hdf5Reader::Hdf5Reader(std::string_view image) {
   begin_hdf5();
   const SuspendFpTraps suspended;
   const Handle access = in_memory(image.size());
-  // HDF5 copies the bytes, and its interface lacks a const.
+  // HDF5 copies the bytes, but its interface lacks a const.
   require_hdf5(H5Pset_file_image(*access, const_cast<char*>(image.data()), image.size()), "take the bytes of a file");
   size_ = image.size();
   file_ = own(H5Fopen(new_name().c_str(), H5F_ACC_RDONLY, *access), H5Fclose, "read it as one of its files");
@@ -126,7 +126,7 @@ std::vector<Value> Hdf5Reader::get(const std::string& name) const {
   const Handle type = own(H5Dget_type(*set), H5Tclose, what);
   const Handle space = own(H5Dget_space(*set), H5Sclose, what);
   const hssize_t count = H5Sget_simple_extent_npoints(*space);
-  // A file says how many values it has before it has them, and they are not compressed.
+  // The number of values in a damaged file may be wrong. Since values are not compressed, the file size limits it.
   const bool is_there = count >= 0 && static_cast<std::uint64_t>(count) <= size_ / sizeof(Value);
   if (!is_there || H5Tequal(*type, type_of<Value>()) <= 0) throw IoError("HDF5 cannot {}", what);
   std::vector<Value> values(static_cast<std::size_t>(count));

@@ -18,10 +18,10 @@
 namespace tailwater {
 namespace {
 
-/// How long a message waits for a terminal or pipe that takes nothing; once one has waited in vain, the next do not.
+/// How long a message waits for a blocked terminal or pipe; after one wait in vain, later messages do not wait.
 constexpr int longest_wait = 1000;  // ms
 
-/// bytes; far more than a message needs that names a place, a value and a remedy
+/// bytes; far more than a message with a place, a value and a remedy needs
 constexpr std::size_t longest_line = 2000;
 
 std::string shown_as(std::string_view line) { return shortened(printable(line), longest_line); }
@@ -40,14 +40,14 @@ Messages& messages() {
   return all;
 }
 
-/// Writes what can be written within `milliseconds`; returns whether that was all.
+/// Writes as much as possible within `milliseconds`; returns whether that was all.
 bool write_what_is_taken(int file, std::string_view text, int milliseconds) {
   while (!text.empty()) {
     pollfd ready{.fd = file, .events = POLLOUT, .revents = 0};
     const int count = poll(&ready, 1, milliseconds);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;
-    // A pipe that is ready takes this many bytes without waiting.
+    // A pipe that is ready takes this many bytes without blocking.
     const ssize_t written = write(file, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return false;

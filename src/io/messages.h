@@ -1,6 +1,6 @@
-// What a command tells its user while it works: on standard error, and in the log of a run once there is one. Standard
-// error is one per process, and so is this. Losing the terminal is no error: what cannot be shown is dropped, and the
-// work goes on.
+// The messages of a command to its user: on standard error, and in the log of a run once there is one. There is one
+// standard error per process, so the state is global. A lost terminal is no error: messages that cannot be shown are
+// dropped, and the command continues.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@
 namespace tailwater {
 
 /// Call before any file is opened. Standard streams that are closed become /dev/null, since a file of results would
-/// otherwise take their place and receive the messages. Writing to a pipe that nobody reads is an error from now on,
-/// not a signal, and so is a file that grows beyond the limit of a batch system, as one on a full disk.
+/// otherwise take their place and receive the messages. From now on, writing to a pipe without a reader is an error,
+/// not a signal. So is a file that grows beyond the limit of a batch system, like one on a full disk.
 void survive_lost_terminal();
 
 enum class Voice {
@@ -24,42 +24,43 @@ enum class Voice {
   silent,  ///< only errors are shown and logged: a rank that is not the root
 };
 void set_voice(Voice voice);
-/// The same for another run in the same process: what was told and warned of before is forgotten, and its log closed.
+/// Starts the messages of another run in the same process: earlier lines and warnings are discarded, and the log is
+/// closed.
 void begin_messages(Voice voice);
 
-/// Lines are shown as `printable` (base/text.h) makes them, and with their middle left out if they are very long.
+/// Lines are shown as `printable` (base/text.h) makes them; very long ones lose their middle.
 
-/// A line for the user, as it is or as fmt::format makes it.
+/// Shows a line to the user, as it is or as fmt::format makes it.
 void tell(std::string_view line);
 template <class First, class... Rest>
 void tell(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
   tell(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
 }
-/// "warning: LINE"; kept for `warnings`.
+/// Shows "warning: LINE", and keeps the line for `warnings`.
 void warn(const std::string& line);
 template <class First, class... Rest>
 void warn(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
   warn(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
 }
-/// "error: PREFIX LINE" for each line of the message: a case may have several problems. A line that is there twice is
-/// told once.
+/// Shows "error: PREFIX LINE" for each line of the message, because a case may have several problems. Repeated lines
+/// are shown once.
 void tell_error(std::string_view message, std::string_view prefix = "");
-/// A line for the log alone.
+/// Writes a line to the log alone.
 void log_line(std::string_view line);
 
 bool is_on_terminal();
-/// Shows a line in place of the last such line, cut off where the terminal ends; for terminals. The log does not get
-/// it.
+/// Shows a line in place of the last such line, cut off where the terminal ends; for terminals. The log does not
+/// contain it.
 void show_live(std::string line);
 
-/// What was told so far, and everything from now on, is appended to the file `path`. A log that cannot be written is no
-/// error: the files of results tell of a full disk.
+/// Appends all lines so far, and everything from now on, to the file `path`. A log that cannot be written is no error:
+/// the files of results report a full disk.
 void open_log(const std::filesystem::path& path);
 
 /// All warnings so far, without the word "warning".
 const std::vector<std::string>& warnings();
-/// Puts the warnings of an earlier run, which this one goes on with, before those so far; what both have counts once.
-/// Nothing is told again.
+/// Inserts the warnings of an earlier run, which this one continues, before those so far; duplicates count once. Shows
+/// nothing again.
 void recall_warnings(std::vector<std::string> earlier);
 
 }  // namespace tailwater

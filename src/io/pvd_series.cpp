@@ -28,7 +28,7 @@ void PvdSeries::go_on(std::vector<double> times, const Communicator& ranks) {
     for (std::size_t i = 0; i < times_.size(); ++i) {
       if (!std::filesystem::exists(file_of(i), error)) throw_io_error("read", file_of(i), ENOENT);
     }
-    // The list first: it must never name a file that is not there.
+    // The list is written first: it must never name a missing file.
     if (!times_.empty()) write_list();
     for (std::size_t i = times_.size(); std::filesystem::exists(file_of(i), error); ++i) remove_file(file_of(i));
   });

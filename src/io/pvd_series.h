@@ -19,13 +19,13 @@ class PvdSeries {
   template <int Dim>
   void write(double time, const ParticleFields<Dim>& particles, const Communicator& ranks = {});
 
-  /// Goes on with the files that an earlier run has written at `times`, and removes those that followed them.
+  /// Continues the series after the files that an earlier run has written at `times`, and removes later files.
   /// Collective. Throws IoError, on all ranks.
   void go_on(std::vector<double> times, const Communicator& ranks = {});
 
   /// Number of files written.
   std::size_t size() const { return times_.size(); }
-  /// Of the files [s].
+  /// Times of the files [s].
   const std::vector<double>& times() const { return times_; }
 
  private:

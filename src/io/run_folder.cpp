@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 2> failure_files{"last_good.vtp", "report
 /// The series of field files that a run, or its pictures, may write: NAME.pvd and NAME_00000.vtp, ...
 constexpr std::array<std::string_view, 3> series_names{"fields", "walls", "surface"};
 constexpr std::array<std::string_view, 2> usual_folders{"probes", "fields"};
-/// Folders that are made only when there is something to put into them.
+/// Folders that are made only with their first file.
 constexpr std::array<std::string_view, 4> rare_folders{"failure", "checkpoints", "pictures", "view"};
 constexpr std::string_view checkpoint_start = "step_";
 constexpr std::string_view checkpoint_ending = ".h5";
@@ -69,13 +69,13 @@ void remove_if_empty(const fs::path& folder) {
   if (is_folder(folder) && entries(folder).empty()) remove_file(folder);
 }
 
-/// START012
+/// Whether a name has the form START012.
 bool is_numbered(std::string_view stem, std::string_view start, std::size_t least_digits) {
   return stem.starts_with(start) && stem.size() >= start.size() + least_digits &&
          stem.find_first_not_of("0123456789", start.size()) == stem.npos;
 }
 
-/// FIELDS.pvd, FIELDS_00012.vtp
+/// Whether a name has the form FIELDS.pvd or FIELDS_00012.vtp.
 bool is_field_file(const fs::path& name) {
   const std::string stem = name.stem();
   const bool is_list = name.extension() == ".pvd";
@@ -85,23 +85,23 @@ bool is_field_file(const fs::path& name) {
   });
 }
 
-/// picture_00012.png
+/// Whether a name has the form picture_00012.png.
 bool is_picture(const fs::path& name) {
   return name.extension() == ".png" && is_numbered(name.stem().string(), "picture_", 5);
 }
 
-/// scene.json, 00012.frame
+/// Whether a name has the form scene.json or 00012.frame.
 bool is_view_file(const fs::path& name) {
   return name == scene_name || (name.extension() == frame_ending && is_numbered(name.stem().string(), "", 5));
 }
 
-/// step_000000000012.h5
+/// Whether a name has the form step_000000000012.h5.
 bool is_checkpoint(const fs::path& name) {
   return name.extension() == checkpoint_ending && is_numbered(name.stem().string(), checkpoint_start, 1);
 }
 
-/// The files of the probes of the run that has left its effective case in `folder`: only this case tells them from
-/// tables that a user has put beside them.
+/// The files of the probes of the run that has left its effective case in `folder`. Only this case distinguishes them
+/// from tables that a user has put beside them.
 std::vector<std::string> probe_files(const fs::path& folder) {
   std::ifstream effective_case = open_input_file(folder / effective_case_name);
   constexpr std::string_view key = "name = \"";
@@ -117,7 +117,7 @@ std::vector<std::string> probe_files(const fs::path& folder) {
   return names;
 }
 
-/// The regular files in `folder` that `is_ours` knows by their final name. Links are not followed.
+/// Adds the regular files in `folder` for whose final name `is_ours` is true. Links are not followed.
 template <class IsOurs>
 void add_files(const fs::path& folder, const IsOurs& is_ours, std::vector<fs::path>& found) {
   if (!is_folder(folder)) return;
@@ -153,7 +153,7 @@ void remove_earlier_results(const fs::path& folder) {
   for (const std::string_view name : rare_folders) remove_if_empty(folder / name);
 }
 
-/// What an earlier run has left and a run that goes on would not replace.
+/// Removes files of an earlier run that a resumed run would not replace.
 void remove_traces_of_the_end(const fs::path& folder) {
   for (const fs::path& path : earlier_results(folder)) {
     const bool is_request = path.filename() == stop_file_name || path.filename() == checkpoint_file_name;
@@ -162,15 +162,15 @@ void remove_traces_of_the_end(const fs::path& folder) {
   remove_if_empty(folder / "failure");
 }
 
-/// Whether nothing is in the folder; a run that was killed at its very start leaves its lock.
+/// Whether the folder is empty, apart from the lock of a run that was killed at its very start.
 bool is_free(const fs::path& folder) {
   const std::vector<fs::path> found = entries(folder);
   return std::all_of(found.begin(), found.end(),
                      [](const fs::path& path) { return path.filename() == lock_file_name; });
 }
 
-/// A run writes through no link, and takes the place of no device or pipe. What it meets in a folder inside is found
-/// when it comes to that file.
+/// A run writes through no link, and does not replace devices or pipes. Objects in folders inside are detected when
+/// their files are written.
 void require_no_links(const fs::path& run) {
   const auto refuse_if = [](bool is_other, const fs::path& path) {
     if (!is_other) return;
@@ -204,7 +204,7 @@ FolderLock make_run_folder(const fs::path& path, bool force) {
   }
   require_no_links(path);
   make_folder(path);
-  FolderLock lock(path);  // also finds out whether files can be written: permission bits do not bind root
+  FolderLock lock(path);  // also tests whether files can be written: permission bits do not restrict root
   for (const std::string_view name : usual_folders) make_folder(path / name);
   remove_earlier_results(path);
   return lock;
@@ -245,7 +245,7 @@ std::vector<fs::path> checkpoints_in(const fs::path& run) {
   for (const fs::path& path : entries(folder)) {
     if (is_checkpoint(path.filename())) found.push_back(path);
   }
-  std::sort(found.begin(), found.end(), std::greater<>());  // names have their steps in equally many digits
+  std::sort(found.begin(), found.end(), std::greater<>());  // names have equally many digits
   return found;
 }
 

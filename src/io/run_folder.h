@@ -16,25 +16,23 @@ inline constexpr std::string_view stop_file_name = "STOP";
 inline constexpr std::string_view checkpoint_file_name = "CHECKPOINT";
 inline constexpr std::string_view effective_case_name = "case.effective.toml";
 inline constexpr std::string_view summary_name = "summary.json";
-/// In the folder of the stream for viewers.
+/// Names in the folder of the stream for viewers.
 inline constexpr std::string_view scene_name = "scene.json";
 inline constexpr std::string_view frame_ending = ".frame";
 
 class RunFolder {
  public:
-  /// Makes the folder with probes/ and fields/, and holds its lock while this object lives. Changes nothing unless it
-  /// can do all of it.
-  /// InputError: `path` is a file, a folder that is not empty and `force` is not given, the folder of a run that is
-  /// still going, or one with links where results would be. IoError: it cannot be made, read or written. `force`
-  /// removes the results of an earlier run and requests to it; only the effective case stays, for the new run to
-  /// replace. Files that no run has written stay, wherever they are. Collective: the root makes the folder; its error
-  /// is thrown on all ranks.
+  /// Makes the folder with probes/ and fields/, and holds its lock during the lifetime of this object. Either
+  /// everything succeeds or nothing is changed. InputError: `path` is a file, a folder that is not empty without
+  /// `force`, the folder of a running run, or one with links in the place of results. IoError: it cannot be made, read
+  /// or written. `force` removes the results of an earlier run and requests to it; only the effective case stays, until
+  /// the new run replaces it. Files that no run has written always stay. Collective: the root makes the folder; its
+  /// error is thrown on all ranks.
   static RunFolder create(const std::filesystem::path& path, bool force, const Communicator& ranks = {});
 
-  /// The folder of an earlier run, which is to go on; holds its lock, as above. Requests to that run and the report of
-  /// its failure are removed. Throws InputError if that run is still going or there are links in the place of
-  /// results, IoError if the folder cannot be written.
-  /// Collective, as above.
+  /// Opens the folder of an earlier run, which is to be resumed; holds its lock, as above. Requests to that run and the
+  /// report of its failure are removed. Throws InputError if that run is still running or there are links in the place
+  /// of results, IoError if the folder cannot be written. Collective, as above.
   static RunFolder open(const std::filesystem::path& path, const Communicator& ranks = {});
 
   const std::filesystem::path& path() const { return path_; }
@@ -48,7 +46,7 @@ class RunFolder {
   std::filesystem::path fields() const { return path_ / "fields"; }
   /// The folder of the stream for viewers, made with the first file in it.
   std::filesystem::path view() const { return path_ / "view"; }
-  /// The files by which a user asks the run to end or to write a checkpoint (run/requests.h).
+  /// The files by which a user requests the end of the run or a checkpoint (run/requests.h).
   std::filesystem::path stop() const { return path_ / stop_file_name; }
   std::filesystem::path checkpoint_request() const { return path_ / checkpoint_file_name; }
   /// The folder of checkpoints, made with the first of them, and the name of one.

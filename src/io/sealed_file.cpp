@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t head_size = 512;
 
-/// What the head says.
+/// The content of the head.
 struct Head {
   SealedFile about;  ///< without a body
   std::uint64_t bytes = 0;
@@ -69,7 +69,7 @@ bool take_number(std::string_view& text, std::string_view name, Number& number, 
   return error == std::errc{} && end == digits->data() + digits->size();
 }
 
-/// Nothing if `text` is not a head, to the last byte.
+/// Empty if `text` is not exactly a head, to the last byte.
 std::optional<Head> parse_head(const std::string& text) {
   Head head;
   std::string_view rest = text;
@@ -112,7 +112,7 @@ void write_sealed_file(const std::filesystem::path& path, const SealedFile& head
 SealedFile read_sealed_file(const std::filesystem::path& path) {
   std::ifstream file;
   Head head = read_head(file, path);
-  // The size first: a wrong number must not make us ask for all memory.
+  // The size is tested first, because a wrong number must not cause the allocation of all memory.
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size != head_size + head.bytes) {

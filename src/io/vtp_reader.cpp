@@ -102,7 +102,7 @@ void add_array(std::string_view element, std::size_t count, const Appended& appe
   refuse("an array has another type");
 }
 
-/// Calls body with each element of this name; the text is of the element and what follows it up to the next.
+/// Calls body with each element of this name; the text contains the element and everything up to the next.
 template <class Body>
 void for_each_element(std::string_view xml, std::string_view name, const Body& body) {
   const std::string start = fmt::format("<{} ", name);

@@ -1,4 +1,4 @@
-// Reads back the VTP files that vtp_writer.h writes, those of several ranks too; no others.
+// Reads the VTP files that vtp_writer.h writes, also those of several ranks; no others.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct VtpFile {
   std::map<std::string, Array> fields;
 };
 
-/// From the bytes of a file that messages call `name`. Throws IoError if it is not whole.
+/// Reads the bytes of a file with the name `name` in messages. Throws IoError if it is incomplete.
 VtpFile read_vtp_bytes(std::string_view bytes, const std::string& name);
 
 /// Files and times [s] of a list that pvd_series.h has written. Throws IoError.

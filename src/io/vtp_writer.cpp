@@ -108,10 +108,10 @@ void append_array_xml(std::string& xml, const EncodedPiece::Array& array, std::s
       array.type, array.name, array.components, piece_offset + array.offset);
 }
 
-/// That the appended bytes are raw stands in the document's type and not in their tag, which has one blank only. VTK
-/// gives expat the tag, then the end of a document of 14 bytes; an expat of 2024 or newer, which Debian 12 has too,
-/// looks at the tag again when twice as much is there, and with `encoding="raw"` in it VTK goes on to take raw bytes
-/// for XML.
+/// The document's type declares the appended bytes as raw, and their tag, which has one blank only, does not. VTK gives
+/// expat the tag, and then the end of a document of 14 bytes. An expat of 2024 or newer, which Debian 12 has too, reads
+/// the tag again when twice as much text is available. With `encoding="raw"` in the tag VTK would then parse raw bytes
+/// as XML.
 void append_head_xml(std::string& xml, double time, int compression) {
   fmt::format_to(
       std::back_inserter(xml),
@@ -150,7 +150,7 @@ EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression)
   piece.count = particles.position.size();
   piece.corners = particles.corners;
   if (compression == 0) {
-    // Room for points, their numbers and fields of up to three components, so that nothing is copied as it grows.
+    // Space for points, their numbers and fields of up to three components, so that nothing is copied as it grows.
     piece.bytes.reserve(piece.count * sizeof(double) * (5 + 3 * particles.fields.size()));
   }
   for (const ParticleField<Dim>& field : particles.fields) {

@@ -3,8 +3,8 @@
 // optionally zlib blocks (VTK file formats, "XML file formats"). Points are Float64, fields Float32, integers Int64; in
 // 2D the third coordinate is 0.
 //
-// Why VTP files listed by a PVD and not VTKHDF: the VTKHDF reader of Debian 12's ParaView (5.11) does not support time
-// steps. PVD and VTP work there and in the newest ParaView.
+// VTP files listed by a PVD are used instead of VTKHDF, because the VTKHDF reader of Debian 12's ParaView (5.11) does
+// not support time steps. PVD and VTP work there and in the newest ParaView.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,7 @@ EncodedPiece encode_piece(const ParticleFields<Dim>& particles, int compression 
 
 /// Writes one file at time `time` [s]. Collective: a piece per rank, all with the same fields and encoded with the same
 /// `compression`. Every rank writes its own piece into the file. Empty pieces are left out, unless all are empty.
-/// Throws IoError, on all ranks; never leaves half a file.
+/// Throws IoError, on all ranks; never leaves an incomplete file.
 void write_vtp(const std::filesystem::path& path, double time, const EncodedPiece& piece,
                int compression = usual_compression, const Communicator& ranks = {});
 

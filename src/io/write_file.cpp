@@ -20,10 +20,11 @@ namespace {
 
 constexpr std::string_view foreign_file = "another user's file";
 
-/// Whether a file must outlive a power cut.
+/// Whether a file must survive a power failure.
 enum class Lasting { as_the_system_likes, on_disk };
 
-/// 0, or the errno of the first call that failed. The file is new: one that a killed run has left is removed first.
+/// Returns 0, or the errno of the first call that failed. The file is new: one that a killed run has left is removed
+/// first.
 int write_parts(const std::filesystem::path& path, std::span<const std::string_view> parts,
                 Lasting lasting = Lasting::as_the_system_likes) {
   require_regular_or_none(path);
@@ -59,8 +60,8 @@ std::string reason_of(int code) {
   return reason;
 }
 
-/// Returns why it failed, or an empty text. Not a collective MPI call: the bytes of a rank are contiguous, and Open
-/// MPI's collective calls do not report a full disk.
+/// Returns the reason of a failure, or an empty text. Not a collective MPI call: the bytes of a rank are contiguous,
+/// and Open MPI's collective calls do not report a full disk.
 std::string write_parts(MPI_File file, std::int64_t offset, std::span<const std::string_view> parts) {
   for (std::string_view rest : parts) {
     while (!rest.empty()) {
@@ -86,7 +87,7 @@ void write_file_together(const std::filesystem::path& path, std::span<const std:
   for (const std::string_view part : parts) size += static_cast<std::int64_t>(part.size());
   const std::int64_t offset = ranks.sum_before(size);
   do_on_root(ranks, [&] { require_regular_or_none(path); });
-  // Makes the file, or empties one that a killed run has left. The system calls give the reason if that fails.
+  // Makes the file, or empties one that a killed run has left. The system calls return the reason if that fails.
   do_on_root(ranks, [&] {
     const int error_number = write_parts(temporary, {});
     if (error_number != 0) throw_io_error("write", path, error_number);
@@ -131,7 +132,7 @@ void flush_folder(const std::filesystem::path& folder) {
   if (file < 0) throw_io_error("read", folder, errno);
   const int error_number = fsync(file) == 0 ? 0 : errno;
   close(file);
-  // Some file systems cannot do this for a folder, and say so.
+  // Some file systems do not support this for a folder, and report so.
   if (error_number != 0 && error_number != EINVAL && error_number != ENOTSUP) {
     throw_io_error("write", folder, error_number);
   }
@@ -145,7 +146,7 @@ void throw_io_error(std::string_view what, const std::filesystem::path& path, in
 
 std::string_view obstacle_at(const std::filesystem::path& path) {
   struct stat found {};
-  if (lstat(path.c_str(), &found) != 0) return {};  // what cannot be looked at cannot be opened either
+  if (lstat(path.c_str(), &found) != 0) return {};  // an object whose status cannot be read cannot be opened either
   if (S_ISLNK(found.st_mode)) return "a link";
   if (S_ISDIR(found.st_mode)) return "a folder";
   if (!S_ISREG(found.st_mode)) return "a device or a pipe";
