@@ -1,5 +1,5 @@
-// Choosing among numbers eight at a time, without a branch: where the choice is as good as random, a branch would be
-// wrong every other time.
+// Selects among numbers eight at a time, without a branch. If the choice is as good as random, the processor would
+// mispredict a branch every other time.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace tailwater {
 
-/// Bit n is set where a comparison holds in lane n, of lanes of any kind and number.
+/// Bit n is set where a comparison holds in lane n, for lanes of any kind and number.
 template <class Truths>
 unsigned bits_of(Truths holds) {
 #if defined(__AVX__)
@@ -32,12 +32,12 @@ unsigned bits_of(Truths holds) {
   return bits;
 }
 
-/// As many are looked at together, whatever the width of a register.
+/// Numbers per batch, whatever the width of a register.
 inline constexpr int batch_size = 8;
 using IndexBatch = std::int32_t __attribute__((vector_size(4 * batch_size)));
 using FloatBatch = float __attribute__((vector_size(4 * batch_size)));
 
-/// The first `count` bits, all if there are more numbers than a batch has.
+/// The first `count` bits, or all bits if there are more numbers than in a batch.
 inline unsigned first_bits(std::size_t count) { return (1U << std::min<std::size_t>(count, batch_size)) - 1U; }
 
 /// The numbers of a batch.
@@ -49,7 +49,7 @@ Batch batch_at(const Number* numbers) {
 }
 
 #if defined(__AVX2__)
-/// For each set of numbers, as bits: their places in the batch, put to the front, a byte each.
+/// For each set of numbers, as bits: their places in the batch, moved to the front, a byte each.
 inline constexpr std::array<std::uint64_t, 1 << batch_size> places_of_bits = [] {
   std::array<std::uint64_t, 1 << batch_size> places{};
   for (unsigned bits = 0; bits < places.size(); ++bits) {
@@ -62,8 +62,8 @@ inline constexpr std::array<std::uint64_t, 1 << batch_size> places_of_bits = [] 
 }();
 #endif
 
-/// Writes those of a batch of numbers of four bytes whose bit is set, one behind the other, and may write to as many
-/// entries as a batch has. Returns the end of those that count.
+/// Writes the numbers of four bytes of a batch whose bit is set, one behind the other; it may overwrite as many entries
+/// as a batch has. Returns the end of the selected numbers.
 template <class Number>
 Number* write_chosen(const Number* numbers, unsigned bits, Number* chosen) {
   static_assert(sizeof(Number) == 4);

@@ -1,4 +1,4 @@
-// The errors a user can meet, apart from broken invariants (assert.h). Each kind has its exit code.
+// The errors that a user can cause, as opposed to broken invariants (assert.h). Each kind has its exit code.
 #pragma once
 
 #include <stdexcept>
@@ -27,7 +27,7 @@ class UserError : public std::runtime_error {
   ExitCode code_;
 };
 
-/// One with its exit code, from a message or from what fmt::format makes one of.
+/// A UserError with this exit code, from a message or from arguments of fmt::format.
 template <ExitCode exit_code>
 class ErrorWith : public UserError {
  public:

@@ -1,5 +1,5 @@
 // Findings about a case as data: table and key, places in space, value and remedy. Messages, marks in pictures and JSON
-// are made of the data; no code reads a message back.
+// are made from the data; no code parses a message.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@ namespace tailwater {
 /// A table of the case file, or a key in it.
 struct CaseLabel {
   std::string table;
-  std::string name;          ///< of a table in a list; empty: unknown, or not in a list
-  std::optional<int> index;  ///< of a table in a list, from 0; empty likewise
+  std::string name;          ///< name of a table in a list; empty: unknown, or not in a list
+  std::optional<int> index;  ///< index of a table in a list, from 0; empty: unknown, or not in a list
   std::string key;           ///< empty: the table as a whole
 
   CaseLabel() = default;
@@ -52,7 +52,7 @@ struct MarkedPlace {
   std::array<double, 3> x{};
   int dimension = 0;
 
-  /// "(0.5, 1.25)": to the picometre, so that round-off is not shown.
+  /// "(0.5, 1.25)": coordinates below a picometre are 0, so that round-off is not shown.
   std::string text() const {
     std::array<double, 3> shown = x;
     for (double& coordinate : shown) coordinate = std::abs(coordinate) < 1e-12 ? 0.0 : coordinate;
@@ -71,7 +71,7 @@ struct Clause {
   std::string words;
   CaseLabel about;                  ///< the first label
   std::vector<MarkedPlace> places;  ///< all of them
-  std::optional<Amount> value;      ///< the first
+  std::optional<Amount> value;      ///< the first value
 
   Clause() = default;
   template <class... Arguments>
@@ -106,7 +106,7 @@ struct FilePosition {
   int column = 0;
   int end_column = 0;  ///< behind the value
 
-  /// "case.toml:12:1", or less of it.
+  /// "case.toml:12:1", or the known part of it.
   std::string text() const {
     return column > 0 ? fmt::format("{}:{}:{}", file, line, column)
            : line > 0 ? fmt::format("{}:{}", file, line)
@@ -121,8 +121,8 @@ struct Finding {
   CaseLabel about;
   std::vector<MarkedPlace> places;
   std::optional<Amount> value;
-  std::string problem;  ///< what is wrong, and why it matters if that is not obvious
-  std::string remedy;   ///< an imperative; empty where the problem ends with it
+  std::string problem;  ///< the problem, and why it matters if that is not obvious
+  std::string remedy;   ///< an imperative; empty if the problem is the whole message
   FilePosition position;
 
   Finding(Severity the_severity, Clause the_problem, Clause the_remedy, FilePosition the_position = {})
@@ -140,7 +140,7 @@ struct Finding {
     return {Severity::warning, std::move(problem), std::move(remedy)};
   }
 
-  /// The one shape of messages: what is wrong, why it matters, what to do.
+  /// The common shape of messages: the problem, why it matters, the remedy.
   std::string message() const { return remedy.empty() ? problem : problem + "; " + remedy; }
   /// The message, behind the position in the case file if that is known.
   std::string line() const {
@@ -156,7 +156,7 @@ inline bool has_error(const Findings& findings) {
 
 inline void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
 
-/// The findings, those that say the same of several tables as one that names them all.
+/// The findings, with equal findings about several tables merged into one that names all tables.
 inline Findings merge_alike(const Findings& findings) {
   const auto blanked = [](const Finding& finding) {
     std::string text = fmt::format("{}|{}|{}|{}", finding.severity == Severity::error, finding.about.table,

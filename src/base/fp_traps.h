@@ -1,5 +1,5 @@
-// Floating-point traps: a division by zero, an overflow or an invalid operation stops the program where it happens.
-// On in all tests, and in the program when the environment says TAILWATER_FP_TRAPS=1.
+// Floating-point traps: a division by zero, an overflow or an invalid operation stops the program where it happens. On
+// in all tests, and in the program with TAILWATER_FP_TRAPS=1 in the environment.
 #pragma once
 
 #include <cfenv>

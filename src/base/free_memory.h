@@ -1,13 +1,13 @@
-// Memory that is free inside this process, given back to the system.
+// Returns memory that is free inside this process to the system.
 #pragma once
 
 #include <malloc.h>
 
 namespace tailwater {
 
-/// Gives back the pages of the heap that no array has: call before large arrays are made for a short time, since those
-/// that were freed before may lie in pieces into which the new ones do not fit. Libraries of PETSc's (SuperLU) tell
-/// glibc to keep what is freed. A page comes back when it is written to again, so that often is dear.
+/// Returns unused pages of the heap. Call before large temporary arrays are made, because the memory of freed arrays
+/// may be in fragments that are too small for them. Libraries of PETSc (SuperLU) make glibc keep freed memory. A
+/// returned page must be provided again at the next write, so frequent calls are expensive.
 inline void give_back_free_memory() {
 #if defined(__GLIBC__)
   malloc_trim(0);

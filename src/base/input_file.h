@@ -1,5 +1,5 @@
-// The one guard of files that are read: a folder, a device or a pipe may give no end of bytes, or none at all, and a
-// file may be larger than anything of its kind.
+// The common guard of files that are read: a folder, a device or a pipe may never end or never give a byte, and a file
+// may be larger than any valid file of its kind.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +23,9 @@ struct InputFileKind {
 };
 
 /// An open regular file, or one that leads there. Throws IoError for a folder, a device or a pipe, InputError for too
-/// large a file. Where there is none, or it cannot be read, the stream has failed and errno says why.
+/// large a file. If there is no file, or it cannot be read, the stream has failed and errno has the reason.
 inline std::ifstream open_input_file(const std::filesystem::path& path, const InputFileKind& kind = {}) {
-  std::error_code error;  // the caller reports what does not exist
+  std::error_code error;  // the caller reports a missing file
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) {
     throw IoError("{}: is a folder; give {} in it", path.string(), kind.name);
@@ -40,7 +40,7 @@ inline std::ifstream open_input_file(const std::filesystem::path& path, const In
   return std::ifstream(path, std::ios::binary);
 }
 
-/// All bytes of a stream, but of one without end only `most` + 1.
+/// All bytes of a stream, but at most `most` + 1, in case it never ends.
 inline std::string read_bytes(std::istream& stream, std::uintmax_t most) {
   constexpr std::uintmax_t block = 1 << 16;
   std::string bytes;

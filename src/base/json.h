@@ -1,5 +1,5 @@
-// The type of all JSON that is read and written: its members keep the order in which they were written. Whoever looks
-// into one includes <nlohmann/json.hpp>.
+// The type of all JSON that is read and written: members keep the order in which they were written. Code that accesses
+// members includes <nlohmann/json.hpp>.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

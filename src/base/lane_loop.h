@@ -1,6 +1,7 @@
-// Loops over the entries of a row that take as many at once as there are lanes (lanes.h), and what they read: such a
-// loop reads as the one entry by entry. Compilers do not turn one into the other: that would change the order of sums.
-// The instructions that gather are not used, because on many processors they are slower than single loads.
+// Loops over the entries of a row that process as many entries at once as there are lanes (lanes.h), and their loads.
+// Such a loop reads like a loop over single entries. Compilers do not vectorise that loop themselves, because it would
+// change the order of sums. Gather instructions are not used, because on many processors they are slower than single
+// loads.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,7 @@ struct alignas(16) Float4 {
   std::array<float, 4> at{};
 };
 
-/// Vectors less that of one particle.
+/// Subtracts the vector of one particle in each lane.
 template <int Dim>
 VecLanes<Dim> operator-(VecLanes<Dim> vectors, const Float4& own) {
   for (int d = 0; d < Dim; ++d) vectors.at[d] -= own.at[d];
@@ -40,16 +41,16 @@ std::vector<Float4> as_float4(std::span<const Vec<Dim>> field) {
   return fours;
 }
 
-/// What each lane reads of an array that has several numbers per entry.
+/// Indices with which each lane reads an array, which may have several numbers per entry.
 class LaneIndices {
  public:
   explicit LaneIndices(IntegerLanes indices) { std::memcpy(index_.data(), &indices, sizeof(indices)); }
 
   Lanes operator()(const float* array) const { return read(array, std::make_index_sequence<lane_count>()); }
-  /// Rounded to single precision.
+  /// Values rounded to single precision.
   Lanes operator()(const double* array) const { return read(array, std::make_index_sequence<double_lane_count>()); }
 
-  /// The numbers of entries of nothing but numbers of four bytes, as many as fill whole registers.
+  /// All numbers of entries that consist of numbers of four bytes and fill whole registers.
   template <class Entry>
   [[gnu::always_inline]] std::array<Lanes, sizeof(Entry) / 4> numbers(const Entry* entries) const {
     constexpr int count = sizeof(Entry) / 4;
@@ -78,13 +79,13 @@ class LaneIndices {
     const DoubleLanes low{from[index_[Lane]]...};
     const DoubleLanes high{from[index_[Lane + double_lane_count]]...};
     using Half = float __attribute__((vector_size(4 * double_lane_count)));
-    // In registers: what is written in halves and read as a whole has to wait for both to reach the cache.
+    // Done in registers: a value that is written in halves and read as a whole would wait until both reach the cache.
     return __builtin_shufflevector(__builtin_convertvector(low, Half), __builtin_convertvector(high, Half), Lane...,
                                    (Lane + double_lane_count)...);
   }
 
-  /// Four numbers that follow each other, of entries that have `Stride` of them. They are loaded together: loads are
-  /// what loops over pairs have most of.
+  /// Four consecutive numbers of entries with `Stride` numbers each. They are loaded together, because most
+  /// instructions of loops over pairs are loads.
   template <int Stride>
   [[gnu::always_inline]] void read_four(const float* from, Lanes* lanes) const {
     using Quarter = float __attribute__((vector_size(16)));
@@ -119,8 +120,8 @@ class LaneIndices {
   std::array<std::int32_t, lane_count> index_;
 };
 
-/// Some entries of a row: as many as there are lanes, or the rest of a row. Then lanes left over have the last entry's
-/// neighbour, so that they hold numbers with which one can calculate, and 0 where a weight is loaded.
+/// A range of entries of a row: as many as there are lanes, or the rest of a row. In the latter case unused lanes have
+/// the neighbour of the last entry, so that they hold valid numbers, and 0 as weight.
 template <bool is_full>
 struct LaneRange {
   std::size_t begin;
@@ -136,17 +137,17 @@ struct LaneRange {
       indices = holds() ? indices : IntegerLanes{} + static_cast<std::uint32_t>(j[entry(count - 1)]);
     return LaneIndices(indices);
   }
-  /// 0 in lanes left over.
+  /// 0 in unused lanes.
   Lanes load(const float* array) const {
     fetch_ahead(array + begin);
     return load<Lanes>(array);
   }
-  /// `lanes` with 0 in those left over.
+  /// `lanes` with 0 in unused lanes.
   Lanes only(Lanes lanes) const {
     if constexpr (!is_full) lanes = holds() ? lanes : Lanes{};
     return lanes;
   }
-  /// Writes to `place` and behind it. Returns what was written, with 0 in lanes left over.
+  /// Writes to `place` and behind it. Returns the written values, with 0 in unused lanes.
   Lanes store(Lanes lanes, float* place) const {
     if constexpr (is_full) {
       std::memcpy(place, &lanes, sizeof(lanes));
@@ -157,7 +158,7 @@ struct LaneRange {
   }
 
  private:
-  /// Of which lanes there are entries.
+  /// Whether each lane has an entry.
   LaneTruths holds() const { return lane_numbers < count; }
 
   template <class Wide, class Number>
@@ -177,8 +178,8 @@ struct LaneRange {
   }
 };
 
-/// Calls body(range) for the entries begin .. end, in their order. The body and all that it calls are compiled into the
-/// loop (flatten): compilers do not see by themselves that its sums then stay in registers, which halves the time.
+/// Calls body(range) for the entries begin .. end, in their order. The body and all its callees are compiled into the
+/// loop (flatten): its sums then stay in registers, which halves the time. Compilers do not do this by themselves.
 template <class Body>
 [[gnu::always_inline, gnu::flatten]] inline void for_each_lanes(std::size_t begin, std::size_t end, Body&& body) {
   constexpr std::size_t width = lane_count;

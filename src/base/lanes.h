@@ -1,5 +1,5 @@
-// Several numbers side by side, on which the processor works at once. Pairs are computed in single precision; what is
-// conserved or nearly cancels is summed in double (docs/theory/neighbours.md).
+// Several numbers side by side, which the processor handles at once. Pairs are computed in single precision; conserved
+// sums and sums that nearly cancel are in double (docs/theory/neighbours.md).
 #pragma once
 
 #include <algorithm>
@@ -31,12 +31,13 @@ using LaneTruths = decltype(Lanes{} < Lanes{});
 /// Integers modulo 2^32.
 using IntegerLanes = std::uint32_t __attribute__((vector_size(4 * lane_count)));
 
-/// The same in double precision, half as many.
+/// Double precision, with half as many lanes.
 inline constexpr int double_lane_count = lane_count / 2;
 using DoubleLanes = double __attribute__((vector_size(8 * double_lane_count)));
 
-/// a b + c. In a sum of two products the compiler may round either, and it chooses anew wherever a loop is compiled, as
-/// for whole groups and for a row's rest. What must be the same for both particles of a pair says which.
+/// a b + c. In a sum of two products the compiler may round either product, and may choose differently wherever a loop
+/// is compiled, as for whole groups and for the rest of a row. Where both particles of a pair must have the same value,
+/// the code chooses with this function.
 inline Lanes fused(Lanes a, Lanes b, Lanes c) {
 #if defined(__AVX__) && defined(__FMA__)
   return _mm256_fmadd_ps(a, b, c);
@@ -91,7 +92,7 @@ template <int Dim>
 struct SymmetricLanes {
   std::array<Lanes, symmetric_size<Dim>> packed;
 
-  /// Where entry (a, b) is.
+  /// The index of entry (a, b).
   static constexpr int place(int a, int b) {
     return std::min(a, b) * (2 * Dim - 1 - std::min(a, b)) / 2 + std::max(a, b);
   }
@@ -105,7 +106,7 @@ struct SymmetricLanes {
     }
     return product;
   }
-  /// Adds x y, of which the product is symmetric. Loops over a triangle would leave the sums in memory.
+  /// Adds x y, whose product is symmetric. Loops over a triangle would leave the sums in memory.
   void add(const VecLanes<Dim>& x, const VecLanes<Dim>& y) {
     for (int a = 0; a < Dim; ++a) {
       for (int b = 0; b < Dim; ++b) {
@@ -152,7 +153,7 @@ inline double sqrt_of(double number) { return std::sqrt(number); }
 /// Whether a comparison holds in some lane.
 inline bool any_of(LaneTruths holds) { return bits_of(holds) != 0; }
 
-/// A loop over lanes would leave them in memory, and with them what a loop over pairs adds up.
+/// Written without a loop over lanes, which would leave them in memory, and with them the sums of a loop over pairs.
 inline double sum_of(DoubleLanes lanes) {
 #if defined(__AVX__)
   const __m128d halves = _mm256_castpd256_pd128(lanes) + _mm256_extractf128_pd(lanes, 1);
@@ -207,7 +208,7 @@ Mat<Dim> sum_of(const SymmetricLanes<Dim>& lanes) {
   return sum;
 }
 
-/// A sum in double precision, for what is conserved and for what nearly cancels.
+/// A sum in double precision, for conserved quantities and sums that nearly cancel.
 class LaneSum {
  public:
   void operator+=(Lanes terms) {

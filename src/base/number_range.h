@@ -1,12 +1,12 @@
-// Which numbers a case and its files may have.
+// The range of numbers in a case and its files.
 #pragma once
 
 namespace tailwater {
 
-/// No quantity of a flow is larger in SI units, and products of a few such numbers are still far from the largest
-/// double.
+/// The largest magnitude of any quantity of a flow in SI units; products of a few such numbers are still far from the
+/// largest double.
 inline constexpr double largest_number = 1e15;
-/// Likewise for quantities that cannot be negative, unless they are 0.
+/// The smallest value of quantities that cannot be negative, unless they are 0.
 inline constexpr double smallest_number = 1e-15;
 
 }  // namespace tailwater

@@ -1,6 +1,5 @@
-// One number for each pair of neighbours, in memory that stages use in turn: first where they find the pair vectors,
-// then for the weights of the pressure rows. Two arrays of this size that came and went would leave holes in memory
-// that other arrays divide.
+// One number for each pair of neighbours, in memory that stages use in turn: first for the computation of the pair
+// vectors, then for the weights of the pressure rows. Two temporary arrays of this size would fragment the memory.
 #pragma once
 
 #include <span>
@@ -11,8 +10,8 @@ namespace tailwater {
 
 class PairWorkspace {
  public:
-  /// The memory for so many numbers, which are not set. Earlier ones are lost. Where it is too small, it gets room for
-  /// `room` numbers.
+  /// Memory for `count` numbers, which are not initialised. Earlier numbers are lost. If the memory is too small, it is
+  /// enlarged to `room` numbers.
   std::span<float> take(std::size_t count, std::size_t room) {
     if (numbers_.capacity() < count) make_room(numbers_, room);
     numbers_.resize(count);

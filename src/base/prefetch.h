@@ -1,13 +1,13 @@
-// Asking memory for what a loop over long arrays will read. Processors guess that themselves, but not far enough ahead,
-// and not across the end of a page.
+// Prefetches memory for loops over long arrays. Processors prefetch too, but not far enough ahead, and not across the
+// end of a page.
 #pragma once
 
 #include <cstdint>
 
 namespace tailwater {
 
-/// Asks for what stands two thousand bytes behind `place`, be there something or not: what a loop reads several rows
-/// later.
+/// Prefetches the data two thousand bytes behind `place`, which a loop reads several rows later. The address need not
+/// be valid.
 inline void fetch_ahead(const void* place) {
   constexpr std::uintptr_t bytes = 2048;
   __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(place) + bytes));

@@ -1,4 +1,4 @@
-// Room in arrays that are filled anew in every step.
+// Spare capacity of arrays that are filled again in every step.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 
 namespace tailwater {
 
-/// Values to set memory aside for where `count` are wanted: what varies from step to step has room, a thirty-second at
-/// least. There are only eight sizes between a power of two and the next, so that an array finds the place that one of
-/// as many values has left. What is not written to takes no memory.
+/// Capacity for `count` values: at least a thirty-second more, because the number varies from step to step. There are
+/// only eight sizes between a power of two and the next, so that an array finds the memory of an earlier array of
+/// similar size. Memory that is never written to costs nothing.
 constexpr std::size_t with_room(std::size_t count) {
   const std::size_t wanted = count + count / 32;
   const std::size_t step = std::max<std::size_t>(1, std::bit_floor(wanted) / 8);
   return (wanted + step - 1) / step * step;
 }
 
-/// For arrays whose values are written before they are read: new values are what was in memory.
+/// For arrays whose values are written before they are read: new values are uninitialised.
 template <class Value>
 struct UnwrittenAllocator : std::allocator<Value> {
   static void construct(Value* place) { ::new (static_cast<void*>(place)) Value; }
@@ -31,8 +31,8 @@ struct UnwrittenAllocator : std::allocator<Value> {
 template <class Value>
 using UnwrittenArray = std::vector<Value, UnwrittenAllocator<Value>>;
 
-/// Gives `array` room for `count` values, if it has not, which may take those that it holds. An array that grows as it
-/// is written would leave its old ones behind.
+/// Gives `array` the capacity for `count` values if it is smaller; its old values may be lost. An array that grows
+/// while it is written would leave its old memory behind.
 template <class Array>
 void make_room(Array& array, std::size_t count) {
   if (array.capacity() >= count + count / 32) return;

@@ -10,7 +10,7 @@
 
 namespace tailwater {
 
-/// The first of `names`, which are divided by ", ", and takes it away from them.
+/// The first of `names`, which are separated by ", "; removes it from them.
 inline std::string take_name(std::string_view& names) {
   const std::string name(names.substr(0, names.find(',')));
   names.remove_prefix(std::min(names.size(), name.size() + 2));
@@ -22,7 +22,7 @@ void save_members(Json& json, std::string_view names, const Members&... members)
   ((json[take_name(names)] = members), ...);
 }
 
-/// Throws Json::exception if one is missing or of another type.
+/// Throws Json::exception if a member is missing or has another type.
 template <class... Members>
 void restore_members(const Json& json, std::string_view names, Members&... members) {
   (json.at(take_name(names)).get_to(members), ...);
@@ -31,7 +31,7 @@ void restore_members(const Json& json, std::string_view names, Members&... membe
 }  // namespace tailwater
 
 /// `to_json` and `from_json` of a struct: `inline` beside it, `friend` in it. A new member does not compile until it is
-/// named.
+/// in the list.
 #define TAILWATER_SAVED(kind, Struct, ...)                       \
   kind void to_json(Json& json, const Struct& all) {             \
     const auto& [__VA_ARGS__] = all;                             \

@@ -1,4 +1,4 @@
-// Text that others have written: its parts, and how it goes to a terminal or into a file of results.
+// Text from outside: its parts, and its form for a terminal or a file of results.
 #pragma once
 
 #include <cstddef>
@@ -42,8 +42,8 @@ inline std::size_t size_of_letter(std::string_view text) {
   return is_too_long || is_surrogate || is_too_large ? 0 : size;
 }
 
-/// The text with \xNN for what a terminal would obey instead of showing it (control characters, ends of lines too, but
-/// no tabs) and for bytes that are no UTF-8.
+/// The text with \xNN for characters that a terminal would execute instead of showing (control characters, ends of
+/// lines too, but no tabs) and for bytes that are no UTF-8.
 inline std::string printable(std::string_view text) {
   std::string shown;
   while (!text.empty()) {
@@ -62,7 +62,7 @@ inline std::string printable(std::string_view text) {
   return shown;
 }
 
-/// Whether the text can be shown as it is.
+/// Whether the text can be shown unchanged.
 inline bool is_printable(std::string_view text) { return printable(text) == text; }
 
 /// The text with its middle left out if it is longer than `most` bytes; letters stay whole.

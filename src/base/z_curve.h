@@ -27,9 +27,9 @@ constexpr std::uint64_t spread_bits(std::uint64_t value) {
   }
 }
 
-/// The number of the cell of the given edge [m] that holds `position`. Its last Dim bits are its place in the cell
-/// twice as large, of which the others are the number. Numbers repeat after 2^21 cells along an axis, so that it does
-/// not matter how far from the origin the positions are.
+/// The number of the cell of the given edge [m] that contains `position`. Its last Dim bits are its place in the cell
+/// twice as large, whose number is the other bits. Numbers repeat after 2^21 cells along an axis, so the distance of
+/// the positions from the origin does not matter.
 template <int Dim>
 std::uint64_t z_number(const Vec<Dim>& position, double edge) {
   constexpr std::uint64_t period = 0x200000;  // 21 bits for each coordinate

@@ -1,4 +1,4 @@
-// What ranks tell each other once, at the start of a run. Functions are collective.
+// Messages of the ranks at the start of a run, once. Functions are collective.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ std::vector<Value> gather_on_all(const Communicator& ranks, const std::vector<Va
   return all;
 }
 
-/// How many ranks are on this rank's machine, and share its memory.
+/// Number of ranks on this rank's machine, which use the same memory.
 int ranks_on_this_machine(const Communicator& ranks);
 
 }  // namespace tailwater

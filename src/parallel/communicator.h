@@ -15,7 +15,7 @@
 
 namespace tailwater {
 
-/// What a rank has exchanged with others since the start. Times include waiting for them.
+/// The traffic of a rank with others since the start. Times include waiting for them.
 struct Traffic {
   double exchange_seconds = 0.0;   ///< halo and migration
   double reduction_seconds = 0.0;  ///< sums, maxima
@@ -63,13 +63,13 @@ class Communicator {
   void largest_each(Number&... number) const {
     reduce_each(MPI_MAX, number...);
   }
-  /// The largest value of each entry, in place. All ranks give as many.
+  /// The largest value of each entry, in place. All ranks give equally many.
   void largest_of_each(std::span<int> values) const { reduce(values.data(), values.size(), MPI_INT, MPI_MAX); }
-  /// The sum of each entry, in place. All ranks give as many.
+  /// The sum of each entry, in place. All ranks give equally many.
   void sum_of_each(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_SUM); }
-  /// The least value of each entry, in place. All ranks give as many.
+  /// The least value of each entry, in place. All ranks give equally many.
   void least_of_each(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_MIN); }
-  /// The bits that any rank has set, in place. All ranks give as many words.
+  /// The bits that any rank has set, in place. All ranks give equally many words.
   void unite(std::span<std::uint64_t> words) const { reduce(words.data(), words.size(), MPI_UINT64_T, MPI_BOR); }
   bool any(bool value) const { return largest(static_cast<std::int64_t>(value)) != 0; }
 

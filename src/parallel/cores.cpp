@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Processors' time that a control group is granted, by the files of version 2 ("200000 100000" is two processors,
-/// "max" is no limit) or of version 1 (-1 is none).
+/// Processor time granted to a control group, by the files of version 2 ("200000 100000" is two processors, "max" is no
+/// limit) or of version 1 (-1 is no limit).
 double granted_to(const fs::path& group) {
   double quota = 0.0, period = 0.0;
   std::ifstream(group / "cpu.max") >> quota >> period;
@@ -26,7 +26,7 @@ double granted_to(const fs::path& group) {
   return quota > 0.0 && period > 0.0 ? quota / period : std::numeric_limits<double>::infinity();
 }
 
-/// The least of what the groups are granted in which this process is, which are one in the other.
+/// The smallest time granted to the nested groups that contain this process.
 double granted_processors(const fs::path& root) {
   double least = std::numeric_limits<double>::infinity();
   std::ifstream groups(root / "proc/self/cgroup");

@@ -1,4 +1,4 @@
-// The cores that a run of this program may have.
+// The cores that are available to a run of this program.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@ namespace tailwater {
 /// Processors (threads of cores) on which the system lets this process run, by their numbers.
 std::vector<int> usable_processors();
 
-/// How many of these processors are cores of their own, two threads of one counting once, as far as the time goes that
-/// the control group of this process is granted (of a container, or of systemd); at least 1. `root` is the folder that
-/// has the system's `sys` and `proc`.
+/// The number of separate cores among these processors, where two threads of one core count once. It is limited by the
+/// processor time granted to the control group of this process (of a container, or of systemd); at least 1. `root` is
+/// the folder that has the system's `sys` and `proc`.
 int cores_of(const std::vector<int>& processors, const std::filesystem::path& root = "/");
 
 }  // namespace tailwater

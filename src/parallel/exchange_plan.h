@@ -1,6 +1,6 @@
-// Which owned entries of a field go to which rank. Received entries are ghosts and stand behind the owned ones. A plan
-// is made once and executed for any field of plain values. A rank may send to itself (periodic images). The plan has no
-// state: exchanges may follow one another in any order.
+// The plan by which owned entries of a field are sent to other ranks. Received entries are ghosts and stand behind the
+// owned ones. A plan is made once and executed for any field of plain values. A rank may send to itself (periodic
+// images). The plan has no state: exchanges may follow one another in any order.
 #pragma once
 
 #include <cstddef>
@@ -79,7 +79,8 @@ class ExchangePlan {
     place += message.count * sizeof(Value);
   }
 
-  /// Moves entries of so many bytes from `packed`, in the order of sent_, to `received`, in the order of the ghosts.
+  /// Moves entries of this number of bytes from `packed`, in the order of sent_, to `received`, in the order of the
+  /// ghosts.
   void transfer(const std::byte* packed, std::byte* received, std::size_t bytes) const;
 
   Communicator ranks_;

@@ -10,8 +10,8 @@
 namespace tailwater {
 
 void require_room_for_mpi(int ranks) {
-  // Measured with Open MPI 4.1: one rank starts with 32 open files and not with 24; the memory that ranks share is a
-  // file of 4 MB. What a run itself has open comes on top.
+  // Measured with Open MPI 4.1: one rank starts with 32 open files and not with 24. The shared memory of ranks is a
+  // file of 4 MB. The open files of a run itself are additional.
   constexpr rlim_t least_files = 64, files_of_a_rank = 32, enough_files = 4096;
   constexpr rlim_t least_size = rlim_t{16} << 20;
   const rlim_t needed = least_files + files_of_a_rank * static_cast<rlim_t>(ranks);

@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Input that Zoltan queries while it cuts.
+/// Input that Zoltan queries while it divides space.
 template <int Dim>
 struct Points {
   std::span<const Vec<Dim>> place;

@@ -1,4 +1,4 @@
-// Cuts space into one part per rank with an equal share of weighted points in each: Zoltan's recursive coordinate
+// Divides space into one part per rank with equal sums of the weights of points: Zoltan's recursive coordinate
 // bisection (Devine et al. 2002).
 #pragma once
 
@@ -25,10 +25,10 @@ class SpaceCuts {
 
   bool are_made() const;
 
-  /// The cuts as bytes of this rank, from which `restore` makes them again, also as what the next `cut` starts from.
-  /// Empty if there are none.
+  /// The cuts as bytes of this rank, from which `restore` makes them again, also as the starting point of the next
+  /// `cut`. Empty if there are none.
   std::string bytes() const;
-  /// Takes the bytes that were given on the same rank of as many. Collective; throws SolverError.
+  /// Takes the bytes from the same rank of a run with as many ranks. Collective; throws SolverError.
   void restore(std::string bytes);
 
   /// The rank in whose part `place` lies. Works for any place, with or without points.

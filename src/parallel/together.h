@@ -7,11 +7,11 @@
 
 namespace tailwater {
 
-/// Does `work` on every rank. The call is collective; `work` need not be. When ranks throw a UserError, all ranks throw
-/// that of the first of them, with the same type and message.
+/// Calls `work` on every rank. The call is collective; `work` need not be. When ranks throw a UserError, all ranks
+/// throw that of the first of them, with the same type and message.
 void do_together(const Communicator& ranks, const std::function<void()>& work);
 
-/// Does `work` on the root only; errors as above.
+/// Calls `work` on the root only; errors as above.
 void do_on_root(const Communicator& ranks, const std::function<void()>& work);
 
 }  // namespace tailwater

@@ -17,8 +17,8 @@
 namespace tailwater {
 namespace {
 
-/// With this source only particles thrown out are faster than so many times sqrt(2 g L); counting them would shorten
-/// the steps for ever (closures/time_step.h).
+/// Upper bound of counted speeds, in units of sqrt(2 g L). With this source only spray is faster; counting it would
+/// shorten the steps for ever (closures/time_step.h).
 constexpr double fastest_counted_over_reference = 2.0;
 
 template <int Dim>
@@ -37,7 +37,7 @@ class FarmaniDiscretisation final : public Discretisation<Dim> {
     }
   }
 
-  /// For works and the report of the divergence only.
+  /// Only for works and the report of the divergence.
   void find_pair_vectors(Flow<Dim>& flow) override {
     find_kernel_gradients(flow.pairs(), flow.surroundings.pair_vectors);
   }

@@ -25,7 +25,7 @@ constexpr double stress = 0.10;                ///< c_s of (F4-F6)
 /// eps of (F30) with the explicit scheme and the implicit one.
 constexpr double explicit_shifting = 0.10;
 constexpr double implicit_shifting = 0.08;
-constexpr double farthest_shift = 0.05;  ///< dx; not the paper's
+constexpr double farthest_shift = 0.05;  ///< dx; not from the paper
 
 template <int Dim>
 class FarzinDiscretisation final : public Discretisation<Dim> {
@@ -49,7 +49,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
     }
   }
 
-  /// For works and pushes only: gradient and divergence are consistent.
+  /// Only for works and reactions: gradient and divergence are consistent.
   void find_pair_vectors(Flow<Dim>& flow) override {
     find_kernel_gradients(flow.pairs(), flow.surroundings.pair_vectors);
   }
@@ -129,7 +129,7 @@ class FarzinDiscretisation final : public Discretisation<Dim> {
     });
   }
 
-  /// The consistent gradient has no reactions: this is what the conservative one would push with.
+  /// The consistent gradient has no reactions; these are those of the conservative gradient.
   void wall_reactions(const Flow<Dim>& flow, std::span<const std::size_t> walls, const std::vector<double>& pressure,
                       std::span<Vec<Dim>> pushes) const override {
     find_conservative_pushes(flow, walls, pressure, pushes);

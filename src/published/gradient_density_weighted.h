@@ -14,7 +14,7 @@
 
 namespace tailwater {
 
-/// The share of pair k of particle i in the gradient below, along pairs.e(i, k).
+/// The contribution of pair k of particle i to the gradient below, along pairs.e(i, k).
 template <int Dim>
 double density_weighted_slope(const Pairs<Dim>& pairs, std::size_t i, std::size_t k, std::span<const double> volume,
                               std::span<const double> density, std::span<const double> field) {

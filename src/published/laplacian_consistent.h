@@ -3,9 +3,9 @@
 //   lap v_i = sum_j c_ij (v_j - v_i),   c_ij = 2 w_j (W_ij/r_ij) [ (e . B2 . e)/r_ij - drift . e ],
 //   drift = B1 . (C : B2)
 //
-// The copy of the paper at hand prints "+" before the second term; the sign here follows from (F12) with (F9) inserted
-// for grad v, and a test checks it. Exact for quadratic fields where B1 and B2 exist. Not an M-matrix on a disordered
-// set: 30 to 60 % of the rows have coefficients of the wrong sign.
+// The available copy of the paper prints "+" before the second term; the sign here follows from (F12) with (F9)
+// inserted for grad v, and a test checks it. Exact for quadratic fields where B1 and B2 exist. Not an M-matrix on a
+// disordered set: 30 to 60 % of the rows have coefficients of the wrong sign.
 #pragma once
 
 #include "published/renormalisation.h"

@@ -4,9 +4,9 @@
 //   rho_0 div((1/rho) grad p)_i = sum_j c_ij (p_j - p_i),
 //   c_ij = 8 w_j/(c_i + c_j)^2 (-dW_ij/dr) r/(r^2 + eta^2),   eta = 0.1 h
 //
-// The copy of the paper at hand omits the gradient before W_ij in (B8); r_ij . grad W_ij = r dW/dr, and without it the
-// sum does not have the dimensions of a Laplacian. All weights have one sign and pairs of equal mass are symmetric: an
-// M-matrix, and what it diffuses is conserved. With c = 1 and eta = 0 it is the Morris Laplacian, and has its
+// The available copy of the paper omits the gradient before W_ij in (B8); r_ij . grad W_ij = r dW/dr, and without it
+// the sum does not have the dimensions of a Laplacian. All weights have one sign and pairs of equal mass are symmetric:
+// an M-matrix, and the diffused quantity is conserved. With c = 1 and eta = 0 it is the Morris Laplacian, and has its
 // exactness: fields linear on a symmetric set; no convergence on a disordered one. The viscous term (B9) with one mu =
 // rho_0 nu has the same weights times nu.
 #pragma once

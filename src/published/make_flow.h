@@ -1,4 +1,4 @@
-// The one place that asks which formulation a case has.
+// The only place that depends on the formulation of a case.
 #pragma once
 
 #include "flow/flow.h"

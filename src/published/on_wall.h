@@ -20,7 +20,8 @@ class OnWall : public WallModel<Dim> {
   void find_no_slip_velocity(const WallScene<Dim>& scene, std::span<const Vec<Dim>> V,
                              std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> no_slip) const final;
 
-  /// Bodies do not float with these models: part of what a wall does is in the prediction, or in the weights.
+  /// Bodies do not float with these models, because a part of the wall's effect is in the prediction, or in the
+  /// weights.
   void set_sources(const WallScene<Dim>&, const WallForce<Dim>&, LinearSystem&) const final {}
 
   /// Nothing to set: the particles keep the pressure of their rows.

@@ -7,7 +7,7 @@
 
 namespace tailwater {
 
-/// `tensors`: those of the particles at the present positions, whenever rows are written.
+/// `tensors` must be those of the particles at the present positions whenever rows are written.
 template <int Dim>
 std::unique_ptr<const WallModel<Dim>> make_pressure_rows(std::shared_ptr<const Tensors<Dim>> tensors);
 

@@ -7,7 +7,7 @@
 //
 // B1 makes (F9) exact for linear fields, B2 makes (F12) exact for quadratic fields, at boundaries too, as long as the
 // neighbours span enough directions. Where they do not, the tensors blow up; `gradient_is_sound` and
-// `laplacian_is_sound` say where they may be used.
+// `laplacian_is_sound` are true where they may be used.
 #pragma once
 
 #include <span>

@@ -9,8 +9,8 @@
 namespace tailwater {
 namespace {
 
-/// The iteration ends when the pressure changes by less than this fraction of its rms value, or after so many passes:
-/// the smallest factor below leaves 0.7^30 = 2e-5 of what was there before.
+/// The iteration ends when the pressure changes by less than this fraction of its rms value, or after a maximum number
+/// of passes: with the smallest factor below, 0.7^30 = 2e-5 of the initial difference remains.
 constexpr double pass_tolerance = 1e-3;
 constexpr int most_passes = 30;
 
@@ -19,7 +19,7 @@ constexpr double relax_pressure = 0.4;
 constexpr double relax_velocity = 0.3;
 constexpr double relax_position = 0.4;
 
-/// Surface marks may change up to the second pass. Later changes would keep the iteration from settling.
+/// Surface marks may change up to the second pass. Later changes would prevent convergence of the iteration.
 constexpr int passes_with_new_marks = 2;
 
 /// x <- x_before + factor (x - x_before) on owned entries.

@@ -3,8 +3,8 @@
 //   dr_i = eps |u_i| dt R_i,    R_i = sum_j (rbar_i/r_ij)^3 e_ij                (F28)-(F30)
 //   u_i <- u_i + grad u_i . dr_i,    p_i <- p_i + grad p_i . dr_i               (F31), (F32)
 //
-// Only the share `interior` is kept, and it is bounded (closures/shifting.h): the paper has neither limit. (F31) and
-// (F32) act inside the fluid where (F9) is sound.
+// Only the fraction `interior` of the shift is kept, and it is bounded (closures/shifting.h): the paper has neither
+// limit. (F31) and (F32) act inside the fluid where (F9) is sound.
 #pragma once
 
 #include "closures/shifting.h"
@@ -13,7 +13,7 @@
 
 namespace tailwater {
 
-/// Shifts [m] of owned particles, with eps = `law.strength`. Returns how many would have been longer than the bound.
+/// Shifts [m] of owned particles, with eps = `law.strength`. Returns the number of shifts that the bound has shortened.
 template <int Dim>
 std::size_t find_published_shifts(const ShiftingLaw& law, double dt, const Pairs<Dim>& pairs,
                                   const Particles<Dim>& particles, const Surroundings<Dim>& surroundings,

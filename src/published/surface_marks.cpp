@@ -14,7 +14,7 @@ constexpr double cone_concentration = 0.95;
 constexpr int cone_fewest_neighbours = 5;
 const double cone_cosine = std::cos(0.5 * 105.0 * std::numbers::pi / 180.0);
 
-/// beta of (B21). The paper gives no number; by this one the rows of a flat surface are told apart
+/// beta of (B21). The paper gives no number; this one distinguishes the rows of a flat surface
 /// (docs/theory/two-step.md).
 constexpr double least_density = 0.99;
 

@@ -1,9 +1,9 @@
-// Which particles are on the free surface, as published: rows of marked ones are p = 0.
+// Marks of particles on the free surface, as published: rows of marked particles are p = 0.
 //
 //   cone     no neighbour within 2.3 dx in a cone of opening 105 degrees around the outward normal -grad C, and
-//            C/C_0 < 0.95; or fewer than 5 neighbours; or lambda_min(A) < 0.1. What worked in prototypes of Farzin et
-//            al.'s scheme in place of (F35), which misses surface particles; the cone around the normal replaces their
-//            angular gap, which is 2D only.
+//            C/C_0 < 0.95; or fewer than 5 neighbours; or lambda_min(A) < 0.1. Prototypes of Farzin et al.'s scheme
+//            needed this rule instead of (F35), which misses surface particles; the cone around the normal replaces
+//            their angular gap, which is 2D only.
 //   density  (B21): C/C_0 < beta, where C/C_0 is rho/rho_0; or fewer than half the neighbours of a full lattice.
 //            Without the second condition a clump in the air that is as dense as water would have p = 0 nowhere, and
 //            its equation no solution
@@ -36,7 +36,7 @@ template <int Dim>
 void mark_by_density(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> concentration,
                      std::span<std::uint8_t> is_surface);
 
-/// How far inside the fluid particles are: 0 on marked ones and within 2 dx of them, else 1; 0 for walls. `is_surface`
+/// The depth of particles inside the fluid: 0 on marked ones and within 2 dx of them, else 1; 0 for walls. `is_surface`
 /// must be up to date on ghosts.
 template <int Dim>
 void find_interior_by_marks(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,

@@ -55,7 +55,8 @@ void answer_file(const Request& request, Response& response, OpenFile opened, co
   ByteRange range = whole;
   const RangeAnswer asked = range_of(request.get_header_value("Range"), opened.size(), range);
   response.set_header("Accept-Ranges", "bytes");
-  // Of a file that has become shorter, as tables of a run that is resumed, all is told: a browser would log a refusal.
+  // A file may have become shorter, as tables of a resumed run. It is then sent whole, because a browser would log a
+  // refusal.
   if (asked == RangeAnswer::impossible) range = whole;
   response.status = 200;
   if (asked == RangeAnswer::part) {
@@ -70,8 +71,7 @@ void answer_file(const Request& request, Response& response, OpenFile opened, co
         constexpr std::size_t piece = std::size_t{1} << 18U;
         const std::string bytes =
             file->read(first + static_cast<std::int64_t>(offset), static_cast<std::int64_t>(std::min(count, piece)));
-        // A file that has become shorter meanwhile: the connection ends, and whoever asked
-        // sees that bytes are missing.
+        // If the file has become shorter meanwhile, the connection ends, and the client detects that bytes are missing.
         return !bytes.empty() && sink.write(bytes.data(), bytes.size());
       });
 }

@@ -1,4 +1,4 @@
-// Answers of the server, and what requests are made of.
+// Answers of the server, and the parts of requests.
 #pragma once
 
 #include <httplib.h>
@@ -19,13 +19,13 @@ std::vector<std::string> segments_of(std::string_view path);
 
 std::optional<std::uint32_t> whole_number(std::string_view text);
 
-/// A text as it is. httplib would compress `set_content` with Brotli at its highest quality, which takes more than a
-/// second for the page, and who reads it is on this machine.
+/// Answers with an uncompressed text. httplib would compress `set_content` with Brotli at its highest quality, which
+/// takes more than a second for the page, although the reader is on this machine.
 void answer_text(httplib::Response& response, std::string text, const char* type, int status = 200);
 void answer_json(httplib::Response& response, const Json& json, int status = 200);
 /// {"error": message}
 void answer_error(httplib::Response& response, int status, std::string_view message);
-/// A file, or the part of it that was asked for; all of it where there is no such part.
+/// Answers with a file, or with the requested part of it; with the whole file where there is no such part.
 void answer_file(const httplib::Request& request, httplib::Response& response, OpenFile opened, const char* type);
 
 }  // namespace tailwater

@@ -1,5 +1,5 @@
-// Threads that answer, as many as are ever needed, and a queue that lets whoever fills it wait: however many ask at
-// once, there are no more connections open than the queue and the threads hold.
+// Threads that answer, at their maximum number, and a bounded queue whose producer waits when it is full. So the number
+// of open connections is limited to those of the queue and the threads.
 #pragma once
 
 #include <httplib.h>

@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A browser sends the head at once, and a tunnel delays it little.
+/// A browser sends the head at once, and a tunnel delays it only a little.
 constexpr milliseconds time_for_head{2000};
 constexpr milliseconds time_for_next_bytes{5000};
 
@@ -82,7 +82,7 @@ ssize_t ClientStream::write(const char* bytes, std::size_t size) {
   return count;
 }
 
-// The server listens to its own machine alone.
+// The server listens to its own machine only.
 void ClientStream::get_remote_ip_and_port(std::string& ip, int& port) const {
   ip = "127.0.0.1";
   port = 0;

@@ -1,5 +1,5 @@
-// The connection to one client. A client has little time for the head of its request, however it divides it: one that
-// drips bytes would otherwise keep a thread for as long as it likes, without ever showing the token.
+// The connection to one client. The time for the head of a request is limited in total. Otherwise a client that sends
+// byte after byte could occupy a thread for any time, without ever showing the token.
 #pragma once
 
 #include <httplib.h>
@@ -24,17 +24,17 @@ class ClientStream final : public httplib::Stream {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// How long the next bytes may take: the rest of the head's time, or for the body a time of their own.
+  /// Time limit for the next bytes: the rest of the head's time, or for the body a limit of its own.
   std::chrono::milliseconds patience() const;
-  /// Fills the empty buffer. Returns what recv returns, or -1 when the time is over.
+  /// Fills the empty buffer. Returns the result of recv, or -1 when the time is over.
   ssize_t receive();
 
   socket_t socket_;
   Clock::time_point start_ = Clock::now();
   bool has_head_ = false;
-  std::string last_;  ///< up to four bytes, of which the end of the head is made
+  std::string last_;  ///< up to four bytes, for detecting the end of the head
   std::array<char, 4096> buffer_{};
-  std::size_t begin_ = 0, end_ = 0;  ///< of the bytes that the buffer still holds
+  std::size_t begin_ = 0, end_ = 0;  ///< range of the bytes that the buffer still holds
 };
 
 }  // namespace tailwater

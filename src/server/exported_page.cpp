@@ -19,12 +19,12 @@
 namespace tailwater {
 namespace {
 
-/// Where an exported page holds its data.
+/// The place of the data in an exported page.
 constexpr std::string_view marker = "<!-- tailwater-data -->";
 
-constexpr int smallest = 9;  ///< level of zlib
+constexpr int smallest = 9;  ///< compression level of zlib
 
-/// More digits than these are not looked at.
+/// Number of digits to which numbers are rounded.
 constexpr std::size_t digits = 7;
 
 /// The frames of a run in the order of time, decoded.
@@ -32,7 +32,7 @@ class FrameReader {
  public:
   explicit FrameReader(const FrameIndex& index) : index_(index) {}
 
-  /// Nothing if it cannot be read, or follows one that could not. Call for each frame.
+  /// Empty if the frame cannot be read, or follows one that could not. Call for each frame.
   std::optional<Frame> next(std::uint32_t k) {
     const std::optional<std::string> bytes = index_.bytes_of(k);
     if (!bytes) return lose();
@@ -58,7 +58,7 @@ class FrameReader {
   bool is_lost_ = false;
 };
 
-/// Adds frames as a key frame and what follows it; takes them.
+/// Adds frames as a key frame and its successors; consumes them.
 void add_frames(Json& list, std::vector<Frame>& frames, double spacing) {
   const auto first = static_cast<std::uint32_t>(list.size());
   const std::vector<std::string> encoded = encode_coarsely(frames, first, spacing);
@@ -79,7 +79,7 @@ Json frames_of(FrameIndex& index, double spacing) {
   std::vector<Frame> group;
   for (const auto& [k, entry] : index.frames()) {
     const bool is_sent = k % stride == 0 || k == last;
-    if (!is_sent && !entry.field_file.empty()) continue;  // nothing follows from it
+    if (!is_sent && !entry.field_file.empty()) continue;  // no frame follows from it
     std::optional<Frame> frame = reader.next(k);
     if (!frame || !is_sent) continue;
     group.push_back(std::move(*frame));
@@ -89,7 +89,7 @@ Json frames_of(FrameIndex& index, double spacing) {
   return list;
 }
 
-/// A number as it is looked at; other words as they are.
+/// A number rounded for the page; other words unchanged.
 std::string rounded_cell(std::string_view cell) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
@@ -97,7 +97,7 @@ std::string rounded_cell(std::string_view cell) {
   return is_number && cell.size() > digits ? fmt::format("{:.{}g}", number, digits) : std::string(cell);
 }
 
-/// A table with numbers as they are looked at.
+/// A table with its numbers rounded for the page.
 std::string rounded_table(std::string_view text) {
   std::string table;
   while (!text.empty()) {
@@ -114,11 +114,11 @@ Json run_for_export(const std::filesystem::path& path) {
   FrameIndex index(folder);
   Json files = Json::object();
   for (const std::string& name : tables_of(folder)) {
-    if (!name.starts_with("probes/")) continue;  // the page shows no other
+    if (!name.starts_with("probes/")) continue;  // the page shows no other tables
     files[name] = base64(deflated(rounded_table(folder.text_of(names_of_readable_file(name))), smallest));
   }
   Json info = run_info(path);
-  info["controls"] = Json::array();  // there is nobody to do it
+  info["controls"] = Json::array();  // no process serves them
   Json scene = scene_of_run(path);
   Json frames = frames_of(index, scene.at("spacing"));
   if (frames.empty()) {
@@ -156,7 +156,7 @@ std::string exported_page(const ViewContent& content, const std::string& version
   text += R"(<script type="application/json" id="tailwater-data">)";
   for (const char c : data) {
     if (c == '<') {
-      text += "\\u003c";  // nothing in the data ends the element
+      text += "\\u003c";  // no text in the data ends the element
     } else {
       text += c;
     }

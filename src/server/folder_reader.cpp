@@ -47,7 +47,7 @@ std::string OpenFile::read(std::int64_t begin, std::int64_t count) const {
   return bytes;
 }
 
-/// The descriptor, or -1.
+/// Returns the descriptor, or -1.
 int FolderReader::open_at(const std::vector<std::string>& names, int flags) const {
   if (names.empty() || !std::all_of(names.begin(), names.end(), is_plain_name)) return -1;
   int folder = ::open(folder_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
@@ -67,7 +67,7 @@ bool FolderReader::exists() const {
 }
 
 std::optional<OpenFile> FolderReader::open(const std::vector<std::string>& names) const {
-  const int file = open_at(names, O_RDONLY | O_NONBLOCK);  // a pipe must not make anybody wait
+  const int file = open_at(names, O_RDONLY | O_NONBLOCK);  // a pipe must not block the reader
   if (file < 0) return std::nullopt;
   struct stat status {};
   if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {

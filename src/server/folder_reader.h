@@ -1,5 +1,5 @@
-// Files of a run's folder as others may see them: whatever name is asked for, nothing outside of the folder is opened,
-// and no link in it is followed.
+// Reads files of a run's folder for clients. For any requested name, no file outside of the folder is opened, and no
+// link in it is followed.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ class OpenFile {
   OpenFile& operator=(OpenFile&& other) noexcept;
   ~OpenFile();
 
-  /// Bytes, when it was opened.
+  /// Size in bytes when the file was opened.
   std::int64_t size() const { return size_; }
-  /// At most so many bytes from a place on; fewer where the file ends, or cannot be read any more.
+  /// At most `count` bytes from `begin` on; fewer where the file ends, or can no longer be read.
   std::string read(std::int64_t begin, std::int64_t count) const;
   std::string read() const { return read(0, size_); }
 
@@ -28,7 +28,7 @@ class OpenFile {
   std::int64_t size_;
 };
 
-/// What tells a file from another one that later has its name.
+/// Distinguishes a file from another file that has its name later.
 struct FileMark {
   std::uint64_t inode = 0;
   std::int64_t changed = 0;  ///< ns
@@ -43,17 +43,17 @@ class FolderReader {
 
   const std::filesystem::path& path() const { return folder_; }
   bool exists() const;
-  /// A regular file by its names from the folder on, as in {"probes", "H1.csv"}; nothing if there is none, or one of
+  /// A regular file by its names from the folder on, as in {"probes", "H1.csv"}; empty if there is none, or if one of
   /// the names is no plain name.
   std::optional<OpenFile> open(const std::vector<std::string>& names) const;
-  /// Whether there is nothing of such a name yet, where there could be.
+  /// Whether there is no such name yet, although there could be.
   bool lacks(const std::vector<std::string>& names) const;
   /// The text of such a file; empty if there is none.
   std::string text_of(const std::vector<std::string>& names) const;
   std::optional<FileMark> mark_of(const std::vector<std::string>& names) const;
-  /// The names in a folder of the folder, in order; none if it is not there.
+  /// The names in a subfolder, in order; none if it does not exist.
   std::vector<std::string> names_in(const std::string& folder) const;
-  /// Makes an empty file unless it is there. Returns whether it could.
+  /// Makes an empty file unless it exists. Returns whether it succeeded.
   bool touch(const std::string& name) const;
 
  private:

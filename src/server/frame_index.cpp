@@ -16,7 +16,7 @@
 namespace tailwater {
 namespace {
 
-/// Longer than any head of a frame of a few things that move.
+/// Longer than the head of any frame with a few moving objects.
 constexpr std::int64_t bytes_of_head = 65536;
 
 const std::string stream_folder = "view";
@@ -33,7 +33,7 @@ std::optional<std::uint32_t> index_in(std::string_view name) {
 
 std::string name_of_frame(std::uint32_t index) { return fmt::format("{:05}{}", index, frame_ending); }
 
-/// Values of a field as whole numbers from 0 to `largest`, with the range that they fill.
+/// Values of a field as whole numbers from 0 to `largest`, for the range from `low` to `high`.
 template <class Whole>
 std::vector<Whole> as_whole(const std::vector<double>& values, double low, double high, double largest) {
   std::vector<Whole> whole(values.size());
@@ -44,7 +44,7 @@ std::vector<Whole> as_whole(const std::vector<double>& values, double low, doubl
   return whole;
 }
 
-/// Least and largest of values that are finite; 0 and 1 if there are none.
+/// Smallest and largest finite value; 0 and 1 if there is none.
 std::pair<double, double> range_of(std::vector<double>& values) {
   double low = std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::lowest();
@@ -71,7 +71,7 @@ std::string frame_of_fields(std::string_view bytes, const std::string& name, std
   const VtpFile file = read_vtp_bytes(bytes, name);
   std::vector<std::size_t> order(file.count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // Without ids a particle is known by its place in the file, which is in the order of ids.
+  // Without ids a particle is identified by its place in the file, which is in the order of ids.
   std::vector<std::int64_t> id(order.begin(), order.end());
   if (const auto ids = file.fields.find("id"); ids != file.fields.end()) {
     for (std::size_t i = 0; i < id.size(); ++i) {
@@ -154,7 +154,7 @@ FrameIndex::News FrameIndex::look() {
 
 FrameIndex::News FrameIndex::look_at_stream(const Found& found) {
   News news;
-  // A run writes behind what it has written. Only when the last frame is another one has it been resumed.
+  // A run only appends files. It has been resumed only if the last known frame has changed.
   const auto is_same = [&](const auto& known) {
     const auto there = found.find(known.first);
     return there != found.end() && folder_.mark_of({stream_folder, there->second}) == known.second.mark;

@@ -1,5 +1,5 @@
-// Which frames a run has, while it writes them and when it is resumed: those of its stream, or, of a run that has none,
-// those of its field files.
+// The list of the frames of a run, updated while the run writes and when it is resumed: the frames of its stream or,
+// without a stream, those of its field files.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,25 @@ struct FrameEntry {
   bool is_key = true;
   std::int64_t bytes = 0;
   FileMark mark;
-  std::string field_file;  ///< of a run without a stream
+  std::string field_file;  ///< name, for a run without a stream
 };
 
 class FrameIndex {
  public:
   explicit FrameIndex(const FolderReader& folder) : folder_(folder) {}
 
-  /// What has happened since the last look.
+  /// Changes since the last call of look().
   struct News {
-    bool is_cut = false;     ///< known frames are gone or have changed, as when a run is resumed
-    double cut_time = -1.0;  ///< s; of the last frame before them; -1: there is none
+    bool is_cut = false;     ///< known frames are removed or have changed, as when a run is resumed
+    double cut_time = -1.0;  ///< s; time of the last frame before them; -1: there is none
     std::vector<std::uint32_t> added;
   };
-  /// Looks at the folder. A frame that is not whole is not there.
+  /// Reads the folder. An incomplete frame does not count.
   News look();
 
   const std::map<std::uint32_t, FrameEntry>& frames() const { return frames_; }
 
-  /// The bytes of a frame; nothing if it cannot be read. A field file becomes a key frame.
+  /// The bytes of a frame; empty if it cannot be read. A field file becomes a key frame.
   std::optional<std::string> bytes_of(std::uint32_t index) const;
 
  private:

@@ -67,7 +67,7 @@ RangeAnswer range_of(std::string_view header, long long size, ByteRange& range) 
   const std::string_view last = header.substr(dash + 1);
   const std::optional<long long> from = number_in(first);
   const std::optional<long long> to = number_in(last);
-  if (first.empty() && to) {  // the last so many bytes
+  if (first.empty() && to) {  // a number of bytes at the end
     if (*to == 0 || size == 0) return RangeAnswer::impossible;
     range = {std::max(0LL, size - *to), size - 1};
     return RangeAnswer::part;

@@ -1,4 +1,4 @@
-// The server of the library, with connections of our own.
+// The library's server, with our own connections.
 #pragma once
 
 #include <httplib.h>
@@ -11,13 +11,13 @@ namespace tailwater {
 
 class HttpServer : public httplib::Server {
  public:
-  /// The library lets five connections wait.
+  /// Raises the number of waiting connections, which is five in the library.
   void let_many_wait() const { ::listen(svr_sock_, backlog); }
 
  private:
   static constexpr int backlog = 1024;  // connections
 
-  /// One request for each connection, with streams of our own, whose clients have little time.
+  /// One request per connection, with our own streams, whose clients have a short time limit.
   bool process_and_close_socket(socket_t socket) override {
     ClientStream stream(socket);
     bool is_closed = false;

@@ -1,4 +1,4 @@
-// The bytes of web/dist/view.html (TAILWATER_PAGE). Only this file is compiled with their path, so it stands by itself.
+// The bytes of web/dist/view.html (TAILWATER_PAGE). Only this file is compiled with their path, so it is separate.
 #include "server/page.h"
 
 #include <cstddef>

@@ -1,11 +1,11 @@
-// The page in the program.
+// The page that is compiled into the program.
 #pragma once
 
 #include <string_view>
 
 namespace tailwater {
 
-/// The page, as it is compiled in.
+/// The page as a text.
 std::string_view view_page();
 
 }  // namespace tailwater

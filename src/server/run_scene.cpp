@@ -15,7 +15,7 @@ template <int Dim>
 Json scene_from_case(const CaseSpec& spec) {
   try {
     return scene_json<Dim>(spec, make_boundary<Dim>(spec));
-  } catch (const InputError&) {  // a mesh that is no longer there
+  } catch (const InputError&) {  // a mesh that no longer exists
     return scene_json<Dim>(spec, Boundary<Dim>());
   }
 }

@@ -14,7 +14,7 @@ namespace tailwater {
 namespace {
 
 constexpr auto least_time_between_infos = std::chrono::seconds(1);
-/// So many times as long as an info has taken pass until the next one: where tables are long it takes a while.
+/// Pause after each info, as a multiple of the time that it took: with long tables it takes a while.
 constexpr int rest_over_work = 20;
 
 std::string event(std::string_view name, const Json& data) {

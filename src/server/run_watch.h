@@ -1,4 +1,4 @@
-// What is new in the folder of a run, as server-sent events for the page.
+// The changes in the folder of a run, as server-sent events for the page.
 #pragma once
 
 #include <chrono>
@@ -13,11 +13,11 @@ namespace tailwater {
 
 class RunWatch {
  public:
-  /// Frames from this one on are told.
+  /// Reports frames from this index on.
   RunWatch(const std::filesystem::path& run, std::uint32_t first_frame);
 
-  /// Looks at the folder and returns what has happened since the last look, as the text of events; at first, of all
-  /// tables, how the run is, and its frames. Events: frame, table, info, cut, gone (docs/reference/view.md).
+  /// Reads the folder and returns the changes since the last call as the text of events; the first call reports all
+  /// tables, the state of the run, and its frames. Events: frame, table, info, cut, gone (docs/reference/view.md).
   std::string look();
 
  private:
@@ -39,7 +39,7 @@ class RunWatch {
 /// The tables of a run by their path in its folder.
 std::vector<std::string> tables_of(const FolderReader& folder);
 
-/// "probes/H1.csv" as its names. No names if it is not one of the files that a page may read: tables, summary, case and
+/// "probes/H1.csv" as its names. Empty if it is not one of the files that a page may read: tables, summary, case and
 /// log.
 std::vector<std::string> names_of_readable_file(std::string_view path);
 

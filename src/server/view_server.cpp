@@ -31,7 +31,7 @@ using httplib::Response;
 
 constexpr std::size_t threads = 48;
 constexpr std::size_t waiting_connections = 64;
-constexpr int most_streams = 24;                             // of events; each takes a thread
+constexpr int most_streams = 24;                             // streams of events; each takes a thread
 constexpr std::size_t largest_case = std::size_t{8} << 20U;  // bytes
 constexpr auto time_between_looks = std::chrono::milliseconds(200);
 constexpr auto time_between_signs_of_life = std::chrono::seconds(10);
@@ -65,7 +65,7 @@ class ViewServer::Service {
                                {"Cross-Origin-Resource-Policy", "same-origin"},
                                {"Cross-Origin-Opener-Policy", "same-origin"}});
     http_.set_pre_routing_handler([this](const Request& request, Response& response) {
-      // Ranges are read by `range_of`: the library's own do not stop at the end of what there is.
+      // `range_of` reads ranges, because the library's own code does not limit them to the size of the file.
       const_cast<Request&>(request).ranges.clear();
       return begin_answer(request, response) ? HttpServer::HandlerResponse::Unhandled
                                              : HttpServer::HandlerResponse::Handled;
@@ -97,11 +97,12 @@ class ViewServer::Service {
     ViewedRun what;
     FolderReader folder;
     std::mutex mutex;
-    FrameIndex frames;  ///< guarded, as the scene
+    FrameIndex frames;  ///< guarded, as the scene is
     std::string scene;
   };
 
-  /// Checks who asks. Answers all but requests whose body must be read first; returns whether it is one of these.
+  /// Checks the origin of a request. Answers all requests but those whose body must be read first; returns whether it
+  /// is one of these.
   bool begin_answer(const Request& request, Response& response) {
     const std::vector<std::string> path = segments_of(request.path);
     const std::string host = request.get_header_value("Host");
@@ -147,7 +148,7 @@ class ViewServer::Service {
       return true;
     }
     if (path.size() == 2 && path[1].empty()) {
-      // The page has a policy of its own for what it may load; only the header can say who may frame it.
+      // The page has its own policy for resources; only the header can restrict framing.
       response.headers.erase("Content-Security-Policy");
       response.set_header("Content-Security-Policy", "frame-ancestors 'none'");
       answer_text(response, std::string(view_page()), "text/html; charset=utf-8");
@@ -222,9 +223,9 @@ class ViewServer::Service {
     std::unique_lock lock(run.mutex);
     if (!run.frames.frames().contains(*index)) run.frames.look();
     const FrameIndex frames = run.frames;
-    lock.unlock();  // a field file takes a while
+    lock.unlock();  // reading a field file takes a while
     std::optional<std::string> bytes = frames.bytes_of(*index);
-    response.status = bytes ? 200 : 204;  // it may have been cut off
+    response.status = bytes ? 200 : 204;  // it may have been removed
     if (bytes) response.set_content(*bytes, "application/octet-stream");
     return true;
   }
@@ -262,7 +263,7 @@ class ViewServer::Service {
           if (offset > 0) std::this_thread::sleep_for(time_between_looks);
           std::string news = watch->look();
           const auto now = std::chrono::steady_clock::now();
-          // A comment, so that a page that is gone is noticed.
+          // A comment line, by which a closed page is detected.
           if (news.empty() && (offset == 0 || now - *last_word > time_between_signs_of_life)) news = ":\n\n";
           if (news.empty()) return sink.is_writable();
           *last_word = now;
@@ -345,7 +346,7 @@ class ViewServer::Service {
             {"out", actions_.free_name()}};
   }
 
-  /// Returns its id.
+  /// Returns the id of the run.
   std::string add(ViewedRun run) {
     const std::lock_guard lock(mutex_);
     runs_.push_back(std::make_unique<Run>(std::move(run)));
@@ -368,7 +369,7 @@ class ViewServer::Service {
   int port_ = 0;
   HttpServer http_;
   std::mutex mutex_;
-  std::deque<std::unique_ptr<Run>> runs_;  ///< guarded; those that are there stay
+  std::deque<std::unique_ptr<Run>> runs_;  ///< guarded; existing elements stay
   std::atomic<int> streams_ = 0;
   std::atomic<bool> is_ending_ = false;
 };

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double quantum_over_spacing = 1.0 / 32.0;
 
-/// Scalars are even: 128 values, which are half as long to tell.
+/// Scalars are even: 128 values, which need half as many bytes.
 constexpr int step_of_scalars = 2;
 constexpr double largest_even_scalar = 254.0;
 
-/// The box and the ranges that hold those of all frames.
+/// The box and the ranges that contain those of all frames.
 FrameScale common_scale(const std::vector<Frame>& frames, double spacing) {
   FrameScale scale = frames.front().head.scale;
   for (const Frame& frame : frames) {
@@ -33,7 +33,7 @@ FrameScale common_scale(const std::vector<Frame>& frames, double spacing) {
   return scale;
 }
 
-/// Whole numbers of one scale as those of another: number k of the old one stands for low + k * step.
+/// Converts whole numbers from one scale to another: number k of the old one means low + k * step.
 template <class Number>
 void rescale(std::vector<Number>& numbers, double low, double step, double new_low, double new_step, double largest,
              int multiple) {

@@ -22,12 +22,12 @@ static_assert(std::endian::native == std::endian::little, "frames are written in
 
 constexpr std::string_view magic = "TWVF";
 
-/// Of libdeflate: the second saves 6 % in ten times the time.
+/// Level of libdeflate: the second saves 6 % in ten times the time.
 constexpr int level_of(Deflation deflation) { return deflation == Deflation::quick ? 1 : 9; }
 
-/// No frame of a run is larger.
+/// Upper bound of the size of a frame of a run.
 constexpr std::size_t largest_raw_size = std::size_t{1} << 31U;
-/// Deflate makes at most about so many bytes of one; a damaged head must not ask for more memory.
+/// About the largest expansion by deflate; a damaged head must not cause the allocation of more memory.
 constexpr std::size_t largest_inflation = 1100;
 
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
@@ -85,9 +85,9 @@ class Taker {
   std::size_t size_;
 };
 
-// ---- Which particles there are.
+// ---- Sets of particles.
 
-/// Where the particles of a frame are in an earlier one that has others: `nowhere` for those that came since.
+/// The places of the particles of a frame in an earlier one with other particles: `nowhere` for those that came since.
 std::vector<std::uint32_t> numbers_in(const std::vector<std::int64_t>& earlier, const std::vector<std::int64_t>& now) {
   std::vector<std::uint32_t> places(now.size(), nowhere);
   std::size_t k = 0;
@@ -160,14 +160,14 @@ std::vector<std::int64_t> take_changes(Taker& bytes, const std::vector<std::int6
 
 // ---- Predictions.
 
-/// An earlier frame, whose numbers are wanted in the order of a later one.
+/// An earlier frame, whose numbers are read in the order of a later one.
 class Earlier {
  public:
   Earlier(const FrameParticles& earlier, const std::vector<std::int64_t>& now) : is_same_(earlier.id == now) {
     if (!is_same_) places_ = numbers_in(earlier.id, now);
   }
 
-  /// A column of it, and of what came since the number of `otherwise`.
+  /// A column of the earlier frame; particles that came since have the number of `otherwise`.
   template <class Number>
   std::vector<Number> column(const std::vector<Number>& earlier, std::vector<Number> otherwise) const {
     if (is_same_) return earlier;
@@ -176,7 +176,7 @@ class Earlier {
     }
     return otherwise;
   }
-  /// The same, with 0 for what is not there.
+  /// Sets the entries of new particles to 0.
   template <class Number>
   void forget_new(std::vector<Number>& column) const {
     for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -189,7 +189,7 @@ class Earlier {
   std::vector<std::uint32_t> places_;
 };
 
-/// What the frames before tell of the particles of a frame: columns in their order.
+/// The prediction of the particles of a frame from the previous ones: columns in their order.
 class Predictor {
  public:
   Predictor(int order, const std::vector<std::int64_t>& now, const FramesBefore& before)
@@ -221,7 +221,7 @@ class Predictor {
   std::optional<Earlier> last_but_one_;
 };
 
-/// Small numbers of either sign as small numbers: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
+/// Maps small numbers of either sign to small numbers: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 std::uint16_t zigzag(std::uint16_t residual) {
   const auto sign = static_cast<std::uint16_t>(residual & 0x8000U ? 0xFFFFU : 0U);
   return static_cast<std::uint16_t>((residual << 1U) ^ sign);

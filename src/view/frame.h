@@ -1,5 +1,5 @@
 // One frame of the stream that a run writes for viewers (docs/reference/view.md): places and scalars of its particles
-// as small whole numbers, of which a frame holds only what a prediction from the frames before does not tell.
+// as small whole numbers. A frame holds only the differences from a prediction by the previous frames.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr int frame_format = 1;
 inline constexpr double largest_place = 65535.0;
 inline constexpr double largest_scalar = 255.0;
 
-/// What the whole numbers mean; the same from a key frame to the next.
+/// The scale of the whole numbers; constant from a key frame to the next.
 struct FrameScale {
   std::vector<double> low;                   ///< m; corner of the box whose places are stored, one per dimension
   std::vector<double> high;                  ///< m
@@ -29,20 +29,21 @@ struct FrameScale {
 /// The particles of a frame as they are stored, by ascending id.
 struct FrameParticles {
   std::vector<std::int64_t> id;
-  std::vector<std::vector<std::uint16_t>> place;  ///< of each dimension: 0 at the box's low side, 65535 at its high one
+  /// for each dimension: 0 at the box's low side, 65535 at its high one
+  std::vector<std::vector<std::uint16_t>> place;
   std::vector<std::vector<std::uint8_t>>
-      scalar;  ///< of each scalar: 0 at the low end of its range, 255 at the high one
+      scalar;  ///< for each scalar: 0 at the low end of its range, 255 at the high one
 
   std::size_t size() const { return id.size(); }
   bool operator==(const FrameParticles&) const = default;
 };
 
 struct FrameHead {
-  int order = 0;  ///< 0: a key frame; 1: predicted from the frame before; 2: from the two before
+  int order = 0;  ///< 0: a key frame; 1: predicted from the previous frame; 2: from the two previous frames
   std::uint32_t index = 0;
   double time = 0.0;  ///< s
   FrameScale scale;
-  std::vector<std::vector<double>> poses;  ///< of each thing that moves: x, y, angle; or x, y, z, qw, qx, qy, qz
+  std::vector<std::vector<double>> poses;  ///< of each moving object: x, y, angle; or x, y, z, qw, qx, qy, qz
 
   std::size_t dimension() const { return scale.low.size(); }
   bool operator==(const FrameHead&) const = default;
@@ -55,7 +56,7 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
-/// The particles of the frames before; of the same scale.
+/// The particles of the previous frames, of the same scale.
 struct FramesBefore {
   FrameParticles last;          ///< for orders 1 and 2
   FrameParticles last_but_one;  ///< for order 2
@@ -66,7 +67,7 @@ enum class Deflation {
   small,  ///< 6 % smaller, in ten times the time
 };
 
-/// The bytes of a frame, which are the same for the same frames.
+/// The bytes of a frame; equal frames give equal bytes.
 std::string encode_frame(const Frame& frame, const FramesBefore& before, Deflation deflation = Deflation::quick);
 
 struct FrameSummary {
@@ -76,10 +77,10 @@ struct FrameSummary {
   std::size_t payload_size = 0;   ///< bytes; as deflated
   std::size_t raw_size = 0;       ///< bytes
 };
-/// What a frame's first bytes tell; the others may be missing. Throws IoError.
+/// Reads the summary from a frame's first bytes; the others may be missing. Throws IoError.
 FrameSummary read_frame_head(std::string_view bytes);
 
-/// The inverse of encode_frame. Throws IoError if the bytes are not a whole frame that follows those before.
+/// The inverse of encode_frame. Throws IoError if the bytes are not a whole frame that follows the previous ones.
 Frame decode_frame(std::string_view bytes, const FramesBefore& before);
 
 }  // namespace tailwater

@@ -22,16 +22,16 @@
 namespace tailwater {
 namespace {
 
-/// A viewer that jumps to a frame decodes those since the last key frame.
+/// A viewer that jumps to a frame decodes all frames since the last key frame.
 constexpr int frames_per_key = 10;
 
-/// A place is known to this share of dx: less is not seen, and more costs bytes.
+/// Resolution of places, in dx: smaller errors are invisible, and more digits cost bytes.
 constexpr double least_quantum_over_spacing = 1.0 / 128.0;
 
-/// What the box leaves around the water and the walls, as a share of their extent.
+/// Margin of the box around the water and the walls, as a fraction of their extent.
 constexpr double room_in_box = 0.05;
 
-/// What the range of a scalar leaves beyond its values now, as a share of their extent.
+/// Margin of the range of a scalar beyond its present values, as a fraction of their extent.
 constexpr double room_in_range = 0.25;
 
 std::string read_file(const std::filesystem::path& path) {
@@ -67,7 +67,7 @@ std::vector<double> extremes_of(const WaterNow<Dim>& water, const Communicator& 
   return extremes;
 }
 
-/// Whether what has these extremes fits into the scale.
+/// Whether values with these extremes fit into the scale.
 bool fits(const FrameScale& scale, std::span<const double> extremes) {
   const std::size_t dimension = scale.low.size();
   for (std::size_t d = 0; d < dimension; ++d) {
@@ -80,18 +80,18 @@ bool fits(const FrameScale& scale, std::span<const double> extremes) {
   return true;
 }
 
-/// The range of a scalar: of its values now, and of some that will come.
+/// The range of a scalar: its present values, and a margin for later ones.
 std::array<float, 2> range_around(double least, double largest) {
   if (least > largest) return {0.0F, 1.0F};  // there is no water
   const double room = room_in_range * (largest - least);
-  // Rounded outwards: what the frame holds is in its range.
+  // Rounded outwards, so that all values of the frame are in its range.
   const auto low = std::nextafter(static_cast<float>(least - room), -1e30F);
   const auto high = std::nextafter(static_cast<float>(largest + room), 1e30F);
   return {low, high};
 }
 
-/// The order of ascending ids, which are unique. Ids of water have few gaps: then a table by id is made in a tenth of
-/// the time that comparing them takes.
+/// The order of ascending ids, which are unique. Ids of water have few gaps: a table by id is then ten times as fast as
+/// a sort by comparisons.
 std::vector<std::uint32_t> order_by_id(const std::vector<std::int64_t>& id) {
   const std::size_t count = id.size();
   std::vector<std::uint32_t> order;
@@ -125,7 +125,7 @@ void for_each_column(FrameParticles& particles, const Visit& visit) {
   for (std::vector<std::uint8_t>& scalar : particles.scalar) visit(scalar);
 }
 
-/// Those of all ranks, one rank after the other, on the root; none on the others. In one message.
+/// Gathers the particles of all ranks, rank after rank, on the root; none on the others. In one message.
 void gather_all(FrameParticles& particles, const Communicator& ranks) {
   if (ranks.is_alone()) return;
   std::string bytes;
@@ -167,7 +167,7 @@ std::filesystem::path FrameSeries<Dim>::file_of(std::size_t index) const {
 
 template <int Dim>
 void FrameSeries<Dim>::write_into_folder(const std::filesystem::path& path, const std::string& text) const {
-  std::error_code ignored;  // the file that is written next tells what is wrong
+  std::error_code ignored;  // writing the next file reports the error
   std::filesystem::create_directory(folder_, ignored);
   try {
     write_text_file(path, text);
@@ -250,7 +250,7 @@ void FrameSeries<Dim>::write(const WaterNow<Dim>& water, const Communicator& ran
   ++count_;
 }
 
-/// The frame before the next one, decoded from the last key frame on; nothing if that cannot be.
+/// The frame before the next one, decoded from the last key frame on; empty if that is impossible.
 template <int Dim>
 std::optional<Frame> FrameSeries<Dim>::read_back(std::size_t count) {
   try {
@@ -278,7 +278,7 @@ std::optional<Frame> FrameSeries<Dim>::read_back(std::size_t count) {
 template <int Dim>
 void FrameSeries<Dim>::go_on(std::size_t count, const Communicator& ranks) {
   count_ = count;
-  std::vector<double> known;  // of the last frame, for all ranks: the frames since its key frame, and its scale
+  std::vector<double> known;  // for all ranks, from the last frame: the frames since its key frame, and its scale
   do_on_root(ranks, [&] {
     std::error_code error;
     for (std::size_t i = count; std::filesystem::exists(file_of(i), error); ++i) remove_file(file_of(i));

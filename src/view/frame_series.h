@@ -14,20 +14,21 @@
 
 namespace tailwater {
 
-/// The water of one rank at one moment. Borrows its values.
+/// The water of one rank at one instant. Borrows its values.
 template <int Dim>
 struct WaterNow {
   double time = 0.0;  ///< s
   std::span<const std::int64_t> id;
   std::span<const Vec<Dim>> position;            ///< m; finite
   std::vector<std::span<const double>> scalars;  ///< finite
-  std::span<const AffineMap<Dim>> poses;         ///< of all that moves, from where it is drawn; the same on all ranks
+  /// of all moving objects, from where they are drawn; the same on all ranks
+  std::span<const AffineMap<Dim>> poses;
 };
 
 template <int Dim>
 class FrameSeries {
  public:
-  /// `spacing` [m] is that of the particles, `walls` the box around what holds them [m].
+  /// `spacing` [m] is that of the particles, `walls` the box around the solid geometry [m].
   FrameSeries(std::filesystem::path folder, double spacing, const Eigen::AlignedBox<double, Dim>& walls);
 
   /// Writes a file NAME beside the frames. Makes the folder, as `write` does, where it is missing. Collective; throws
@@ -37,8 +38,8 @@ class FrameSeries {
   /// Adds a frame. Collective.
   void write(const WaterNow<Dim>& water, const Communicator& ranks = {});
 
-  /// Goes on behind the first `count` frames, as whoever wrote them would have, and removes those that followed.
-  /// Without these frames, or with damaged ones, goes on with a key frame. Collective.
+  /// Continues after the first `count` frames, exactly as the run that wrote them would have, and removes later ones.
+  /// Without these frames, or with damaged ones, continues with a key frame. Collective.
   void go_on(std::size_t count, const Communicator& ranks = {});
 
   /// Number of frames so far.
@@ -46,7 +47,7 @@ class FrameSeries {
 
  private:
   std::filesystem::path file_of(std::size_t index) const;
-  /// Writes a file of the stream. Whoever needs no more of it may remove the folder at any time: it is made anew.
+  /// Writes a file of the stream. A user may remove the folder at any time to discard the stream: it is made again.
   void write_into_folder(const std::filesystem::path& path, const std::string& text) const;
   FrameScale scale_for(std::span<const double> extremes, std::size_t scalars) const;
   FrameParticles gather(const WaterNow<Dim>& water, const Communicator& ranks) const;
@@ -56,8 +57,8 @@ class FrameSeries {
   double spacing_;
   Eigen::AlignedBox<double, Dim> walls_;
   std::size_t count_ = 0;
-  FrameScale scale_;     ///< of the last frame; the same on all ranks
-  int since_key_ = -1;   ///< frames since the last key frame; -1: there is none to follow
+  FrameScale scale_;     ///< scale of the last frame; the same on all ranks
+  int since_key_ = -1;   ///< frames since the last key frame; -1: the next frame must be one
   FramesBefore before_;  ///< on the root
 };
 

@@ -21,7 +21,7 @@
 namespace tailwater {
 namespace {
 
-/// As many digits as a picture needs: a mesh has a hundred thousand coordinates.
+/// Rounds to the digits that a picture needs, because a mesh has a hundred thousand coordinates.
 double rounded(double number) { return std::strtod(fmt::format("{:.7g}", number).c_str(), nullptr); }
 
 template <int Dim>
@@ -31,7 +31,7 @@ Json point(const Vec<Dim>& x) {
   return numbers;
 }
 
-/// The faces of a wall, of a plate those at the front alone.
+/// The faces of a wall; for a plate only those at the front.
 template <int Dim>
 std::vector<std::size_t> faces_of(const Boundary<Dim>& boundary, int wall) {
   std::vector<std::size_t> faces;
@@ -48,7 +48,7 @@ std::vector<std::size_t> faces_of(const Boundary<Dim>& boundary, int wall) {
 
 using Chain = std::deque<Vec<2>>;
 
-/// Makes one chain of two where one ends at the start of the other.
+/// Joins two chains if one ends at the start of the other.
 bool join(Chain& chain, Chain& other) {
   if (chain.back() == other.front()) {
     chain.insert(chain.end(), other.begin() + 1, other.end());
@@ -60,7 +60,7 @@ bool join(Chain& chain, Chain& other) {
   return true;
 }
 
-/// The faces of a wall as chains of points, as long as can be. Faces mostly follow each other, forwards, or backwards
+/// The faces of a wall as chains of points, as long as possible. Faces mostly follow each other, forwards, or backwards
 /// where the water is on the right; those of a box come in another order.
 Json polylines_of(const Boundary<2>& boundary, int wall) {
   std::vector<Chain> chains;
@@ -73,7 +73,7 @@ Json polylines_of(const Boundary<2>& boundary, int wall) {
     for (std::size_t other = k + 1; other < chains.size(); ++other) {
       if (!join(chains[k], chains[other])) continue;
       chains.erase(chains.begin() + static_cast<std::ptrdiff_t>(other));
-      other = k;  // its ends are other ones now
+      other = k;  // its ends have changed
     }
   }
   Json all = Json::array();
@@ -148,7 +148,7 @@ Json open_ends_json(const std::vector<Opening<Dim>>& ends, OpeningKind kind) {
   return all;
 }
 
-/// Where a probe measures: a point, the ends of a line, the corners of an outline; none for one that looks everywhere.
+/// The place of a probe: a point, the ends of a line, the corners of an outline; none for a probe of the whole domain.
 /// A height that the case leaves out is that of the lowest wall.
 std::vector<Coordinates> places_of(const ProbeTable& probe, std::size_t dimension, double lowest) {
   std::vector<Coordinates> places;
@@ -168,7 +168,7 @@ std::vector<Coordinates> places_of(const ProbeTable& probe, std::size_t dimensio
 /// By probe.
 using Columns = std::vector<std::vector<OutputColumn>>;
 
-/// The columns of each probe's table after the time; none where it cannot measure, which is told of elsewhere.
+/// The columns of each probe's table after the time; none where it cannot measure, which another check reports.
 template <int Dim>
 Columns columns_of_probes(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Columns columns(spec.probes.size());
@@ -208,7 +208,7 @@ Json probes_json(const CaseSpec& spec, const Columns& columns, const Json& box) 
   return probes;
 }
 
-/// What laboratories have measured within the time of the run, in the order of the case.
+/// The measurements of laboratories within the time of the run, in the order of the case.
 Json measurements_json(const CaseSpec& spec) {
   Json measurements = Json::array();
   for (const MeasurementTable& table : spec.measurements) {
@@ -228,7 +228,7 @@ Json measurements_json(const CaseSpec& spec) {
   return measurements;
 }
 
-/// Where the spaces are that start at another pressure.
+/// The places of the spaces that start at another pressure.
 template <int Dim>
 Json pockets_json(const CaseSpec& spec) {
   Json pockets = Json::array();
@@ -239,7 +239,7 @@ Json pockets_json(const CaseSpec& spec) {
   return pockets;
 }
 
-/// Vents, as wide as a slit in 2D and a round hole in 3D of their area.
+/// Vents with the width of a slit in 2D, or of a round hole in 3D, of their area.
 template <int Dim>
 Json vents_json(const CaseSpec& spec) {
   Json vents = Json::array();
@@ -261,7 +261,7 @@ Json periodic_json(const CaseSpec& spec) {
   return periodic;
 }
 
-/// The open ends that can be made; a wrong one is told of elsewhere.
+/// The valid open ends; another check reports the others.
 template <int Dim>
 std::vector<Opening<Dim>> sound_open_ends(const CaseSpec& spec) {
   try {
@@ -271,7 +271,7 @@ std::vector<Opening<Dim>> sound_open_ends(const CaseSpec& spec) {
   }
 }
 
-/// The box around what is drawn; null where there is nothing.
+/// The box around the drawn objects; null if there are none.
 template <int Dim>
 Json box_json(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends) {
   Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);

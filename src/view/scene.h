@@ -1,5 +1,5 @@
-// What stands still in the pictures of a run, as a viewer draws it: walls, bodies, open ends, probes and the frame of
-// the page around them (docs/reference/view.md).
+// The static objects in the pictures of a run, for a viewer: walls, bodies, open ends, probes and the texts of the page
+// around them (docs/reference/view.md).
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace tailwater {
 
-/// A quantity of the particles that frames hold.
+/// A quantity of the particles in frames.
 struct FrameScalar {
   std::string_view name;
   std::string_view unit;
 };
 inline constexpr std::array<FrameScalar, 2> frame_scalars{{{"pressure", "Pa"}, {"speed", "m/s"}}};
 
-/// Of each wall the number of the pose that moves it, counted by the first wall of each; -1 for walls at rest.
+/// For each wall the number of its pose, in the order of their first walls; -1 for walls at rest.
 template <int Dim>
 std::vector<int> pose_of_walls(const Boundary<Dim>& boundary);
 
