@@ -9,9 +9,15 @@ namespace {
 /// Where a surface is at the start of a step, and how it moves.
 template <int Dim>
 struct SurfaceMotion {
-  AffineMap<Dim> placement;
+  AffineMap<Dim> placement = {};
   AffineMap<Dim> velocity{Mat<Dim>::Zero(), Vec<Dim>::Zero()};  ///< of what is drawn at x
 };
+
+/// Of a surface that moves as prescribed.
+template <int Dim>
+const typename WallMotion<Dim>::MovingWall& path_of(const Flow<Dim>& flow, const ContactSurface<Dim>& surface) {
+  return *std::ranges::find(flow.setup.wall_motion.moving(), surface.wall, &WallMotion<Dim>::MovingWall::wall);
+}
 
 template <int Dim>
 class ContactFinder {
@@ -35,14 +41,10 @@ class ContactFinder {
 
  private:
   SurfaceMotion<Dim> motion_of(const ContactSurface<Dim>& surface) const {
-    SurfaceMotion<Dim> motion;
-    if (surface.body >= 0) motion.placement = bodies_[surface.body].placement;
+    SurfaceMotion<Dim> motion{.placement = placement_of(flow_, surface, flow_.state.time)};
     if (surface.wall < 0) return motion;
     const double time = flow_.state.time;
-    const auto& moving = flow_.setup.wall_motion.moving();
-    const auto wall = std::ranges::find(moving, surface.wall, &WallMotion<Dim>::MovingWall::wall);
-    motion.placement = wall->in_period(wall->at(time, flow_.state.motion));
-    motion.velocity = wall->mean_velocity(time, time + dt_, flow_.state.motion);
+    motion.velocity = path_of(flow_, surface).mean_velocity(time, time + dt_, flow_.state.motion);
     return motion;
   }
 
@@ -74,12 +76,21 @@ class ContactFinder {
 }  // namespace
 
 template <int Dim>
+AffineMap<Dim> placement_of(const Flow<Dim>& flow, const ContactSurface<Dim>& surface, double time) {
+  if (surface.body >= 0) return flow.state.motion.bodies.each[surface.body].at(time);
+  if (surface.wall < 0) return {};
+  const auto& path = path_of(flow, surface);
+  return path.in_period(path.at(time, flow.state.motion));
+}
+
+template <int Dim>
 std::vector<OneSidedForce> find_contacts(const Flow<Dim>& flow, const ContactSurfaces<Dim>& surfaces,
                                          const std::vector<BodyState<Dim>>& bodies, double dt,
                                          std::span<const Freedom> freedoms) {
   return ContactFinder<Dim>(flow, surfaces, bodies, dt, freedoms).find();
 }
 
+TAILWATER_IN_2D_AND_3D(placement_of);
 TAILWATER_IN_2D_AND_3D(find_contacts);
 
 }  // namespace tailwater

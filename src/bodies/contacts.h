@@ -12,6 +12,10 @@
 
 namespace tailwater {
 
+/// From where a surface is drawn to where it is at `time` [s] of the present step.
+template <int Dim>
+AffineMap<Dim> placement_of(const Flow<Dim>& flow, const ContactSurface<Dim>& surface, double time);
+
 /// Of all points of bodies that are near a wall or another body; `bodies` are as they are at the start of the step of
 /// dt.
 template <int Dim>

@@ -54,7 +54,6 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, co
       dt_(equation.dt),
       drive_(drive),
       forces_(flow, bodies, flow.state.time),
-      covered_(find_covered(flow, bodies, flow.state.time)),
       gaps_(flow, bodies, flow.state.time) {
   for (std::size_t b = 0; b < bodies.bodies.size(); ++b) {
     for (const int entry : bodies.bodies[b].free) freedoms_.push_back({b, entry});
@@ -79,7 +78,10 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, co
 
 template <int Dim>
 void BodyCoupling<Dim>::begin() {
-  bodies_.stagnant = gaps_.hold_water(flow_);
+  bodies_.stagnant = gaps_.find_stagnant();
+  bodies_.has_stagnant_water = flow_.setup.ranks.any(!bodies_.stagnant.empty());
+  gaps_.measure();
+  gaps_.hold_water(flow_);
   allowed_tension_ = allowed_tension(flow_);
   add_air_stiffness();
 }
@@ -155,7 +157,7 @@ template <int Dim>
 std::vector<Twist<Dim>> BodyCoupling<Dim>::forces_of(std::vector<double> pressure,
                                                      const std::vector<double>& air) const {
   if (!air.empty()) subtract_seen_air<Dim>(flow_, enclosed_air_, air, pressure);
-  std::vector<Twist<Dim>> forces = forces_.of_pressure(pressure, covered_);
+  std::vector<Twist<Dim>> forces = forces_.of_pressure(pressure);
   const std::vector<Twist<Dim>> in_gaps = forces_.of_gaps(pressure, gaps_);
   for (std::size_t b = 0; b < forces.size(); ++b) forces[b] += in_gaps[b];
   if (air.empty()) return forces;

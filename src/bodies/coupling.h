@@ -71,7 +71,6 @@ class BodyCoupling final : public CoupledUnknowns {
   double dt_;
   WallDrive<Dim>& drive_;
   ForcesOnBodies<Dim> forces_;
-  std::vector<CoveredParticle<Dim>> covered_;
   NarrowGaps<Dim> gaps_;
   std::vector<Freedom> freedoms_;
   Eigen::VectorXd scale_;          ///< mass or moment of inertia of each degree of freedom

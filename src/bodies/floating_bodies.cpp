@@ -35,7 +35,11 @@ FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setu
     : bodies(make_bodies<Dim>(spec)),
       moorings(make_moorings<Dim>(spec)),
       body_of_wall(bodies_of_walls(bodies, boundary.walls.size())),
-      contact(make_contact_surfaces(boundary, bodies, setup.scale.spacing)) {}
+      contact(make_contact_surfaces(boundary, bodies, setup.scale.spacing)) {
+  for (const WallPatch<Dim>& patch : make_wall_patches(boundary, setup.scale.spacing)) {
+    if (body_of_wall[boundary.faces[patch.face].wall] >= 0) patches.push_back(patch);
+  }
+}
 
 template <int Dim>
 std::size_t FloatingBodies<Dim>::freedom_count() const {
@@ -96,17 +100,19 @@ template <int Dim>
 void FloatingBodies<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt,
                                    Works& works) const {
   const Particles<Dim>& particles = flow.state.particles;
-  visit_forces_of_stagnant_water(flow, *this, on_walls, [&](std::size_t j, const Vec<Dim>& force) {
-    works.walls +=
-        dt * force.dot(particles.is_fluid(j) ? particles.velocity[j]
-                                             : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
-  });
+  for (const std::size_t i : stagnant) {
+    visit_pair_forces(flow, i, on_walls, [&](std::size_t j, const Vec<Dim>& force) {
+      works.walls +=
+          dt * force.dot(particles.is_fluid(j) ? particles.velocity[j]
+                                               : entry_of<Dim>(flow.state.wall_velocity, particles.wall_row[j]));
+    });
+  }
 }
 
 template <int Dim>
 void FloatingBodies<Dim>::project_again(Flow<Dim>& flow, const std::vector<double>& correction, double dt) {
   const double time = flow.state.time + dt;
-  carry_over(flow, ForcesOnBodies<Dim>(flow, *this, time).of_pressure(correction, find_covered(flow, *this, time)), dt);
+  carry_over(flow, ForcesOnBodies<Dim>(flow, *this, time).of_pressure(correction), dt);
 }
 
 template <int Dim>

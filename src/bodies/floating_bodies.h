@@ -6,6 +6,7 @@
 
 #include "flow/flow.h"
 #include "flow/part.h"
+#include "geometry/wall_patches.h"
 #include "motion/body_contact.h"
 
 namespace tailwater {
@@ -21,10 +22,12 @@ class FloatingBodies final : public Part<Dim> {
   std::vector<Mooring<Dim>> moorings;
   std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
   ContactSurfaces<Dim> contact;
+  std::vector<WallPatch<Dim>> patches;  ///< of all bodies, at most dx long; they move with their faces
 
   // Of the present step.
   std::vector<Twist<Dim>> start_velocity;  ///< of each body
-  std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps, with a known pressure
+  std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps
+  bool has_stagnant_water = false;         ///< of any rank
 
   /// Degrees of freedom of all bodies.
   std::size_t freedom_count() const;
@@ -33,6 +36,7 @@ class FloatingBodies final : public Part<Dim> {
 
   std::string_view name() const override { return "bodies"; }
   bool needs_wall_forces() const override { return true; }
+  bool changes_rows() const override { return has_stagnant_water; }
   StepLimits step_limits(const Flow<Dim>& flow) const override;
   void claim(const Flow<Dim>& flow, std::span<Role> role) override;
   /// Sets out from the acceleration of the last step.
@@ -53,18 +57,15 @@ const FloatingBodies<Dim>& bodies_of(const Flow<Dim>& flow) {
   return flow.template part<FloatingBodies<Dim>>();
 }
 
-/// Calls visit(j, force [N]) for the force of stagnant water on each particle j by their pair.
+/// Calls visit(j, force [N]) for the force of water particle i on each particle j by their pair.
 template <int Dim, class Visit>
-void visit_forces_of_stagnant_water(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies,
-                                    const std::vector<double>& pressure, Visit&& visit) {
+void visit_pair_forces(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure, Visit&& visit) {
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
-  for (const std::size_t i : bodies.stagnant) {
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = static_cast<std::size_t>(pairs.j[k]);
-      const double strength = particles.volume[i] * particles.volume[j] * (pressure[i] + pressure[j]);
-      visit(j, Vec<Dim>(strength * flow.surroundings.pair_vectors.at(pairs, i, k)));
-    }
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = static_cast<std::size_t>(pairs.j[k]);
+    const double strength = particles.volume[i] * particles.volume[j] * (pressure[i] + pressure[j]);
+    visit(j, Vec<Dim>(strength * flow.surroundings.pair_vectors.at(pairs, i, k)));
   }
 }
 

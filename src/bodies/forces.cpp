@@ -64,28 +64,13 @@ void add_on_bodies(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, con
 }  // namespace
 
 template <int Dim>
-std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure,
-                                                         const std::vector<CoveredParticle<Dim>>& covered) const {
+std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_pressure(const std::vector<double>& pressure) const {
   const Particles<Dim>& particles = flow_.state.particles;
-  const std::vector<std::size_t> of_bodies = walls_of_bodies(flow_, bodies_);
-  std::vector<std::size_t> walls = of_bodies;
-  for (const CoveredParticle<Dim>& one : covered) walls.push_back(one.i);
+  const std::vector<std::size_t> walls = walls_of_bodies(flow_, bodies_);
   const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow_, walls, pressure);
-  const auto force = [&](std::size_t n) { return Vec<Dim>(-particles.volume[walls[n]] * pushes[n]); };
   ForceSums<Dim> sums(flow_, time_);
-  add_on_bodies(flow_, bodies_, of_bodies, sums, force);
-  for (std::size_t k = 0; k < covered.size(); ++k) {  // in order: all add to the same few sums
-    const auto& [i, body, normal, share] = covered[k];
-    const Vec<Dim> whole = force(of_bodies.size() + k);
-    const Vec<Dim> along = whole - whole.dot(normal) * normal;
-    sums.add(body, flow_.walls.particles.position[particles.wall_row[i]], share * along);
-  }
-  visit_forces_of_stagnant_water(flow_, bodies_, pressure, [&](std::size_t j, const Vec<Dim>& force_of_water) {
-    if (particles.is_fluid(j)) return;
-    const auto row = particles.wall_row[j];
-    sums.add(bodies_.body_of_wall[flow_.walls.particles.wall[row]], flow_.walls.particles.position[row],
-             -force_of_water);
-  });
+  add_on_bodies(flow_, bodies_, walls, sums,
+                [&](std::size_t n) { return Vec<Dim>(-particles.volume[walls[n]] * pushes[n]); });
   return sums.gather();
 }
 
@@ -94,9 +79,11 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_gaps(const std::vector<double>& 
                                                      const NarrowGaps<Dim>& gaps) const {
   ForceSums<Dim> sums(flow_, time_);
   const bool is_root = flow_.setup.ranks.is_root();
-  gaps.visit_forces(pressure, [&](int body, const Vec<Dim>& x, const Vec<Dim>& force) {
-    if (is_root) sums.add(body, x, force);
+  gaps.visit_forces(pressure, [&](int body, const Vec<Dim>& x, const Vec<Dim>& force, const Turn<Dim>& couple) {
+    if (is_root) sums.add(body, x, force, couple);
   });
+  gaps.visit_pairs_in_films(pressure,
+                            [&](int body, const Vec<Dim>& x, const Vec<Dim>& force) { sums.add(body, x, -force); });
   return sums.gather();
 }
 

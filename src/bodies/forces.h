@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "bodies/covered_walls.h"
 #include "bodies/narrow_gaps.h"
 
 namespace tailwater {
@@ -16,11 +15,9 @@ class ForcesOnBodies {
   ForcesOnBodies(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time)
       : flow_(flow), bodies_(bodies), time_(time) {}
 
-  /// By a pressure field [Pa] that is up to date on ghosts, on the bodies' particles and those that they cover.
-  /// Collective.
-  std::vector<Twist<Dim>> of_pressure(const std::vector<double>& pressure,
-                                      const std::vector<CoveredParticle<Dim>>& covered) const;
-  /// By the water in gaps that are too narrow for particles, in a pressure field that is up to date. Collective.
+  /// By a pressure field [Pa] that is up to date on ghosts and on the bodies' particles. Collective.
+  std::vector<Twist<Dim>> of_pressure(const std::vector<double>& pressure) const;
+  /// By the water that their pairs miss beside other walls, in a pressure field that is up to date. Collective.
   std::vector<Twist<Dim>> of_gaps(const std::vector<double>& pressure, const NarrowGaps<Dim>& gaps) const;
   /// By the air of pockets with these pressures [Pa], whose part has been taken out of the other two.
   std::vector<Twist<Dim>> of_air(std::span<const double> pressures) const;

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "base/for_each.h"
+#include "bodies/contacts.h"
+#include "geometry/screen.h"
 
 namespace tailwater {
 namespace {
@@ -13,25 +17,27 @@ namespace {
 constexpr double closed_gap = 0.75;
 /// [dx]; a row of particles has room in a wider gap.
 constexpr double open_gap = 1.0;
-/// [dx]; a piece of a gap counts less and less from there to here.
-constexpr double widest_gap = 1.5;
+/// [dx]; where no water is in a gap, its film counts less and less from there to here.
+constexpr double widest_film = 1.5;
+/// [dx]; from here on rows of particles press on a body by themselves. With what their pairs miss as well they would
+/// press by up to a fifth of the buoyancy too much.
+constexpr double resolved_gap = 1.75;
 
-/// Of the pressure on a wall, what one row of water at dx/2 from it does by its pairs: 0.845 in 2D and 0.859 in 3D, in
-/// sums over a lattice. The rest is what the rows behind it would do.
-constexpr double share_of_a_row = 0.85;
+/// [dx]; pieces up to here from another wall belong to a gap.
+constexpr double widest_gap = 3.0;
 
-/// [dx]; water so near to the middle of a piece is in the gap, not beside it.
-constexpr double reach_of_piece = 0.75;
-
-/// Least of -cos of the angle between the normals of a body's particle and of the wall that it faces: at the corner of
-/// a box, where it is the mean of three, it is 0.577.
+/// Least of -cos of the angle between the normal of a piece and of the wall that it faces.
 constexpr double least_opposite = 0.5;
 
 /// [dx]; pieces so near are beside each other.
 constexpr double reach_of_neighbours = 1.6;
 
-/// [dx]; the sum of the offsets to the pieces beside one is longer at a rim: dx in 2D, 3 dx at a straight one in 3D.
-constexpr double least_lopsidedness = 0.5;
+/// [dx]; a pair with an end farther than this from all pieces is of the rest of the body.
+constexpr double reach_of_pairs = 3.0;
+
+/// Sum of w W over the water at a piece beside which there is water. In a right angle between a body and a bed it is
+/// 1/4, beside a row of particles in a gap of dx it is 0.3.
+constexpr double weight_beside_water = 0.15;
 
 }  // namespace
 
@@ -40,133 +46,224 @@ NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bo
     : flow_(flow), bodies_(bodies) {
   find_pieces(time);
   if (pieces_.empty()) return;
-  find_rim(time);
-  find_shares();
-  look_at_water();
+  std::vector<Vec<Dim>> places;
+  for (const Piece& piece : pieces_) places.push_back(piece.x);
+  places_ = CellGrid<Dim>(places, reach_of_pairs * flow_.setup.scale.spacing);
+  for (const Vec<Dim>& place : places) around_.extend(place);
+  around_.min().array() -= reach_of_pairs * flow_.setup.scale.spacing;
+  around_.max().array() += reach_of_pairs * flow_.setup.scale.spacing;
+  number_gaps();
+  find_nearest();
+  find_water();
 }
 
 template <int Dim>
 void NarrowGaps<Dim>::find_pieces(double time) {
-  const WallParticles<Dim>& table = flow_.walls.particles;
   const double dx = flow_.setup.scale.spacing;
-  const ContactSurfaces<Dim>& contact = bodies_.contact;
-  const Boundary<Dim>& resting = contact.each.front().boundary;
-  for (const ContactSurface<Dim>& hull : contact.each) {
-    if (hull.body < 0) continue;
-    const AffineMap<Dim> placement = flow_.state.motion.bodies.each[hull.body].at(time);
-    for (std::int32_t row = 0; row < static_cast<std::int32_t>(flow_.walls.moving); ++row) {
-      if (bodies_.body_of_wall[table.wall[row]] != hull.body) continue;
-      const Vec<Dim>& x = table.position[row];
-      const NearestWall<Dim> wall = resting.nearest(x, (1.0 + widest_gap) * dx);
-      if (wall.face < 0 || wall.signed_distance <= 0.0) continue;
-      const Vec<Dim> normal = (x - wall.point) / wall.signed_distance;
-      if (-table.normal[row].dot(normal) < least_opposite) continue;
-      const double depth = -hull.boundary.nearest(placement.inverse(x), contact_reach * dx).signed_distance;
-      const double gap = std::max(0.0, wall.signed_distance - depth);
-      if (depth <= 0.0 || depth >= dx || gap >= widest_gap * dx) continue;
-      pieces_.push_back({.body = hull.body, .row = row, .x = x - depth * normal, .normal = normal, .gap = gap});
-    }
+  const Boundary<Dim>& boundary = flow_.walls.boundary;
+  const double widest = widest_gap * dx;
+  for (const ContactSurface<Dim>& surface : bodies_.contact.each) {
+    placements_.push_back(placement_of(flow_, surface, time));
+  }
+  for (const WallPatch<Dim>& patch : bodies_.patches) {
+    const int body = bodies_.body_of_wall[boundary.faces[patch.face].wall];
+    const Vec<Dim> x = patch.centre(boundary);
+    const OtherWall wall = other_wall(body, x, widest);
+    if (wall.distance >= widest) continue;
+    const double gap = std::max(0.0, wall.distance);
+    pieces_.push_back({.body = body,
+                       .x = x,
+                       .towards_body = wall.normal,
+                       .gap = gap,
+                       .surface = -patch.measure * boundary.faces[patch.face].normal,
+                       .film = film_at(gap, -boundary.faces[patch.face].normal.dot(wall.normal))});
   }
 }
 
-// At a rim the pieces beside one are on one side only. It counts if the place on the other side is free. Between a body
-// and a side wall it is not.
 template <int Dim>
-void NarrowGaps<Dim>::find_rim(double time) {
-  const double dx = flow_.setup.scale.spacing;
-  const ContactSurfaces<Dim>& contact = bodies_.contact;
-  std::vector<Vec<Dim>> places;
-  for (const Piece& piece : pieces_) places.push_back(piece.x);
-  const CellGrid<Dim> grid(places, reach_of_neighbours * dx);
-  for (Piece& piece : pieces_) {
-    Vec<Dim> inward = Vec<Dim>::Zero();
-    bool is_alone = true;
-    grid.for_each_near(piece.x, [&](std::int32_t n) {
-      const Vec<Dim> offset = pieces_[n].x - piece.x;
-      if (&pieces_[n] == &piece || pieces_[n].body != piece.body || offset.norm() >= reach_of_neighbours * dx) return;
-      inward += offset;
-      is_alone = false;
-    });
-    if (!is_alone && inward.norm() < least_lopsidedness * dx) continue;
-    Vec<Dim> beside = piece.x + 0.5 * dx * piece.normal;
-    if (!is_alone) beside -= dx * inward.normalized();
-    piece.is_at_rim = std::ranges::all_of(contact.each, [&](const ContactSurface<Dim>& surface) {
-      if (surface.wall >= 0 || (surface.body >= 0 && surface.body != piece.body)) return true;
-      const AffineMap<Dim> placement =
-          surface.body < 0 ? AffineMap<Dim>() : flow_.state.motion.bodies.each[surface.body].at(time);
-      const NearestWall<Dim> nearest = surface.boundary.nearest(placement.inverse(beside), contact_reach * dx);
-      return nearest.face < 0 || nearest.signed_distance > 0.0;
-    });
+template <class Visit>
+void NarrowGaps<Dim>::visit_near(const Piece& piece, double reach, Visit&& visit) const {
+  places_.for_each_near(piece.x, [&](std::int32_t m) {
+    const Piece& other = pieces_[m];
+    if (other.body == piece.body && (other.x - piece.x).norm() < reach * flow_.setup.scale.spacing) {
+      visit(static_cast<std::size_t>(m));
+    }
+  });
+}
+
+template <int Dim>
+void NarrowGaps<Dim>::number_gaps() {
+  std::vector<std::size_t> next;
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    if (pieces_[n].gap_number >= 0) continue;
+    pieces_[n].gap_number = gap_count_;
+    next.push_back(n);
+    while (!next.empty()) {
+      const std::size_t k = next.back();
+      next.pop_back();
+      visit_near(pieces_[k], reach_of_neighbours, [&](std::size_t m) {
+        if (pieces_[m].gap_number >= 0) return;
+        pieces_[m].gap_number = gap_count_;
+        next.push_back(m);
+      });
+    }
+    ++gap_count_;
   }
+}
+
+template <int Dim>
+void NarrowGaps<Dim>::find_nearest() {
+  for (Piece& piece : pieces_) {
+    piece.nearest = piece.gap;
+    visit_near(piece, reach_of_pairs, [&](std::size_t m) { piece.nearest = std::min(piece.nearest, pieces_[m].gap); });
+  }
+}
+
+template <int Dim>
+bool NarrowGaps<Dim>::is_film(const Piece& piece) const {
+  return piece.film > 0.0 && piece.wetness < 1.0;
+}
+
+template <int Dim>
+void NarrowGaps<Dim>::look_at_water() {
+  const Particles<Dim>& particles = flow_.state.particles;
+  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(flow_.setup.domain);
+  const double reach = kernel_radius(flow_.setup.scale.kernel);
+  std::vector<double> sums(pieces_.size(), 0.0);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    Piece& piece = pieces_[n];
+    for (const Vec<Dim>& shift : shifts) {
+      const Vec<Dim> x = flow_.neighbourhood.wrapped(piece.x) - shift;
+      flow_.neighbourhood.grid().for_each_near(x, [&](std::int32_t j) {
+        const auto i = static_cast<std::size_t>(j);
+        if (i >= particles.owned || !particles.is_fluid(i) || is_stagnant_[i] != 0.0) return;
+        const double distance = (particles.position[i] - x).norm();
+        if (distance >= reach) return;
+        piece.water.push_back(i);
+        piece.places.push_back(particles.position[i] - x + piece.x);
+        piece.weights.push_back(particles.volume[i] * kernel_value(flow_.setup.scale.kernel, distance));
+      });
+    }
+    sums[n] = std::accumulate(piece.weights.begin(), piece.weights.end(), 0.0);
+  }
+  flow_.setup.ranks.sum_of_each(sums);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) pieces_[n].wetness = std::min(1.0, sums[n] / weight_beside_water);
 }
 
 template <int Dim>
 void NarrowGaps<Dim>::find_shares() {
-  const auto other =
-      std::stable_partition(pieces_.begin(), pieces_.end(), [](const Piece& piece) { return piece.is_at_rim; });
-  rim_ = static_cast<std::size_t>(other - pieces_.begin());
+  films_.clear();
+  rim_.clear();
+  std::vector<std::uint8_t> is_rim(pieces_.size(), 0);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    if (!is_film(pieces_[n])) continue;
+    films_.push_back(n);
+    visit_near(pieces_[n], reach_of_neighbours, [&](std::size_t m) { is_rim[m] = !is_film(pieces_[m]); });
+  }
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    if (is_rim[n] != 0) rim_.push_back(n);
+  }
   const auto count = [](std::size_t n) { return static_cast<Eigen::Index>(n); };
-  shares_.setIdentity(count(pieces_.size()), count(rim_));
-  for (std::size_t n = rim_; n < pieces_.size(); ++n) {
-    auto shares = shares_.row(count(n));
-    for (std::size_t e = 0; e < rim_; ++e) {
-      if (pieces_[e].body == pieces_[n].body)
-        shares[count(e)] = std::pow((pieces_[e].x - pieces_[n].x).norm(), 1 - Dim);
+  shares_.setZero(count(films_.size()), count(rim_.size()));
+  for (std::size_t f = 0; f < films_.size(); ++f) {
+    auto shares = shares_.row(count(f));
+    const Piece& film = pieces_[films_[f]];
+    for (std::size_t e = 0; e < rim_.size(); ++e) {
+      const Piece& edge = pieces_[rim_[e]];
+      if (edge.gap_number == film.gap_number) shares[count(e)] = std::pow((edge.x - film.x).norm(), 1 - Dim);
     }
     if (shares.any()) shares /= shares.sum();
   }
 }
 
 template <int Dim>
-bool NarrowGaps<Dim>::holds_water(const Piece& piece) const {
-  return piece.gap < closed_gap * flow_.setup.scale.spacing;
+double NarrowGaps<Dim>::width_at(int body, const Vec<Dim>& x) const {
+  const double dx = flow_.setup.scale.spacing;
+  const double widest = widest_film * dx;
+  const auto surface = std::ranges::find(bodies_.contact.each, body, &ContactSurface<Dim>::body);
+  const AffineMap<Dim>& placement = placements_[static_cast<std::size_t>(surface - bodies_.contact.each.begin())];
+  const NearestWall<Dim> own = surface->boundary.nearest(placement.inverse(x), widest);
+  if (own.face < 0) return widest;
+  const OtherWall wall = other_wall(body, x, widest - own.signed_distance);
+  const Vec<Dim> normal = placement.linear * surface->boundary.faces[own.face].normal;
+  return -wall.normal.dot(normal) < least_opposite ? widest : std::max(0.0, own.signed_distance + wall.distance);
 }
 
-// Water fills a gap in front of a piece as far as a hat of dx around its middle holds it, which a row of particles dx
-// apart does. If it is not held it presses on the body itself, as a row alone does.
 template <int Dim>
-void NarrowGaps<Dim>::look_at_water() {
+void NarrowGaps<Dim>::find_water() {
   const Particles<Dim>& particles = flow_.state.particles;
-  const Pairs<Dim>& pairs = flow_.pairs();
-  const double dx = flow_.setup.scale.spacing;
-  for (const Piece& piece : pieces_) {
-    middles_.push_back(flow_.neighbourhood.wrapped(piece.x - 0.5 * piece.gap * piece.normal));
-  }
-  grid_ = CellGrid<Dim>(middles_, reach_of_piece * dx);
-  std::vector<std::int32_t> piece_of(flow_.walls.moving, -1);
-  for (std::size_t n = 0; n < pieces_.size(); ++n) piece_of[pieces_[n].row] = static_cast<std::int32_t>(n);
-  std::vector<double> filled(pieces_.size(), 0.0);
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are of a gap
-    if (particles.is_fluid(i)) continue;
-    const auto row = static_cast<std::size_t>(particles.wall_row[i]);
-    if (row >= piece_of.size() || piece_of[row] < 0) continue;
-    const auto n = static_cast<std::size_t>(piece_of[row]);
-    pieces_[n].particle = i;
-    const Vec<Dim> to_middle =
-        pieces_[n].x - 0.5 * pieces_[n].gap * pieces_[n].normal - flow_.walls.particles.position[row];
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = static_cast<std::size_t>(pairs.j[k]);
-      if (!particles.is_fluid(j)) continue;
-      filled[n] += std::max(0.0, 1.0 - (particles.position[j] - particles.position[i] - to_middle).norm() / dx);
-      if (pieces_[n].is_at_rim && piece_at(particles.position[j]) < 0) pieces_[n].water.push_back(k);
+  for (int body = 0; body < static_cast<int>(bodies_.bodies.size()); ++body) {
+    if (std::ranges::none_of(pieces_, [&](const Piece& piece) { return piece.body == body && piece.film > 0.0; })) {
+      continue;
+    }
+    for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are in gaps
+      if (!particles.is_fluid(i) || nearest_piece(body, particles.position[i]) < 0) continue;
+      const double width = width_at(body, particles.position[i]);
+      if (width < widest_film * flow_.setup.scale.spacing) water_.push_back({i, body, width});
     }
   }
-  flow_.setup.ranks.sum_of_each(filled);
-  for (std::size_t n = 0; n < pieces_.size(); ++n) {
-    Piece& piece = pieces_[n];
-    const double water = holds_water(piece) ? 0.0 : std::min(1.0, filled[n]);
-    const double counted = std::min(1.0, (widest_gap - piece.gap / dx) / (widest_gap - open_gap));
-    piece.area = std::pow(dx, Dim - 1) * counted * (1.0 - share_of_a_row * water);
+}
+
+template <int Dim>
+std::vector<std::size_t> NarrowGaps<Dim>::find_stagnant() const {
+  std::vector<std::size_t> stagnant;
+  for (const WaterInGap& water : water_) {
+    if (water.width < closed_gap * flow_.setup.scale.spacing && flow_.role[water.i] == Role::water) {
+      stagnant.push_back(water.i);
+    }
+  }
+  std::ranges::sort(stagnant);
+  stagnant.erase(std::unique(stagnant.begin(), stagnant.end()), stagnant.end());
+  return stagnant;
+}
+
+// As the row of a dummy, which is what stagnant water is to the water beside it.
+template <int Dim>
+void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
+  if (pieces_.empty()) return;
+  Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Eigen::VectorXd p = find_pressure(particles.pressure);
+  for (const std::size_t i : bodies_.stagnant) {
+    flow.role[i] = Role::stagnant;
+    particles.velocity[i].setZero();
+    Vec<Dim> offsets = Vec<Dim>::Zero();
+    LinearSystem::Row row = flow.pressure_rows.row(i);
+    const double sum = row.set_weights([&](std::size_t k) {
+      const auto j = static_cast<std::size_t>(pairs.j[k]);
+      if (!particles.is_fluid(j) || is_stagnant_[j] != 0.0) return 0.0;
+      const double weight = particles.volume[j] * pairs.value(i, k);
+      offsets += weight * (particles.position[i] - particles.position[j]);
+      return weight;
+    });
+    if (sum > 0.0) {
+      row.finish(sum, weight_of(offsets));
+    } else {
+      const auto own = std::ranges::find(water_, i, &WaterInGap::i);
+      row.finish(1.0, p[nearest_piece(own->body, particles.position[i])]);
+    }
   }
 }
 
 template <int Dim>
-std::int32_t NarrowGaps<Dim>::piece_at(const Vec<Dim>& x) const {
+void NarrowGaps<Dim>::measure() {
+  if (pieces_.empty()) return;
+  is_stagnant_.assign(flow_.state.particles.size(), 0.0);
+  for (const std::size_t i : bodies_.stagnant) is_stagnant_[i] = 1.0;
+  flow_.halo().exchange(is_stagnant_);
+  look_at_water();
+  find_shares();
+  measure_pairs();
+}
+
+template <int Dim>
+std::int32_t NarrowGaps<Dim>::nearest_piece(int body, const Vec<Dim>& x) const {
   std::int32_t nearest = -1;
-  double least = reach_of_piece * flow_.setup.scale.spacing;
-  grid_.for_each_near(x, [&](std::int32_t n) {
-    const double distance = (x - middles_[n]).norm();
-    if (distance >= least) return;
+  if (!around_.contains(x)) return nearest;
+  double least = reach_of_pairs * flow_.setup.scale.spacing;
+  places_.for_each_near(x, [&](std::int32_t n) {
+    const double distance = (x - pieces_[n].x).norm();
+    if (pieces_[n].body != body || distance >= least) return;
     nearest = n;
     least = distance;
   });
@@ -174,55 +271,124 @@ std::int32_t NarrowGaps<Dim>::piece_at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-std::vector<std::size_t> NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
-  if (pieces_.empty()) return {};
-  Particles<Dim>& particles = flow.state.particles;
-  flow.halo().exchange(particles.pressure);
-  const Eigen::VectorXd p = find_pressure(particles.pressure);
-  const auto piece_that_holds = [&](std::size_t i) {
-    const std::int32_t n = flow.role[i] == Role::water ? piece_at(particles.position[i]) : -1;
-    return n >= 0 && holds_water(pieces_[n]) ? n : -1;
-  };
-  const std::vector<std::size_t> stagnant =
-      indices_where(particles.owned, [&](std::size_t i) { return piece_that_holds(i) >= 0; });
-  for (const std::size_t i : stagnant) {
-    const std::int32_t n = piece_that_holds(i);
-    flow.role[i] = Role::stagnant;
-    particles.velocity[i].setZero();
-    flow.pressure_rows.divide_diagonal(i, 0.0);
-    flow.pressure_rows.rhs()[i] = p[n];
+typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int body, const Vec<Dim>& x, double reach) const {
+  const double dx = flow_.setup.scale.spacing;
+  OtherWall nearest{reach, Vec<Dim>::Zero()};
+  for (std::size_t s = 0; s < bodies_.contact.each.size(); ++s) {
+    const ContactSurface<Dim>& surface = bodies_.contact.each[s];
+    if (surface.body == body) continue;
+    const Vec<Dim> drawn = placements_[s].inverse(x);
+    const NearestWall<Dim> wall = surface.boundary.nearest(drawn, reach);
+    if (wall.face < 0 || wall.signed_distance >= nearest.distance) continue;
+    nearest.distance = wall.signed_distance;
+    nearest.normal = placements_[s].linear * (std::abs(wall.signed_distance) > corner_tolerance * dx
+                                                  ? Vec<Dim>((drawn - wall.point) / wall.signed_distance)
+                                                  : surface.boundary.faces[wall.face].normal);
   }
-  return stagnant;
+  return nearest;
+}
+
+/// How much of a place outside a body counts as a film: fully in a gap without room for a row of particles.
+template <int Dim>
+double NarrowGaps<Dim>::film_at(double width, double facing) const {
+  if (facing < least_opposite) return 0.0;
+  return std::clamp((widest_film - width / flow_.setup.scale.spacing) / (widest_film - open_gap), 0.0, 1.0);
+}
+
+/// How much of what pairs miss counts: all of it beside a gap without room for a row of particles.
+template <int Dim>
+double NarrowGaps<Dim>::share_beside(const Piece& piece) const {
+  return std::clamp((resolved_gap - piece.nearest / flow_.setup.scale.spacing) / (resolved_gap - open_gap), 0.0, 1.0);
+}
+
+/// How much of a pair or piece at a place so far [m] from the wall counts beside a narrow gap: up to half a support
+/// there are pairs that the space of the wall does not have.
+template <int Dim>
+double NarrowGaps<Dim>::share_at(double gap) const {
+  return std::clamp(2.0 - 2.0 * gap / (widest_gap * flow_.setup.scale.spacing), 0.0, 1.0);
 }
 
 template <int Dim>
-Eigen::VectorXd NarrowGaps<Dim>::find_rim_heads(const std::vector<double>& pressure) const {
+void NarrowGaps<Dim>::add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& force, std::vector<double>& sums) const {
+  Eigen::Map<Twist<Dim>> sum(sums.data() + static_cast<std::size_t>(n) * twist_size);
+  sum.template head<Dim>() += force;
+  sum.template tail<turns<Dim>>() += moment_of<Dim>(x - pieces_[n].x, force);
+}
+
+// The force of a pair acts in the middle of its ends, which is on the surface of the body on average. At the wall
+// particle it would move a force of first order in dx from one side of an edge to the other (docs/theory/probes.md).
+template <int Dim>
+void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int body, std::vector<double>& sums) const {
   const Particles<Dim>& particles = flow_.state.particles;
   const Pairs<Dim>& pairs = flow_.pairs();
-  std::vector<double> sums(2 * rim_, 0.0);  // of each piece the weight of the water beside it, and with heads
-  for (std::size_t n = 0; n < rim_; ++n) {
-    for (const std::size_t k : pieces_[n].water) {
-      const auto j = static_cast<std::size_t>(pairs.j[k]);
-      const double weight = pairs.value(pieces_[n].particle, k);
-      sums[2 * n] += weight;
-      sums[2 * n + 1] += weight * (pressure[j] - weight_of(particles.position[j]));
-    }
+  const Vec<Dim>& x = flow_.walls.particles.position[particles.wall_row[i]];
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = static_cast<std::size_t>(pairs.j[k]);
+    if (!particles.is_fluid(j) || is_stagnant_[j] != 0.0) continue;
+    const Vec<Dim> middle = x - 0.5 * pairs.d(i, k);
+    const std::int32_t n = nearest_piece(body, middle);
+    if (n < 0) continue;
+    const Piece& piece = pieces_[n];
+    const double share = share_beside(piece) * share_at(piece.gap + piece.towards_body.dot(middle - piece.x));
+    if (share == 0.0) continue;
+    const double unit = 2.0 * share * particles.volume[i] * particles.volume[j];
+    add(n, middle, unit * flow_.surroundings.pair_vectors.at(pairs, i, k), sums);
+  }
+}
+
+template <int Dim>
+void NarrowGaps<Dim>::measure_pairs() {
+  const Particles<Dim>& particles = flow_.state.particles;
+  const WallParticles<Dim>& table = flow_.walls.particles;
+  std::vector<double> sums(twist_size * pieces_.size(), 0.0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: pairs beside one piece add up
+    if (particles.is_fluid(i)) continue;
+    const int body = bodies_.body_of_wall[table.wall[particles.wall_row[i]]];
+    if (body < 0 || nearest_piece(body, table.position[particles.wall_row[i]]) < 0) continue;
+    if (flow_.surroundings.is_wet[i]) subtract_pairs(i, body, sums);
   }
   flow_.setup.ranks.sum_of_each(sums);
-  Eigen::VectorXd heads(static_cast<Eigen::Index>(rim_));
-  for (std::size_t n = 0; n < rim_; ++n) {
-    heads[static_cast<Eigen::Index>(n)] = sums[2 * n] > 0.0 ? sums[2 * n + 1] / sums[2 * n] : -weight_of(pieces_[n].x);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    Piece& piece = pieces_[n];
+    const Eigen::Map<const Twist<Dim>> sum(sums.data() + n * twist_size);
+    piece.area = sum.template head<Dim>() + share_beside(piece) * share_at(piece.gap) * piece.surface;
+    piece.couple = sum.template tail<turns<Dim>>();
   }
-  return heads;
 }
 
 template <int Dim>
 Eigen::VectorXd NarrowGaps<Dim>::find_pressure(const std::vector<double>& pressure) const {
-  if (pieces_.empty()) return {};
-  Eigen::VectorXd p = shares_ * find_rim_heads(pressure);
+  const auto count = [](std::size_t n) { return static_cast<Eigen::Index>(n); };
+  std::vector<double> sums(2 * pieces_.size(), 0.0);  // of each piece the weight of the water beside it, and with heads
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
-    const auto k = static_cast<Eigen::Index>(n);
-    p[k] = shares_.row(k).any() ? std::max(0.0, p[k] + weight_of(pieces_[n].x)) : 0.0;
+    const Piece& piece = pieces_[n];
+    for (std::size_t k = 0; k < piece.water.size(); ++k) {
+      sums[2 * n] += piece.weights[k];
+      sums[2 * n + 1] += piece.weights[k] * (pressure[piece.water[k]] - weight_of(piece.places[k]));
+    }
+  }
+  flow_.setup.ranks.sum_of_each(sums);
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(count(pieces_.size()));
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    if (sums[2 * n] == 0.0) continue;
+    const double beside = sums[2 * n + 1] / sums[2 * n] + weight_of(pieces_[n].x);
+    p[count(n)] = pieces_[n].wetness * std::max(0.0, beside);
+  }
+  Eigen::VectorXd heads(count(rim_.size()));
+  std::vector<double> largest(static_cast<std::size_t>(gap_count_),
+                              -std::numeric_limits<double>::infinity());  // of water, by gap
+  for (std::size_t e = 0; e < rim_.size(); ++e) {
+    const double on_rim = p[count(rim_[e])];
+    heads[count(e)] = on_rim - weight_of(pieces_[rim_[e]].x);
+    double& largest_of_gap = largest[static_cast<std::size_t>(pieces_[rim_[e]].gap_number)];
+    if (on_rim > 0.0) largest_of_gap = std::max(largest_of_gap, heads[count(e)]);
+  }
+  const Eigen::VectorXd in_films = shares_ * heads;
+  for (std::size_t f = 0; f < films_.size(); ++f) {
+    const Piece& film = pieces_[films_[f]];
+    // Air at a high place of the rim has more head than the water that could be there.
+    const double head = std::min(in_films[count(f)], largest[static_cast<std::size_t>(film.gap_number)]);
+    p[count(films_[f])] += (1.0 - film.wetness) * film.film * std::max(0.0, head + weight_of(film.x));
   }
   return p;
 }

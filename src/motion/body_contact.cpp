@@ -53,10 +53,9 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
                                            double spacing) {
   ContactSurfaces<Dim> surfaces;
   if (bodies.empty()) return surfaces;
-  const double reach = contact_reach * spacing;
+  const double reach = reach_behind_walls * spacing;
   const std::vector<int> body_of_wall = bodies_of_walls(bodies, boundary.walls.size());
-  surfaces.each.push_back(
-      {part_of(boundary, reach_behind_walls * spacing, [&](int wall) { return !boundary.walls[wall].moves(); })});
+  surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return !boundary.walls[wall].moves(); })});
   for (int w = 0; w < static_cast<int>(boundary.walls.size()); ++w) {
     if (!boundary.walls[w].moves() || body_of_wall[w] >= 0) continue;
     surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return wall == w; }), w, -1});

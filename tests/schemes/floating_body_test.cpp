@@ -252,6 +252,36 @@ TYPED_TEST(FloatingBodyTest, LiesOnTheBedUntilTheWaterIsDeepEnough) {
   }
 }
 
+/// How far a body of this shape, half as heavy as water, has come up in 0.4 s from the bed under 0.6 m of water.
+double rise_from_bed(std::vector<Coordinates> points, double area, double height, double dx) {
+  CaseSpec spec = tank_case<2>(dx, 1.0, 0.6);
+  WallTable hull;
+  hull.name = "hull";
+  hull.shape = WallShape::polygon;
+  hull.fluid_side = FluidSide::outside;
+  hull.points = std::move(points);
+  const double mass = 500.0 * area;
+  add_body(spec, hull, body_of("hull", mass, {0.5, 0.5 * height}, {mass * height * height / 8.0}));
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  while (flow.state.time < 0.4) step(flow);
+  return flow.state.motion.bodies.each[0].centre[1] - 0.5 * height;
+}
+
+// Water presses under a round hull as well, where it has no room for particles. A cylinder that touches a bed goes with
+// pi^2/3 - 1 times the water that it displaces, one far away with once: its rise is between those of both.
+TEST(FloatingBody, RoundAndPointedBodiesComeOffTheBed) {
+  constexpr double R = 0.125;
+  const double displaced = std::numbers::pi * R * R;
+  const double slowest = 0.5 * 0.4 * 0.4 * 0.5 * g / (0.5 + std::numbers::pi * std::numbers::pi / 3.0 - 1.0);
+  const double fastest = 0.5 * 0.4 * 0.4 * 0.5 * g / 1.5;
+  const double of_cylinder = rise_from_bed(circle(24, R, {0.5, R}), displaced, 2.0 * R, R / 6.0);
+  EXPECT_GT(of_cylinder, slowest);
+  EXPECT_LT(of_cylinder, fastest);
+  EXPECT_GT(rise_from_bed({{0.45, 0.0}, {0.55, 0.0}, {0.65, 0.15}, {0.35, 0.15}}, 0.03, 0.15, 0.02), 0.5 * 0.15);
+  EXPECT_GT(rise_from_bed({{0.5, 0.0}, {0.68, 0.18}, {0.5, 0.36}, {0.32, 0.18}}, 0.0648, 0.36, 0.02), 0.25 * 0.36);
+}
+
 // A box half as heavy as water, on the bed under twice its height of water. It rises and heaves about its draught: the
 // mean over the last two of its periods of about 0.7 s is that of Archimedes.
 TEST(FloatingBody, ComesUpFromTheBedToItsDraught) {
