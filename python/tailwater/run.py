@@ -98,6 +98,14 @@ class Run:
         """The results of the probes by the probe's name (docs/theory/probes.md); empty until the run has ended."""
         return self.summary.get("results", {})
 
+    def waves(self, gauges=(), **options) -> dict:
+        """Heights, harmonics, reflection, responses and overtopping from depth probes (docs/theory/waves.md), as `tailwater
+        waves` writes them to waves.json. `options`: `start` and `end` (s) of the window, `depth` (m), `period` (s) of regular
+        waves, `responses` (names of motion and force probes), `overtopping` (names of discharge probes). Throws DataError."""
+        from .waves import analyse
+
+        return analyse(self, gauges, **options)[0]
+
     @property
     def measurements(self):
         """The differences between probes and laboratory data, one line for each [[measurement]] of the case. A

@@ -1,7 +1,8 @@
-"""Print wave heights, periods and reflection from the depth probes of a run.
+"""Print wave heights, harmonics, reflection, response of bodies and overtopping from the probes of a run.
 
-Prints, for each gauge, the mean depth, heights and periods, and with three or more gauges along one line the waves that
-run along it and back. RUN/waves.json holds the same numbers, RUN/waves_spectrum.csv the spectra.
+Prints, for each gauge, mean depth, set-up, heights and periods; for regular waves also the harmonics; with two or more gauges
+along one line the incident and reflected waves; on request the response of bodies and forces, and overtopping volumes.
+RUN/waves.json holds the same numbers, RUN/waves_spectrum.csv the spectra.
 
 Exit codes: 0 done; 2 bad input, 4 a file cannot be written.
 """
@@ -15,108 +16,98 @@ import numpy as np
 from .command_line import Parser, exit_code_of, number
 from .errors import DataError
 from .run import Run
+from .wave_records import (BAND, best_period, drift_with_interval, fit_harmonics, mean_with_interval, overtopping_volumes,
+                           period_means, response, separate, separate_regular, separate_second, single_waves, spectrum,
+                           wave_numbers)
 from .whole_file import write_whole_text
 
-# Frequencies between these multiples of the peak's count as waves in a separation of waves and reflected waves.
-BAND = (0.5, 1.8)
-# Gauges that stand half a wave apart, or almost at one place, cannot tell waves from reflected ones. Frequencies for
-# which the worse determined of the two is known this much less well than it could be are left out, and with more than
-# this share of the energy lost there is no answer.
-LEAST_DETERMINED = 0.1
-LARGEST_LOSS = 0.2
-# Waves that a window must hold, so that mean heights mean anything.
-LEAST_WAVES = 3
+__all__ = ["BAND", "Gauges", "analyse", "crest", "separate", "single_waves", "solitary", "wave_numbers"]
+
+# Waves that a window must hold for mean heights of waves of unknown period.
+MIN_WAVES = 3
+# Waves are regular if the rms of what their harmonics leave is below this fraction of the rms of the record.
+MAX_IRREGULAR = 0.2
+# Overtopping events are separated by pauses of this fraction of the period.
+PAUSE = 0.25
 
 
-def wave_numbers(frequency, depth, gravity):
-    """Wave numbers (1/m) of frequencies (Hz): omega^2 = g k tanh kh, by Newton's method."""
-    target = (2 * np.pi * np.asarray(frequency, dtype=float)) ** 2 * depth / gravity
-    y = target / np.sqrt(np.tanh(target))
-    for _ in range(20):
-        tanh_y = np.tanh(y)
-        y += (target - y * tanh_y) / (tanh_y + y * (1 - tanh_y**2))
-    return y / depth
+def peak_frequency(frequency, density):
+    """Hz; the mean frequency, weighted with the fourth power of the density."""
+    weight = density**4
+    return float((frequency * weight).sum() / weight.sum())
 
 
-def up_crossings(time, elevation):
-    """Times at which the elevation rises through 0, linear between samples."""
-    k = np.flatnonzero((elevation[:-1] < 0) & (elevation[1:] >= 0))
-    return time[k] - elevation[k] * (time[k + 1] - time[k]) / (elevation[k + 1] - elevation[k]), k
-
-
-def single_waves(time, elevation):
-    """(height, period) of each wave between two up-crossings."""
-    crossings, k = up_crossings(time, elevation)
-    heights = [elevation[i + 1:j + 1].max() - elevation[i + 1:j + 1].min() for i, j in zip(k[:-1], k[1:])]
-    return np.array(heights), np.diff(crossings)
-
-
-def spectrum(time, elevation):
-    """(frequency, density): the periodogram, m^2/Hz. The mean is taken out; the window holds whole waves or is long."""
-    n, step = elevation.size, time[1] - time[0]
-    amplitude = np.fft.rfft(elevation - elevation.mean()) / n
-    density = 2 * np.abs(amplitude) ** 2 * n * step
-    return np.fft.rfftfreq(n, step), density
-
-
-def gauge_numbers(time, depth):
-    """What one gauge says about the waves in its window."""
+def gauge_numbers(time, depth, period=None):
+    """Numbers of one gauge in its window: depth, heights, periods. Throws DataError for fewer than MIN_WAVES waves unless the
+    period (s) is known."""
     mean = float(depth.mean())
     elevation = depth - mean
     heights, periods = single_waves(time, elevation)
-    if heights.size < LEAST_WAVES:
-        raise DataError(f"holds {heights.size} waves between {time[0]:.4g} and {time[-1]:.4g} s; at least {LEAST_WAVES} "
-                        "are needed: a longer window, or a longer run")
+    if heights.size < MIN_WAVES:
+        if period is None:
+            raise DataError(f"holds {heights.size} waves between {time[0]:.4g} and {time[-1]:.4g} s; at least {MIN_WAVES} are "
+                            "needed; remedy: give a longer window, or the period of regular waves (--period)")
+        heights, periods = np.array([np.ptp(elevation)]), np.array([period])
     highest_third = np.sort(heights)[::-1][:max(1, heights.size // 3)]
     frequency, density = spectrum(time, elevation)
     inside = frequency > 0
     energy = density[inside].sum() * frequency[1]
-    peak = float((frequency[inside] * density[inside] ** 4).sum() / (density[inside] ** 4).sum())
     return {"depth_m": mean, "waves": int(heights.size), "H_mean_m": float(heights.mean()),
-            "H_third_m": float(highest_third.mean()), "H_max_m": float(heights.max()),
-            "Hm0_m": float(4 * np.sqrt(energy)), "T_mean_s": float(periods.mean()), "T_peak_s": 1 / peak}
+            "H_third_m": float(highest_third.mean()), "H_max_m": float(heights.max()), "crest_m": float(elevation.max()),
+            "trough_m": float(elevation.min()), "Hm0_m": float(4 * np.sqrt(energy)), "T_mean_s": float(periods.mean()),
+            "T_peak_s": 1 / peak_frequency(frequency[inside], density[inside])}
 
 
-def separate(position, time, elevations, depth, gravity, peak):
-    """Waves that run towards larger positions, and back: least squares over all gauges for each frequency.
-
-    E.P.D. Mansard, E.R. Funke (1980) *The measurement of incident and reflected spectra using a least squares method*,
-    Proc. 17th Coastal Eng. Conf., 154-172; for any number of gauges from three on (two leave nothing to fit).
-    Returns (frequencies, amplitudes there, amplitudes back), in Hz and m."""
-    n, step = time.size, time[1] - time[0]
-    frequency = np.fft.rfftfreq(n, step)
-    amplitude = 2 * np.fft.rfft(elevations - elevations.mean(axis=1, keepdims=True), axis=1) / n
-    chosen = np.flatnonzero((frequency >= BAND[0] * peak) & (frequency <= BAND[1] * peak))
-    kept, there, back, lost = [], [], [], 0.0
-    for m, k in zip(chosen, wave_numbers(frequency[chosen], depth, gravity)):
-        shape = np.stack([np.exp(-1j * k * position), np.exp(1j * k * position)], axis=1)
-        least = np.linalg.svd(shape, compute_uv=False)[-1] / np.sqrt(position.size)
-        if least < LEAST_DETERMINED:
-            lost += (np.abs(amplitude[:, m]) ** 2).sum()
-            continue
-        first, second = np.linalg.lstsq(shape, amplitude[:, m], rcond=None)[0]
-        kept.append(frequency[m])
-        there.append(abs(first))
-        back.append(abs(second))
-    total = (np.abs(amplitude[:, chosen]) ** 2).sum()
-    if lost > LARGEST_LOSS * total:
-        raise DataError("the gauges stand half a wave apart, or much less than that: put them at unequal distances, "
-                        "about a tenth and a quarter of the wave's length")
-    return np.array(kept), np.array(there), np.array(back)
+def set_up(time, depth, still, period):
+    """Rise of the mean level above the still level, and half of its 95 % interval, m."""
+    mean, interval = mean_with_interval(period_means(time, depth, period)[1])
+    return {"set_up_m": mean - still, "set_up_interval_m": interval}
 
 
-def reflection_numbers(position, time, elevations, depth, gravity, peak):
-    _, there, back = separate(position, time, elevations, depth, gravity, peak)
-    energy_there, energy_back = (there**2).sum(), (back**2).sum()
+def harmonic_numbers(found):
+    """Amplitudes and phases of Harmonics."""
+    phases, relative = found.phases()
+    return {"amplitude_m": [float(a) for a in np.abs(found.amplitude)], "phase_deg": [float(p) for p in phases],
+            "phase_from_first_deg": [float(p) for p in relative], "residual_m": found.residual}
+
+
+def direction_of(there, back):
+    """The text for the direction of the larger of two energies."""
+    return "towards the last gauge" if there >= back else "towards the first gauge"
+
+
+def reflection_of(there, back):
+    """The smaller amplitude over the larger."""
+    return float(min(there, back) / max(there, back))
+
+
+def reflection_numbers(there, back):
+    """Heights and reflection of waves of all frequencies."""
+    energy_there, energy_back = (np.abs(there) ** 2).sum(), (np.abs(back) ** 2).sum()
     return {"Hm0_there_m": float(4 * np.sqrt(energy_there / 2)), "Hm0_back_m": float(4 * np.sqrt(energy_back / 2)),
-            "reflection": float(np.sqrt(min(energy_there, energy_back) / max(energy_there, energy_back))),
-            "runs": "towards the last gauge" if energy_there >= energy_back else "towards the first gauge"}
+            "reflection": reflection_of(np.sqrt(energy_there), np.sqrt(energy_back)),
+            "runs": direction_of(energy_there, energy_back)}
+
+
+def regular_numbers(position, harmonics, depth, gravity):
+    """(numbers, RegularWaves) from the harmonics at two or more gauges."""
+    period = harmonics[0].period
+    first, second = (np.array([found.amplitude[n] for found in harmonics]) for n in (0, 1))
+    waves = separate_regular(position, first, float(wave_numbers(1 / period, depth, gravity)))
+    there, back = abs(waves.there), abs(waves.back)
+    numbers = {"H_there_m": 2 * there, "H_back_m": 2 * back, "reflection": reflection_of(there, back),
+               "wavelength_m": 2 * np.pi / waves.wave_number, "runs": direction_of(there, back)}
+    parts = separate_second(position, second, waves.wave_number, float(wave_numbers(2 / period, depth, gravity)))
+    if parts is not None:
+        names = ("bound_there", "bound_back", "free_there", "free_back")
+        numbers["second_m"] = {name: float(abs(part)) for name, part in zip(names, parts)}
+    return numbers, waves
 
 
 class Gauges:
     """Depth probes of a run over one uniform series of times."""
 
-    def __init__(self, run, names, start, end):
+    def __init__(self, run, names, start=None, end=None):
         probes = {probe["name"]: probe for probe in run.case.get("probe", []) if probe["type"] == "depth"}
         self.names = names or list(probes)
         if not self.names:
@@ -126,6 +117,7 @@ class Gauges:
                 raise DataError(f"{run.path}: has no depth probe '{name}'; it has {', '.join(probes) or 'none'}")
         self.place = np.array([probes[name]["at"][:run.dimension - 1] for name in self.names])
         curves = [run.curve(name, "highest_m") for name in self.names]
+        self.still = np.array([curve.value[0] for curve in curves])  # at the first reading
         first = max([start if start is not None else 0.0] + [curve.time[0] for curve in curves])
         last = min([end if end is not None else np.inf] + [curve.time[-1] for curve in curves])
         if last <= first:
@@ -135,41 +127,185 @@ class Gauges:
         self.depth = np.array([np.interp(self.time, curve.time, curve.value) for curve in curves])
 
     def whole_waves(self, period):
-        """The same with a window of whole periods, at its end, so that regular waves have one frequency."""
-        count = int((self.time[-1] - self.time[0]) / period)
+        """Shortens the window to whole periods at its end, so that regular waves have one frequency."""
+        count = max(1, int((self.time[-1] - self.time[0]) / period * (1 + 1e-9)))
         keep = self.time >= self.time[-1] - count * period
         self.time, self.depth = self.time[keep], self.depth[:, keep]
 
-    def position(self):
-        """Distance of each gauge from the first along the line through the first and the last."""
+    def along(self):
+        """The unit vector from the first gauge to the last. Throws DataError if they are at one place."""
         along = self.place[-1] - self.place[0]
         if np.linalg.norm(along) == 0:
             raise DataError("the first and the last gauge are at one place")
-        return (self.place - self.place[0]) @ (along / np.linalg.norm(along))
+        return along / np.linalg.norm(along)
+
+    def position(self, places=None):
+        """Distances of places (default: of the gauges) from the first gauge along that vector."""
+        return ((self.place if places is None else places) - self.place[0]) @ self.along()
 
 
-def analyse(run, names=(), start=None, end=None, depth=None):
-    """(numbers, spectra) of a run's gauges."""
+class Incident:
+    """The incident waves of a window, at any place: regular or of many frequencies."""
+
+    def __init__(self, frequency, amplitude, depth, gravity, origin, wave_number=None):
+        self.frequency, self.amplitude, self.origin = frequency, amplitude, origin
+        self.wave_number = wave_numbers(frequency, depth, gravity) if wave_number is None else np.array([wave_number])
+        self.sign = 1.0
+
+    def at(self, position):
+        """Complex amplitudes at a distance (m) from the first gauge."""
+        return self.amplitude * np.exp(-1j * self.sign * self.wave_number * position)
+
+
+def larger(there, back):
+    """(amplitudes, sign) of the waves with more energy: these are the incident waves."""
+    return (there, 1.0) if (np.abs(there) ** 2).sum() >= (np.abs(back) ** 2).sum() else (back, -1.0)
+
+
+def separation(gauges, numbers, depth, gravity, harmonics):
+    """Adds incident and reflected waves to the numbers. Returns the Incident waves."""
+    position = gauges.position()
+    peak = 1 / numbers["gauges"][gauges.names[0]]["T_peak_s"]
+    if harmonics:
+        numbers["regular"], waves = regular_numbers(position, harmonics, depth, gravity)
+        amplitude, sign = larger(np.array([waves.there]), np.array([waves.back]))
+        incident = Incident(np.array([1 / harmonics[0].period]), amplitude, depth, gravity, 0.0, waves.wave_number)
+    if not harmonics or len(gauges.names) > 2:
+        frequency, there, back = separate(position, gauges.time, gauges.depth, depth, gravity, peak)
+        numbers["separation"] = reflection_numbers(there, back)
+        if not harmonics:
+            amplitude, sign = larger(there, back)
+            incident = Incident(frequency, amplitude, depth, gravity, gauges.time[0])
+    incident.sign = sign
+    return incident
+
+
+def body_place(run, probe, gauges):
+    """Distance (m) of a floating body's centre from the first gauge along the waves, on average; 0 for other probes."""
+    if probe["type"] != "motion":
+        return 0.0
+    body = next(body for body in run.case["body"] if body["name"] == probe["body"])
+    place = np.array(body["centre"][:run.dimension - 1], dtype=float)
+    for n, axis in enumerate("xy"[:run.dimension - 1]):
+        curve = run.curve(probe["name"], f"displacement_{axis}_m").window(gauges.time[0], gauges.time[-1])
+        place[n] += curve.value.mean()
+    return float(gauges.position(place[None, :])[0])
+
+
+def columns_of(run, probe):
+    """Columns of a motion or force probe that respond to waves."""
+    table = (run.path / "probes" / f"{probe['name']}.csv").read_text(encoding="utf-8").splitlines()
+    heading = next(line for line in table if not line.startswith("#")).split(",")
+    kinds = ("displacement_", "angle_") if probe["type"] == "motion" else ("force_", "moment_")
+    return [column.strip() for column in heading if column.strip().startswith(kinds)]
+
+
+def answer_of(curve, gauges, incident, place, is_regular):
+    """Response of one column: over the incident amplitude, with its phase, for each frequency; and its mean and drift."""
+    value = np.interp(gauges.time, curve.time, curve.value)
+    period = 1 / float(incident.frequency[np.argmax(np.abs(incident.amplitude))])
+    times, means = period_means(gauges.time, value, period)
+    mean, interval = mean_with_interval(means)
+    slope, slope_interval = drift_with_interval(times, means)
+    numbers = {"mean": mean, "mean_interval": interval, "drift_per_s": slope, "drift_interval_per_s": slope_interval}
+    if is_regular:
+        amplitude = fit_harmonics(gauges.time, value, period).amplitude
+        ratio = amplitude[:1] / incident.at(place)
+        return {**numbers, "amplitude": float(abs(amplitude[0])), "rao": float(abs(ratio[0])),
+                "phase_deg": float(np.degrees(np.angle(ratio[0])))}
+    rest = value - np.polyval(np.polyfit(gauges.time, value, 1), gauges.time)
+    line = np.rint(incident.frequency * gauges.time.size * (gauges.time[1] - gauges.time[0])).astype(int)
+    amplitude = 2 * np.fft.rfft(rest)[line] / rest.size
+    frequency, ratio, coherence = response(incident.frequency, incident.at(place), amplitude)
+    return {**numbers, "frequency_Hz": frequency.tolist(), "rao": np.abs(ratio).tolist(),
+            "phase_deg": np.degrees(np.angle(ratio)).tolist(), "coherence": coherence.tolist()}
+
+
+def response_numbers(run, names, gauges, incident, is_regular):
+    """Responses of motion and force probes, per probe and column. Phases are leads over the incident crest: of a floating
+    body at its mean position, of a force at the first gauge."""
+    probes = {probe["name"]: probe for probe in run.case.get("probe", []) if probe["type"] in ("motion", "force")}
+    found = {}
+    for name in names:
+        if name not in probes:
+            raise DataError(f"{run.path}: has no motion or force probe '{name}'; it has {', '.join(probes) or 'none'}")
+        place = body_place(run, probes[name], gauges)
+        found[name] = {column: answer_of(run.curve(name, column), gauges, incident, place, is_regular)
+                       for column in columns_of(run, probes[name])}
+    return found
+
+
+def overtopping_numbers(run, name, window, period, height):
+    """Mean discharge with its interval, and the volumes of single waves, of a discharge probe behind a crest."""
+    volume = run.curve(name, "volume_m3").window(*window)
+    if volume.time.size < 2:
+        raise DataError(f"{run.path}: probe '{name}' has no readings between {window[0]:.4g} and {window[1]:.4g} s")
+    duration = float(volume.time[-1] - volume.time[0])
+    discharge = float(volume.value[-1] - volume.value[0]) / duration
+    edges = volume.time[-1] - period * np.arange(int(duration / period), -1, -1)
+    _, interval = mean_with_interval(np.diff(np.interp(edges, volume.time, volume.value)) / period)
+    times, volumes = overtopping_volumes(volume.time, volume.value, PAUSE * period)
+    waves = duration / period
+    return {"discharge": discharge, "discharge_interval": interval,
+            "relative_discharge": discharge / float(np.sqrt(run.gravity * height**3)), "waves": waves,
+            "overtopping_waves": int(volumes.size), "fraction": volumes.size / waves,
+            "largest_volume": float(volumes.max(initial=0.0)), "times_s": times.tolist(), "volumes": volumes.tolist()}
+
+
+def period_of_case(run):
+    """The period (s) of the case's makers of regular waves, if they have one period."""
+    periods = {maker["period"] for maker in run.case.get("wave_maker", []) if maker["waves"] == "regular"}
+    return periods.pop() if len(periods) == 1 else None
+
+
+def regular_harmonics(gauges, period, is_given):
+    """Harmonics at each gauge if the waves are regular. A period (s) that the user gives is believed."""
+    if not is_given:
+        period = best_period(gauges.time, gauges.depth[0], period)
+    harmonics = [fit_harmonics(gauges.time, depth, period) for depth in gauges.depth]
+    is_regular = all(found.residual < MAX_IRREGULAR * depth.std() for found, depth in zip(harmonics, gauges.depth))
+    return harmonics if is_given or is_regular else []
+
+
+def analyse(run, names=(), start=None, end=None, depth=None, period=None, responses=(), overtopping=()):
+    """(numbers, spectra) of a run's gauges between two times (s).
+
+    `period` (s) is that of regular waves, found if it is not given; `responses` names motion and force probes, `overtopping`
+    discharge probes. Throws DataError."""
     gauges = Gauges(run, list(names), start, end)
-    first = gauge_numbers(gauges.time, gauges.depth[0])
-    gauges.whole_waves(first["T_mean_s"])
+    known = period or period_of_case(run)
+    first = gauge_numbers(gauges.time, gauges.depth[0], known)
+    harmonics = regular_harmonics(gauges, known or first["T_mean_s"], bool(period))
+    mean_period = harmonics[0].period if harmonics else first["T_mean_s"]
+    window = (float(gauges.time[0]), float(gauges.time[-1]))
+    gauges.whole_waves(mean_period)
     numbers = {"from_s": float(gauges.time[0]), "to_s": float(gauges.time[-1]), "gauges": {}}
     spectra = {}
-    for name, reading in zip(gauges.names, gauges.depth):
+    for n, (name, reading) in enumerate(zip(gauges.names, gauges.depth)):
         try:
-            numbers["gauges"][name] = gauge_numbers(gauges.time, reading)
+            numbers["gauges"][name] = gauge_numbers(gauges.time, reading, mean_period if harmonics else None)
         except DataError as error:
             raise DataError(f"gauge '{name}' {error}") from error
+        numbers["gauges"][name] |= set_up(gauges.time, reading, gauges.still[n], mean_period)
+        if harmonics:
+            numbers["gauges"][name]["harmonics"] = harmonic_numbers(harmonics[n])
         spectra["frequency_Hz"], spectra[f"{name}_m2_per_Hz"] = spectrum(gauges.time, reading)
-    if len(gauges.names) >= 3:
-        still = depth or float(np.mean([gauge["depth_m"] for gauge in numbers["gauges"].values()]))
-        numbers["separation"] = reflection_numbers(gauges.position(), gauges.time, gauges.depth, still, run.gravity,
-                                                   1 / first["T_peak_s"])
+    still = depth or float(np.mean([gauge["depth_m"] for gauge in numbers["gauges"].values()]))
+    if harmonics:
+        numbers["period_s"] = mean_period
+    height = numbers["gauges"][gauges.names[0]]["Hm0_m"]
+    if len(gauges.names) >= 2:
+        incident = separation(gauges, numbers, still, run.gravity, harmonics)
+        height = float(4 * np.sqrt((np.abs(incident.amplitude) ** 2).sum() / 2))
+        numbers["responses"] = response_numbers(run, responses, gauges, incident, bool(harmonics))
+    elif responses:
+        raise DataError("a response needs two gauges or more, which separate the incident waves; remedy: add gauges")
+    numbers["overtopping"] = {name: overtopping_numbers(run, name, window, mean_period, height) for name in overtopping}
     return numbers, spectra
 
 
 def crest(curve):
-    """(time, height over the first reading) of a curve's highest wave: the parabola through what is above 0.9 of it."""
+    """(time, height over the first reading) of a curve's highest wave: the parabola through the samples above 0.9 of it."""
     elevation = curve.value - curve.value[0]
     highest = int(np.argmax(elevation))
     near = elevation > 0.9 * elevation[highest]
@@ -210,25 +346,90 @@ def solitary_report(numbers):
     return "\n".join(lines)
 
 
-def report(numbers):
-    lines = [f"from {numbers['from_s']:.4g} to {numbers['to_s']:.4g} s",
-             f"{'gauge':<12}{'depth m':>10}{'waves':>7}{'H mean m':>10}{'H 1/3 m':>10}{'H max m':>10}{'Hm0 m':>10}"
-             f"{'T mean s':>10}{'T peak s':>10}"]
+def gauge_table(numbers):
+    """Lines of heights and periods, a gauge each."""
+    lines = [f"{'gauge':<12}{'depth m':>10}{'waves':>7}{'H mean m':>10}{'H 1/3 m':>10}{'H max m':>10}{'Hm0 m':>10}"
+             f"{'T mean s':>10}{'T peak s':>10}{'set-up m':>11}{'+-':>10}"]
     for name, gauge in numbers["gauges"].items():
         lines.append(f"{name:<12}{gauge['depth_m']:>10.4f}{gauge['waves']:>7}" + "".join(
-            f"{gauge[key]:>10.4f}" for key in ("H_mean_m", "H_third_m", "H_max_m", "Hm0_m", "T_mean_s", "T_peak_s")))
+            f"{gauge[key]:>10.4f}" for key in ("H_mean_m", "H_third_m", "H_max_m", "Hm0_m", "T_mean_s", "T_peak_s"))
+            + f"{gauge['set_up_m']:>11.5f}{gauge['set_up_interval_m']:>10.5f}")
+    return lines
+
+
+def harmonic_table(numbers):
+    """Lines of harmonics, a gauge each; empty for irregular waves."""
+    if "period_s" not in numbers:
+        return []
+    lines = [f"harmonics of the period {numbers['period_s']:.5g} s: amplitude in m, and phase - n times that of the first"]
+    for name, gauge in numbers["gauges"].items():
+        found = gauge["harmonics"]
+        lines.append(f"{name:<12}" + "".join(f"{amplitude:>10.5f} {phase:>+5.0f}" for amplitude, phase in
+                                             zip(found["amplitude_m"], found["phase_from_first_deg"])))
+    return lines
+
+
+def separation_lines(numbers):
+    """Lines on incident and reflected waves."""
+    lines = []
     if "separation" in numbers:
         found = numbers["separation"]
         lines.append(f"Hm0 {found['Hm0_there_m']:.4f} m there and {found['Hm0_back_m']:.4f} m back: "
                      f"{100 * found['reflection']:.1f} % reflected; the waves run {found['runs']}")
-    return "\n".join(lines)
+    if "regular" in numbers:
+        found = numbers["regular"]
+        lines.append(f"regular waves: H {found['H_there_m']:.4f} m there and {found['H_back_m']:.4f} m back: "
+                     f"{100 * found['reflection']:.1f} % reflected; wavelength {found['wavelength_m']:.4g} m")
+        if "second_m" in found:
+            lines.append("second harmonic: " + ", ".join(f"{name.replace('_', ' ')} {value:.5f} m"
+                                                         for name, value in found["second_m"].items()))
+    return lines
+
+
+def response_lines(numbers):
+    """Lines on responses of bodies and forces."""
+    lines = []
+    for name, columns in numbers.get("responses", {}).items():
+        for column, found in columns.items():
+            head = f"{name}.{column}: mean {found['mean']:.5g} +- {found['mean_interval']:.2g}, drift " \
+                   f"{found['drift_per_s']:.4g} +- {found['drift_interval_per_s']:.2g} per s"
+            if "amplitude" in found:
+                head += f"; {found['rao']:.5g} per m of wave amplitude, leads the crest by {found['phase_deg']:.1f} deg"
+            lines.append(head)
+            for row in zip(*(found.get(key, ()) for key in ("frequency_Hz", "rao", "phase_deg", "coherence"))):
+                if "amplitude" not in found:
+                    lines.append("   {:.4f} Hz: {:.5g} per m, leads by {:.1f} deg, coherence {:.2f}".format(*row))
+    return lines
+
+
+def overtopping_lines(numbers):
+    """Lines on overtopping."""
+    return [f"{name}: q {found['discharge']:.4g} +- {found['discharge_interval']:.2g} m^3/s, q/sqrt(g Hm0^3) "
+            f"{found['relative_discharge']:.4g}; {found['overtopping_waves']} of {found['waves']:.0f} waves overtop, the largest "
+            f"with {found['largest_volume']:.4g} m^3" for name, found in numbers["overtopping"].items()]
+
+
+def report(numbers):
+    """The text that the command prints."""
+    return "\n".join([f"from {numbers['from_s']:.4g} to {numbers['to_s']:.4g} s", *gauge_table(numbers), *harmonic_table(numbers),
+                      *separation_lines(numbers), *response_lines(numbers), *overtopping_lines(numbers)])
 
 
 def write_spectra(path, spectra):
+    """Writes the spectra as a CSV file."""
     names = list(spectra)
     lines = [",".join(names)]
     lines += [",".join(f"{value:.9g}" for value in row) for row in zip(*spectra.values())]
     write_whole_text(path, "\n".join(lines) + "\n")
+
+
+def without_nan(value):
+    """Replaces nan, which JSON does not have, by None."""
+    if isinstance(value, dict):
+        return {key: without_nan(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [without_nan(item) for item in value]
+    return None if isinstance(value, float) and np.isnan(value) else value
 
 
 def print_waves(options):
@@ -237,24 +438,34 @@ def print_waves(options):
     if options.solitary:
         numbers = solitary(run, options.gauges)
     else:
-        numbers, spectra = analyse(run, options.gauges, options.start, options.end, options.depth)
+        numbers, spectra = analyse(run, options.gauges, options.start, options.end, options.depth, options.period,
+                                   options.response, options.overtopping)
     print(solitary_report(numbers) if options.solitary else report(numbers))
-    write_whole_text(options.run / "waves.json", json.dumps(numbers, indent=2) + "\n")
+    write_whole_text(options.run / "waves.json", json.dumps(without_nan(numbers), indent=2) + "\n")
     if spectra:
         write_spectra(options.run / "waves_spectrum.csv", spectra)
 
 
 def main(arguments):
+    """Runs the command and returns its exit code."""
     parser = Parser("tailwater waves", description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
     parser.add_argument("gauges", nargs="*", metavar="GAUGE", help="depth probes, in the direction of wave travel (all)")
     parser.add_argument("--from", type=number, dest="start", metavar="S", help="start of the window, s (start of the run)")
     parser.add_argument("--to", type=number, dest="end", metavar="S", help="end of the window, s (end of the run)")
     parser.add_argument("--depth", type=number, metavar="M", help="still-water depth, m (mean of the gauges)")
+    parser.add_argument("--period", type=number, metavar="S", help="period of regular waves, s (found); the window may then be "
+                        "as short as one period")
+    parser.add_argument("--response", action="append", default=[], metavar="PROBE", help="motion or force probe: response to "
+                        "the incident waves, mean and drift; may be repeated")
+    parser.add_argument("--overtopping", action="append", default=[], metavar="PROBE", help="discharge probe behind a crest: "
+                        "overtopping volumes; may be repeated")
     parser.add_argument("--solitary", action="store_true", help="evaluate a solitary wave: height and speed")
     options = parser.parse_args(arguments)
-    if options.depth is not None and options.depth <= 0:
-        parser.error(f"--depth {options.depth:g}: a depth is above 0 m")
+    for name, what in (("depth", "depth"), ("period", "period")):
+        value = getattr(options, name)
+        if value is not None and value <= 0:
+            parser.error(f"--{name} {value:g}: a {what} is above 0")
     return exit_code_of(lambda: print_waves(options))
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tailwater import waves
+from tailwater import wave_records, waves
 from tailwater.errors import DataError
 from tailwater.run import Run
 
@@ -78,7 +78,7 @@ class WaveGauges(unittest.TestCase):
     def test_gauges_that_cannot_tell_are_refused(self):
         half = np.pi / waves.wave_numbers(1 / PERIOD, DEPTH, GRAVITY)
         run = self.run_with([(0.05, PERIOD, 1, 0)], places={"a": 1.0, "b": 1.0 + half, "c": 1.0 + 2 * half})
-        with self.assertRaisesRegex(DataError, "half a wave apart"):
+        with self.assertRaisesRegex(DataError, "half a wavelength apart"):
             waves.analyse(run)
 
     def test_a_solitary_wave_has_its_height_and_speed(self):
@@ -96,6 +96,96 @@ class WaveGauges(unittest.TestCase):
         # Fenton's third order: 1.2 - 0.002 - 0.000343 of g h.
         self.assertAlmostEqual(found["theory_m_per_s"], (GRAVITY * DEPTH * 1.19766) ** 0.5, delta=1e-3)
 
+    def add_probe(self, run, text, name, columns, series):
+        """A further probe of a made-up run."""
+        effective = run.path / "case.effective.toml"
+        effective.write_text(effective.read_text() + text)
+        (run.path / "probes" / f"{name}.csv").write_text(f"time_s,{columns}\n" + "".join(
+            ",".join(f"{value:.9g}" for value in row) + "\n" for row in zip(*series)))
+        return Run(run.path)
+
+    def test_two_gauges_separate_regular_waves_in_less_than_two_periods(self):
+        run = self.run_with([(0.05, PERIOD, 1, 0.3), (0.015, PERIOD, -1, 1.1)], places={"g1": 3.0, "g2": 3.3})
+        numbers, _ = waves.analyse(run, start=18.0, period=PERIOD)
+        self.assertAlmostEqual(numbers["regular"]["reflection"], 0.3, delta=0.005)
+        self.assertAlmostEqual(numbers["regular"]["H_there_m"], 0.05, delta=0.05 * 5e-3)
+        self.assertNotIn("separation", numbers)
+
+    def test_harmonics_have_their_amplitudes_and_phases(self):
+        """Stokes' bound second harmonic beside a free one of the same frequency: four gauges separate them."""
+        k, free = (float(waves.wave_numbers(n / PERIOD, DEPTH, GRAVITY)) for n in (1, 2))
+        places = {"g1": 3.0, "g2": 3.25, "g3": 3.6, "g4": 4.1, "g5": 4.45}
+        run = self.run_with([], places=places)
+        for name, x in places.items():
+            t = np.arange(0.0, 20.0, 0.005)
+            angle = 2 * np.pi * t / PERIOD
+            depth = (DEPTH + 0.025 * np.cos(angle - k * x) + 0.004 * np.cos(2 * (angle - k * x))
+                     + 0.002 * np.cos(2 * angle - free * x + 1.0))
+            (run.path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
+                f"{time:.9g},{value:.9g}\n" for time, value in zip(t, depth)))
+        numbers, _ = waves.analyse(run, start=10.0)
+        self.assertAlmostEqual(numbers["period_s"], PERIOD, delta=1e-4)
+        second = numbers["regular"]["second_m"]
+        # The wave number is found on a grid of 0.25 %, which moves 2 kx by 0.03 over these gauges.
+        self.assertAlmostEqual(second["bound_there"], 0.004, delta=2e-4)
+        self.assertAlmostEqual(second["free_there"], 0.002, delta=2e-4)
+        self.assertLess(max(second["bound_back"], second["free_back"]), 2e-4)
+        found = numbers["gauges"]["g1"]["harmonics"]
+        self.assertAlmostEqual(found["amplitude_m"][0], 0.025, delta=1e-5)
+        sum_of_both = 0.004 + 0.002 * np.exp(1j * (2 * k * 3.0 - free * 3.0 + 1.0))
+        self.assertAlmostEqual(found["amplitude_m"][1], abs(sum_of_both), delta=1e-5)
+        self.assertAlmostEqual(found["phase_from_first_deg"][1], -np.degrees(np.angle(sum_of_both)), delta=0.3)
+
+    def test_set_up_is_the_rise_over_the_first_reading(self):
+        run = self.run_with([])
+        for name in PLACES:
+            t = np.arange(0.0, 40.0, 0.01)
+            depth = DEPTH + np.where(t > 5, 0.025 * np.cos(2 * np.pi * t / PERIOD) + 0.0035, 0.0)
+            (run.path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
+                f"{time:.9g},{value:.9g}\n" for time, value in zip(t, depth)))
+        gauge = waves.analyse(run, ["g1"], start=10.0)[0]["gauges"]["g1"]
+        self.assertAlmostEqual(gauge["set_up_m"], 0.0035, delta=2e-5)
+        self.assertLess(gauge["set_up_interval_m"], 2e-5)
+
+    def test_a_body_has_its_response_phase_and_drift(self):
+        """Regular and irregular waves; the body leads the crest at its place by 40 degrees and drifts."""
+        rng = np.random.default_rng(3)
+        regular = [(0.05, PERIOD, 1, 0.3), (0.01, PERIOD, -1, 0.0)]
+        irregular = [(0.01, period, 1, phase) for period, phase in zip(rng.uniform(1.0, 1.6, 40), rng.uniform(0, 6.28, 40))]
+        for components, end, tolerance in ((regular, 20.0, 0.01), (irregular, 400.0, 0.05)):
+            run = self.run_with(components, end=end)
+            t = np.arange(0.0, end, 0.01)
+            there = [wave for wave in components if wave[2] == 1]
+            lead = np.radians(40.0)
+            heave = 1.7 * elevation(5.0, t, [(H, T, d, phase + lead) for H, T, d, phase in there])
+            rows = (t, 0.004 * t - 0.002 * end, heave, 0 * t)
+            run = self.add_probe(run, '[[body]]\nname = "box"\ncentre = [5.0, 0.4]\n[[probe]]\nname = "box"\ntype = "motion"\n'
+                                 'body = "box"\n', "box", "displacement_x_m,displacement_y_m,angle_rad", rows)
+            found = waves.analyse(run, list(PLACES), responses=["box"])[0]["responses"]["box"]
+            self.assertAlmostEqual(found["displacement_x_m"]["drift_per_s"], 0.004, delta=1e-6)
+            y = found["displacement_y_m"]
+            if end < 100:
+                rao, phase = y["rao"], y["phase_deg"]
+            else:
+                best = int(np.argmax(y["coherence"]))
+                self.assertGreater(y["coherence"][best], 0.95)
+                rao, phase = y["rao"][best], y["phase_deg"][best]
+            self.assertAlmostEqual(rao, 1.7, delta=1.7 * tolerance)
+            self.assertAlmostEqual(phase, 40.0, delta=100 * tolerance)
+
+    def test_overtopping_volumes_are_those_of_single_waves(self):
+        run = self.run_with([(0.05, PERIOD, 1, 0.3)])
+        t = np.arange(0.0, 20.0, 0.005)
+        volumes = {2.0: 1e-3, 4.5: 3e-3, 5.75: 2e-3, 12.0: 5e-3}  # each passes within 0.3 s
+        passed = sum(volume * np.clip((t - start) / 0.3, 0, 1) for start, volume in volumes.items())
+        run = self.add_probe(run, '[[probe]]\nname = "crest"\ntype = "discharge"\n', "crest", "volume_m3", (t, passed))
+        found = waves.analyse(run, list(PLACES), overtopping=["crest"])[0]["overtopping"]["crest"]
+        np.testing.assert_allclose(found["volumes"], list(volumes.values()), rtol=1e-6)
+        np.testing.assert_allclose(found["times_s"], list(volumes), atol=0.02)
+        self.assertEqual(found["overtopping_waves"], 4)
+        # The gauges' last reading is 20 s within 0.07 s.
+        self.assertAlmostEqual(found["discharge"], 11e-3 / 20.0, delta=1e-2 * 11e-3 / 20.0)
+
     def test_bad_input_names_what_there_is(self):
         run = self.run_with([(0.05, PERIOD, 1, 0)])
         with self.assertRaisesRegex(DataError, "no depth probe 'g9'; it has g1, g2, g3"):
@@ -104,6 +194,26 @@ class WaveGauges(unittest.TestCase):
             waves.analyse(run, start=17.0)
         with self.assertRaisesRegex(DataError, "no times between"):
             waves.analyse(run, start=30.0)
+        with self.assertRaisesRegex(DataError, "no motion or force probe 'box'; it has none"):
+            waves.analyse(run, responses=["box"])
+
+
+class Intervals(unittest.TestCase):
+    def test_an_interval_holds_the_mean_and_the_drift_95_times_of_100(self):
+        rng = np.random.default_rng(4)
+        time, held = np.arange(12.0), np.zeros(2)
+        for _ in range(2000):
+            values = 0.3 * time + rng.normal(size=12)
+            slope, slope_half = wave_records.drift_with_interval(time, values)
+            mean, mean_half = wave_records.mean_with_interval(values - 0.3 * time)
+            held += abs(slope - 0.3) < slope_half, abs(mean) < mean_half
+        # 1900 of 2000 have the standard deviation 9.7; correlation is estimated too, which widens some intervals.
+        self.assertTrue((held > 1860).all() and (held < 1980).all(), held)
+
+    def test_students_quantile_continues_its_table(self):
+        self.assertAlmostEqual(wave_records.student(10), 2.228, delta=1e-3)
+        self.assertAlmostEqual(wave_records.student(11), 2.201, delta=2e-3)
+        self.assertAlmostEqual(wave_records.student(1e6), 1.960, delta=1e-3)
 
 
 if __name__ == "__main__":

@@ -3,12 +3,10 @@
 import numpy as np
 
 from tailwater.errors import DataError
-from tailwater.waves import BAND, Gauges, separate as separate_spectrum, single_waves, wave_numbers
+from tailwater.wave_records import BAND, fit_harmonics, separate, separate_regular, single_waves, wave_numbers
+from tailwater.waves import Gauges
 
 PERIODS = 5  # at the end of the run, in which waves are read
-# Waves of finite height are longer than linear theory has them. The wave number is looked for within these fractions of
-# it.
-LENGTHS = np.linspace(0.8, 1.15, 141)
 FAR = 10  # wavelengths over which the remaining height is reported
 PEAK_ENHANCEMENT = 3.3  # of the JONSWAP spectrum; the default of the maker
 MAKER = (0.5, 3.0)  # frequencies that the maker makes, over that of the peak
@@ -16,27 +14,6 @@ COMPONENTS = 200  # sines of a maker
 # Frequencies over that of the peak between which the energy of irregular waves is compared: below, at and above the peak.
 PARTS = (BAND[0], 0.9, 1.1, BAND[1])
 DRAWS = 2000  # of a sea, for the scatter of its readings
-
-
-def first_harmonic(time, value, period):
-    """The complex amplitude at a period, by least squares with the mean and three harmonics."""
-    phase = 2 * np.pi * time / period
-    shapes = [np.ones_like(phase)] + [wave(n * phase) for n in (1, 2, 3) for wave in (np.cos, np.sin)]
-    found = np.linalg.lstsq(np.stack(shapes, axis=1), value, rcond=None)[0]
-    return found[1] - 1j * found[2]
-
-
-def separate(position, amplitude, wave_number):
-    """(amplitude there, amplitude back, wave number) of the waves along the line of gauges, whose own wave number is the
-    one with the least misfit."""
-    best = None
-    for share in LENGTHS:
-        shape = np.stack([np.exp(sign * 1j * share * wave_number * position) for sign in (-1, 1)], axis=1)
-        found = np.linalg.lstsq(shape, amplitude, rcond=None)[0]
-        misfit = np.linalg.norm(shape @ found - amplitude)
-        if best is None or misfit < best[0]:
-            best = misfit, abs(found[0]), abs(found[1]), share * wave_number
-    return best[1:]
 
 
 class Group:
@@ -52,11 +29,12 @@ class Group:
             if curve.time[-1] < end - 0.1 * period:
                 raise DataError(f"{run.path}: its gauge '{gauge['name']}' ends at {curve.time[-1]:.4g} s, the run at {end:.4g} s")
             curve = curve.window(end - PERIODS * period, end)
-            amplitudes.append(first_harmonic(curve.time, curve.value, period))
+            amplitudes.append(fit_harmonics(curve.time, curve.value, period, count=3).amplitude[0])
             heights.append(single_waves(curve.time, curve.value - curve.value.mean())[0].mean())
         self.height = float(np.mean(heights))
         linear = float(wave_numbers(1 / period, run.parameters["h"], run.gravity))
-        self.there, self.back, self.wave_number = separate(self.place - self.place[0], np.array(amplitudes), linear)
+        waves = separate_regular(self.place - self.place[0], np.array(amplitudes), linear)
+        self.there, self.back, self.wave_number = abs(waves.there), abs(waves.back), waves.wave_number
 
 
 def wave_flume(run):
@@ -128,7 +106,8 @@ def irregular_waves(run):
     made = np.array([np.cos(np.outer(gauges.time, omega) + phase - k * x) @ amplitude for x in gauges.place[:, 0]])
 
     def read(elevations):
-        return separate_spectrum(gauges.position(), gauges.time, elevations, depth, run.gravity, 1 / period)
+        frequency, there, back = separate(gauges.position(), gauges.time, elevations, depth, run.gravity, 1 / period)
+        return frequency, np.abs(there), np.abs(back)
 
     frequency, there, back = read(gauges.depth)
     frequency = frequency * period
