@@ -59,9 +59,10 @@ enum class MakerType { piston, flap };
 template <>
 inline constexpr auto choices<MakerType> = std::to_array<std::string_view>({"piston", "flap"});
 
-enum class WaveKind { regular, solitary, jonswap, none };
+enum class WaveKind { regular, solitary, jonswap, focused, none };
 template <>
-inline constexpr auto choices<WaveKind> = std::to_array<std::string_view>({"regular", "solitary", "jonswap", "none"});
+inline constexpr auto choices<WaveKind> = std::to_array<std::string_view>({"regular", "solitary", "jonswap", "focused",
+                                                                           "none"});
 
 enum class Absorption { none, active };
 template <>

@@ -40,6 +40,27 @@ void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection s
 /// No solitary wave is higher than this share of the depth (McCowan 1894), nor is any periodic one.
 constexpr double highest_over_depth = 0.78;
 
+/// Keys that makers and zones share.
+void check_waves(const WaveKeys& waves, double depth, std::string_view place, TableReader& reader) {
+  const bool has_period = waves.waves != WaveKind::solitary && waves.waves != WaveKind::none;
+  if (has_period && waves.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
+    reader.wrong("period", "waves need a period; give a number above 0 in s");
+  }
+  if (has_period && waves.waves != WaveKind::regular && waves.ramp == 0.0 && reader.given("ramp") != nullptr &&
+      !reader.is_wrong("ramp")) {
+    reader.wrong("ramp", "{} waves do not begin at rest; give a time above 0 s",
+                 waves.waves == WaveKind::focused ? "focused" : "irregular");
+  }
+  if (waves.waves == WaveKind::focused && !reader.is_wrong("focus") &&
+      (waves.focus.size() != 2 || waves.focus[1] <= 0.0)) {
+    reader.wrong("focus", "give two numbers, as in [3, 10]: a distance in m and a time above 0 in s");
+  }
+  if (waves.height > highest_over_depth * depth && !reader.is_wrong("height") && !reader.is_wrong("depth")) {
+    reader.wrong("height", "such a wave breaks at the {}: give at most {} of the depth, {:.4g} m", place,
+                 highest_over_depth, highest_over_depth * depth);
+  }
+}
+
 }  // namespace
 
 void check(const WaveMakerTable& maker, TableReader& reader) {
@@ -48,21 +69,10 @@ void check(const WaveMakerTable& maker, TableReader& reader) {
     reader.missing("absorption",
                    "a plate that makes no waves would rest; give absorption = \"active\", or other waves");
   }
-  const bool has_period = maker.waves == WaveKind::regular || maker.waves == WaveKind::jonswap;
-  if (has_period && maker.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
-    reader.wrong("period", "waves need a period; give a number above 0 in s");
-  }
   if (maker.type == MakerType::flap && maker.waves == WaveKind::solitary && !reader.is_wrong("type")) {
     reader.wrong("type", "a solitary wave moves the water evenly over the depth; use a piston");
   }
-  if (maker.waves == WaveKind::jonswap && maker.ramp == 0.0 && reader.given("ramp") != nullptr &&
-      !reader.is_wrong("ramp")) {
-    reader.wrong("ramp", "irregular waves do not begin at rest; give a time above 0 s");
-  }
-  if (maker.height > highest_over_depth * maker.depth && !reader.is_wrong("height") && !reader.is_wrong("depth")) {
-    reader.wrong("height", "such a wave breaks at the maker: give at most {} of the depth, {:.4g} m",
-                 highest_over_depth, highest_over_depth * maker.depth);
-  }
+  check_waves(maker, maker.depth, "maker", reader);
 }
 
 void check(const BodyTable& body, TableReader& reader) {
@@ -117,6 +127,11 @@ void check(const DampingTable& damping, TableReader& reader) {
   if (const toml::node* node = reader.given("towards");
       node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
     reader.wrong("towards", "a case of two dimensions has no z; give a direction in x or y");
+  }
+  if (damping.waves == WaveKind::solitary && !reader.is_wrong("waves")) {
+    reader.wrong("waves", "a zone makes no solitary wave; use a piston");
+  } else if (damping.waves != WaveKind::none) {
+    check_waves(damping, damping.depth, "zone", reader);
   }
 }
 

@@ -14,13 +14,32 @@ bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-}  // namespace
+/// Keys of wave makers and zones.
+std::vector<KeyUse> uses_of_waves() {
+  return {
+      {"wave_maker", "waves", "regular", {"height", "period"}, {"ramp"}},
+      {"wave_maker", "waves", "solitary", {"height"}, {}},
+      {"wave_maker", "waves", "jonswap", {"height", "period"}, {"peak_enhancement", "seed", "ramp"}},
+      {"wave_maker", "waves", "focused", {"height", "period", "focus"}, {"peak_enhancement", "seed", "ramp"}},
+      {"wave_maker", "waves", "none", {}, {"period"}},
+      {"damping", "waves", "regular", {"height", "period", "depth", "level"}, {"ramp", "start", "transport"}},
+      {"damping",
+       "waves",
+       "jonswap",
+       {"height", "period", "depth", "level"},
+       {"peak_enhancement", "seed", "ramp", "start", "transport"}},
+      {"damping",
+       "waves",
+       "focused",
+       {"height", "period", "depth", "level", "focus"},
+       {"peak_enhancement", "seed", "ramp", "start", "transport"}},
+      {"damping", "waves", "none", {}, {"period", "depth"}},
+  };
+}
 
-bool KeyUse::needs(std::string_view key) const { return contains(needed, key); }
-bool KeyUse::mentions(std::string_view key) const { return needs(key) || contains(possible, key); }
-
-std::span<const KeyUse> key_uses() {
-  static const std::vector<KeyUse> uses{
+/// Keys of all other tables.
+std::vector<KeyUse> uses_of_shapes_and_types() {
+  return {
       {"fluid", "shape", "box", {"min", "max"}, {}},
       {"fluid", "shape", "polygon", {"points"}, {}},
       {"fluid", "shape", "fill", {"seed", "level"}, {}},
@@ -42,10 +61,6 @@ std::span<const KeyUse> key_uses() {
       {"gate", "motion", "speed", {"speed"}, {"travel"}},
       {"gate", "motion", "acceleration", {"acceleration"}, {"travel"}},
       {"gate", "motion", "file", {"file"}, {"checksum"}},
-      {"wave_maker", "waves", "regular", {"height", "period"}, {"ramp"}},
-      {"wave_maker", "waves", "solitary", {"height"}, {}},
-      {"wave_maker", "waves", "jonswap", {"height", "period"}, {"peak_enhancement", "seed", "ramp"}},
-      {"wave_maker", "waves", "none", {}, {"period"}},
       {"air", "pockets", "none", {}, {}},
       {"air", "pockets", "adiabatic", {}, {"pressure"}},
       {"air", "pockets", "isothermal", {}, {"pressure"}},
@@ -71,6 +86,19 @@ std::span<const KeyUse> key_uses() {
       {"probe", "type", "velocity-profile", {"at"}, {"step", "times", "interval"}},
       {"probe", "type", "pockets", {}, {"interval"}},
   };
+}
+
+}  // namespace
+
+bool KeyUse::needs(std::string_view key) const { return contains(needed, key); }
+bool KeyUse::mentions(std::string_view key) const { return needs(key) || contains(possible, key); }
+
+std::span<const KeyUse> key_uses() {
+  static const std::vector<KeyUse> uses = [] {
+    std::vector<KeyUse> all = uses_of_shapes_and_types();
+    for (const KeyUse& use : uses_of_waves()) all.push_back(use);
+    return all;
+  }();
   return uses;
 }
 

@@ -23,9 +23,8 @@ constexpr std::array removed_of_lists{
     RemovedKey{"gate", "weight", pulled},
     RemovedKey{"gate", "gate_mass", pulled},
     RemovedKey{"wave_maker", "components", "was removed: irregular waves have 200 components"},
-    RemovedKey{
-        "wave_maker", "order",
-        "was removed: pistons make regular waves of second order, which have no free harmonic, and flaps of first"},
+    RemovedKey{"wave_maker", "order",
+               "was removed: plates make regular waves of second order, which have no free harmonic"},
     RemovedKey{"mooring", "name", "was removed: messages call the lines mooring1, mooring2, ..."},
     RemovedKey{"damping", "name", "was removed: messages call the zones damping1, damping2, ..."},
     RemovedKey{"probe", "region_points",

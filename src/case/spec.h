@@ -396,21 +396,52 @@ struct GateTable {
   }
 };
 
+/// The waves of a wave maker or of a zone.
+struct WaveKeys {
+  WaveKind waves = WaveKind::regular;
+  double height = 0.0;
+  double period = 0.0;
+  double peak_enhancement = 3.3;
+  int seed = 1;
+  std::vector<double> focus;
+  double start = 0.0;
+  double ramp = 0.0;
+
+  bool operator==(const WaveKeys&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.choice("waves", self.waves,
+             "regular: of one period; solitary: one wave of Rayleigh's shape; jonswap: irregular, of the JONSWAP "
+             "spectrum; focused: a group of that spectrum whose crests meet at one place; none: the plate or zone only "
+             "absorbs");
+    v.number("height", self.height, "m", Range::above(0.0),
+             "Height of a regular or solitary wave; significant height Hm0 of irregular ones; twice the crest of a "
+             "focused group by linear theory");
+    v.number("period", self.period, "s", Range::at_least(0.0),
+             "Period of regular waves, of the peak of irregular ones; with waves = \"none\" that of the waves to be "
+             "absorbed best (0: long waves at a plate, those of the wave maker in a zone)");
+    v.number("peak_enhancement", self.peak_enhancement, "", Range::at_least(1.0),
+             "gamma of the JONSWAP spectrum; 1: Pierson-Moskowitz");
+    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of their phases and frequencies");
+    v.numbers(
+        "focus", self.focus, "",
+        "[distance in m, time in s] at which the crests of a focused group meet: in front of the plate at rest or "
+        "of the inner end of the zone, and after `start`");
+    v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the waves begin");
+    v.number("ramp", self.ramp, "s", Range::at_least(0.0),
+             "Time in which the waves grow to their full height, but for solitary ones (default: two periods)");
+  }
+};
+
 /// A flat upright plate that makes or absorbs waves: after the case has been read it is one of the walls.
-struct WaveMakerTable {
+struct WaveMakerTable : WaveKeys {
   std::string name;
   MakerType type = MakerType::piston;
   Coordinates from;
   Coordinates to;
   AxisDirection side = AxisDirection::minus_x;
   double depth = 0.0;
-  WaveKind waves = WaveKind::regular;
-  double height = 0.0;
-  double period = 0.0;
-  double peak_enhancement = 3.3;
-  int seed = 1;
-  double start = 0.0;
-  double ramp = 0.0;
   Absorption absorption = Absorption::none;
 
   bool operator==(const WaveMakerTable&) const = default;
@@ -427,20 +458,7 @@ struct WaveMakerTable {
                   Presence::required);
     v.choice("side", self.side, "Side of the plate that has no water");
     v.number("depth", self.depth, "m", Range::above(0.0), "Depth of the still water at the plate", Presence::required);
-    v.choice("waves", self.waves,
-             "regular: of one period; solitary: one wave of Rayleigh's shape; jonswap: irregular, of the JONSWAP "
-             "spectrum; none: the plate only absorbs");
-    v.number("height", self.height, "m", Range::above(0.0),
-             "Height of a regular or solitary wave; significant height Hm0 of irregular ones");
-    v.number("period", self.period, "s", Range::at_least(0.0),
-             "Period of regular waves, of the peak of irregular ones; with waves = \"none\" that of the waves to be "
-             "absorbed best (0: long waves)");
-    v.number("peak_enhancement", self.peak_enhancement, "", Range::at_least(1.0),
-             "gamma of the JONSWAP spectrum; 1: Pierson-Moskowitz");
-    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of their phases and frequencies");
-    v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the motion begins");
-    v.number("ramp", self.ramp, "s", Range::at_least(0.0),
-             "Time in which regular and irregular waves grow to their full height (default: two periods)");
+    WaveKeys::describe(self, v);
     v.choice(
         "absorption", self.absorption,
         "active: the plate gives way to waves that come, as the elevation in front of it says (docs/theory/waves.md)");
@@ -505,14 +523,18 @@ struct MooringTable {
   }
 };
 
-/// A stretch of water in which waves die out.
-struct DampingTable {
+/// A stretch of water in which the velocity is relaxed: to rest, so that waves decay, or to that of given waves.
+struct DampingTable : WaveKeys {
   std::string name;  ///< no key: damping1, damping2, ...
   Coordinates min;
   Coordinates max;
   AxisDirection towards = AxisDirection::plus_x;
   double strength = 0.0;
+  double depth = 0.0;
+  double level = 0.0;
+  double transport = 0.0;
 
+  DampingTable() { waves = WaveKind::none; }
   bool operator==(const DampingTable&) const = default;
 
   template <class Self, class Visitor>
@@ -521,11 +543,17 @@ struct DampingTable {
     v.coordinates("max", self.max, "m", "Highest corner of the zone", Presence::required);
     v.choice("towards", self.towards,
              "Side of the zone at which it damps most; the damping grows from 0 at the opposite side, as the square of "
-             "the distance");
-    v.number("strength", self.strength, "1/s", Range::above(0.0),
-             "Rate at that side at which the water loses its velocity; about the waves' angular frequency "
-             "(docs/theory/waves.md)",
-             Presence::required);
+             "the distance. Waves of the zone leave through that opposite side");
+    v.number(
+        "strength", self.strength, "1/s", Range::at_least(0.0),
+        "Rate at that side at which the velocity approaches rest, or that of the waves; 0: the rate with the least "
+        "reflection at `period` (docs/theory/waves.md)");
+    WaveKeys::describe(self, v);
+    v.number("depth", self.depth, "m", Range::at_least(0.0),
+             "Depth of the still water in the zone (0: that at the wave maker)");
+    v.number("level", self.level, "m", {}, "Height of the still water's surface, from the origin of the case");
+    v.number("transport", self.transport, "m/s", {},
+             "Discharge over depth, along the waves and averaged over them; 0 where the case is closed");
   }
 };
 
@@ -1032,7 +1060,8 @@ struct CaseSpec {
     v.tables("wave_maker", self.wave_makers, "A plate that makes waves, or absorbs them; one table each");
     v.tables("body", self.bodies, "A rigid body that the water moves; one table each");
     v.tables("mooring", self.moorings, "A line that holds a body; one table each");
-    v.tables("damping", self.damping, "A zone in which waves die out; one table each");
+    v.tables("damping", self.damping,
+             "A zone in which waves decay, or a relaxation zone that makes and absorbs waves; one table each");
     v.tables("porous", self.porous, "A layer of stones or grains that water flows through; one table each");
     v.tables("inlet", self.inlets, "An open end through which water enters; one table each");
     v.tables("outlet", self.outlets, "An open end through which water leaves; one table each");

@@ -38,6 +38,11 @@ void set_defaults(WaveMakerTable& maker, TableReader& reader) {
   maker.ramp = 2.0 * maker.period;
 }
 
+void set_defaults(DampingTable& damping, TableReader& reader) {
+  reader.read_ahead(damping, {"waves", "period"});
+  damping.ramp = 2.0 * damping.period;
+}
+
 void set_defaults(BodyTable& body, TableReader& reader) {
   const std::vector<std::string> in_plane{"x", "y", "rotation"};
   const std::vector<std::string> in_space{"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};

@@ -18,6 +18,7 @@ void set_defaults(Table&, TableReader&) {}
 void set_defaults(FluidTable& fluid, TableReader& reader);
 void set_defaults(WallTable& wall, TableReader& reader);
 void set_defaults(WaveMakerTable& maker, TableReader& reader);
+void set_defaults(DampingTable& damping, TableReader& reader);
 void set_defaults(BodyTable& body, TableReader& reader);
 void set_defaults(InletTable& inlet, TableReader& reader);
 void set_defaults(OutletTable& outlet, TableReader& reader);

@@ -103,7 +103,16 @@ Json rules_of_wave_makers() {
   return Json::array({
       if_then(is("waves", {"none"}), is("absorption", {"active"})),
       if_then(is("type", {"flap"}), rule_for("waves", none_of({"solitary"}))),
-      if_then(is("waves", {"jonswap"}), rule_for("ramp", {{"exclusiveMinimum", 0}})),
+      if_then(is("waves", {"jonswap", "focused"}), rule_for("ramp", {{"exclusiveMinimum", 0}})),
+      if_then(is("waves", {"focused"}), rule_for("focus", {{"minItems", 2}, {"maxItems", 2}})),
+  });
+}
+
+Json rules_of_damping() {
+  return Json::array({
+      rule_for("waves", none_of({"solitary"})),
+      if_then(is("waves", {"jonswap", "focused"}), rule_for("ramp", {{"exclusiveMinimum", 0}})),
+      if_then(is("waves", {"focused"}), rule_for("focus", {{"minItems", 2}, {"maxItems", 2}})),
   });
 }
 
@@ -151,6 +160,7 @@ Json table_rules_of_schema(std::string_view table) {
   if (table == "inlet") return rules_of_inlets();
   if (table == "outlet") return rules_of_outlets();
   if (table == "wave_maker") return rules_of_wave_makers();
+  if (table == "damping") return rules_of_damping();
   if (table == "body") return rules_of_bodies();
   if (table == "mooring") {
     return Json::array({needs("body"), rule_for("body", {{"minLength", 1}, {"minItems", 1}, {"maxItems", 2}})});

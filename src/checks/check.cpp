@@ -41,6 +41,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_moving_walls(spec, boundary, fluid));
   if (!has_error(findings)) {
     append(findings, check_damping(spec, boundary, fluid));
+    append(findings, check_wave_zones<Dim>(spec));
     append(findings, check_probes(spec, boundary, fluid));
   }
   // Both faces of a plate, for one, have the same finding.

@@ -110,6 +110,10 @@ Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary);
 /// Warning: a gate or a wave maker that starts after the end of the run.
 Findings check_late_starts(const CaseSpec& spec);
 
+/// Warning: a zone that reflects waves, or whose own waves the particles do not resolve.
+template <int Dim>
+Findings check_wave_zones(const CaseSpec& spec);
+
 /// Error: a damping zone where no water can come.
 template <int Dim>
 Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);

@@ -14,6 +14,9 @@ Findings check_late_starts(const CaseSpec& spec) {
   for (const WaveMakerTable& maker : spec.wave_makers) {
     if (maker.waves != WaveKind::none) check(CaseLabel("wave_maker", maker.name), maker.start);
   }
+  for (const DampingTable& zone : spec.damping) {
+    if (zone.waves != WaveKind::none) check(CaseLabel("damping", zone.name), zone.start);
+  }
   return findings;
 }
 

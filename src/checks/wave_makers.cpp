@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "checks/checks.h"
+#include "geometry/from_spec.h"
 #include "motion/wave_maker.h"
+#include "motion/wave_theory.h"
+#include "motion/wave_zone.h"
 
 namespace tailwater {
 namespace {
@@ -10,6 +14,8 @@ namespace {
 constexpr double reach = 4.0;         // dx, in front of a plate, where the water is looked at
 constexpr double most_error = 0.1;    // of the depth
 constexpr double most_columns = 1.0;  // dx; of the same
+constexpr double most_plate_reflection = 0.1;
+constexpr double most_zone_reflection = 0.05;
 
 /// Height [m] of the water in front of a plate above its foot, over all ranks; none where there is no water.
 template <int Dim>
@@ -27,14 +33,26 @@ std::optional<double> depth_at(const WavePlate<Dim>& plate, const FluidParticles
 }
 
 /// Waves that the particles do not resolve.
-Findings check_height(const WaveMakerTable& maker, double dx) {
-  if (maker.waves == WaveKind::none || maker.height >= lowest_resolved_wave * dx) return {};
+Findings check_height(const WaveKeys& waves, const CaseLabel& owner, double dx) {
+  if (waves.waves == WaveKind::none || waves.height >= lowest_resolved_wave * dx) return {};
   return {Finding::warning(
       {"{} = {:.4g} is {:.2g} spacings: waves lower than {:g} spacings are not resolved, and their heights are not to "
        "be trusted",
-       CaseLabel("wave_maker", maker.name).with_key("height"), Amount{maker.height, "m"}, maker.height / dx,
-       lowest_resolved_wave},
-      {"use a spacing of at most {:.3g} m, better a tenth of the height", 0.99 * maker.height / lowest_resolved_wave})};
+       owner.with_key("height"), Amount{waves.height, "m"}, waves.height / dx, lowest_resolved_wave},
+      {"use a spacing of at most {:.3g} m, better a tenth of the height", 0.99 * waves.height / lowest_resolved_wave})};
+}
+
+/// A plate whose own theory says that it absorbs badly.
+Findings check_absorption(const WaveMakerTable& maker, double gravity) {
+  if (maker.absorption == Absorption::none || maker.period == 0.0) return {};
+  const double omega = 2.0 * std::numbers::pi / maker.period;
+  const double reflection = plate_reflection(maker.type, omega, gravity, maker.depth);
+  if (reflection <= most_plate_reflection) return {};
+  return {
+      Finding::warning({"{} sends back {:.0f} % of the waves that come to it with its period of {:.4g} (kh = {:.3g})",
+                        CaseLabel("wave_maker", maker.name), 100.0 * reflection, Amount{maker.period, "s"},
+                        wave_number(omega, gravity, maker.depth) * maker.depth},
+                       {"replace it with a [[damping]] zone, which makes and absorbs waves of any depth"})};
 }
 
 }  // namespace
@@ -44,7 +62,8 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
   Findings findings;
   const double dx = spec.particles.spacing;
   for (const WaveMakerTable& maker : spec.wave_makers) {
-    append(findings, check_height(maker, dx));
+    append(findings, check_height(maker, CaseLabel("wave_maker", maker.name), dx));
+    append(findings, check_absorption(maker, gravity_of<Dim>(spec).norm()));
     const std::optional<double> depth = depth_at(WavePlate<Dim>(spec, maker), fluid, dx);
     if (!depth || std::abs(*depth - maker.depth) <= std::max(most_error * maker.depth, most_columns * dx)) continue;
     findings.push_back(
@@ -56,6 +75,33 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
   return findings;
 }
 
+template <int Dim>
+Findings check_wave_zones(const CaseSpec& spec) {
+  Findings findings;
+  const double gravity = gravity_of<Dim>(spec).norm();
+  for (const DampingTable& zone : spec.damping) {
+    const CaseLabel owner("damping", zone.name);
+    append(findings, check_height(zone, owner, spec.particles.spacing));
+    const WaveZone<Dim> made(spec, zone);  // throws where the waves break
+    const std::optional<ZoneWaves> waves = waves_at(spec, zone);
+    if (!waves || gravity == 0.0) continue;
+    const ZoneEstimate estimate =
+        estimate_zone(waves->omega, gravity, waves->depth, length_of(zone), strength_of(zone, *waves, gravity));
+    const double error = made.has_waves() ? estimate.worse() : estimate.reflection;
+    if (error <= most_zone_reflection) continue;
+    const double k = wave_number(waves->omega, gravity, waves->depth);
+    findings.push_back(Finding::warning(
+        {"{} is {:.3g} long, {:.2g} of the wavelength: it reflects {:.0f} % of waves of kh = {:.3g}{}", owner,
+         Amount{length_of(zone), "m"}, length_of(zone) * k / (2.0 * std::numbers::pi), 100.0 * estimate.reflection,
+         k * waves->depth,
+         made.has_waves() ? fmt::format(", and its own waves are {:.0f} % off", 100.0 * estimate.leak) : ""},
+        {"make the zone {:.3g} m long, one and a half wavelengths, and leave out strength",
+         3.0 * std::numbers::pi / k}));
+  }
+  return findings;
+}
+
 TAILWATER_IN_2D_AND_3D(check_wave_makers);
+TAILWATER_IN_2D_AND_3D(check_wave_zones);
 
 }  // namespace tailwater

@@ -35,11 +35,17 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   for (const auto& part : flow.parts) part->follow_friction(flow, walls, predicted.velocity_gradient, dt);
 }
 
-/// Slows the water down at the rates of the parts. The step ends with (u + dt a)/(1 + rate dt).
+/// Relaxes the velocity to rest, or to the targets of the parts, at the rates of the parts. The step ends with
+/// (u + dt a + dt drive)/(1 + rate dt).
 template <int Dim>
 void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::vector<Vec<Dim>>& acceleration) {
   std::vector<double> rate;
-  for (const auto& part : flow.parts) part->add_damping_rate(flow, start, rate);
+  std::vector<Vec<Dim>> drive;
+  for (const auto& part : flow.parts) {
+    part->add_damping_rate(flow, start, rate);
+    part->add_relaxation(flow, start, dt, drive);
+  }
+  for_each(drive.size(), [&](std::size_t i) { acceleration[i] += drive[i]; });
   for_each(rate.size(), [&](std::size_t i) {
     if (rate[i] > 0.0) acceleration[i] = (acceleration[i] - rate[i] * start.velocity[i]) / (1.0 + rate[i] * dt);
   });

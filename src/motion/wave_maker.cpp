@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
-#include "base/random.h"
 #include "geometry/from_spec.h"
+#include "motion/second_order.h"
+#include "motion/wave_components.h"
 #include "motion/wave_theory.h"
 
 namespace tailwater {
@@ -14,33 +16,18 @@ namespace {
 /// A solitary wave begins where it is this share of its height: sech^2 of this phase, 0.2 %.
 constexpr double phase_at_start = -3.8;
 
-/// [peak frequency]; between them lie 99.8 % of the energy of a JONSWAP spectrum.
-constexpr double lowest_frequency = 0.5;
-constexpr double highest_frequency = 3.0;
-
-/// Sines of irregular waves.
-constexpr int components = 200;
-
-/// Largest height of a periodic wave over its length, and over tanh kh: R. Miche (1944).
-constexpr double steepest = 0.142;
-
 /// Periods after which an absorbing plate has come back. Long beside a period, so that it hardly matters for the waves.
 constexpr double periods_remembered = 20.0;
 
 /// [dx]; the gauge of an absorbing plate is this far in front of it, and half as wide on each side.
 constexpr double gauge_distance = 2.0;
 
+/// kh; in deeper water the waves of second order no longer matter, and their hyperbolic functions would overflow.
+constexpr double deepest_second_order = 20.0;
+
 double sech_squared(double x) {
   const double cosh_x = std::cosh(std::min(std::abs(x), 300.0));
   return 1.0 / (cosh_x * cosh_x);
-}
-
-/// The shape of the JONSWAP spectrum over f/f_p, up to a factor: K. Hasselmann et al. (1973).
-double jonswap(double f, double peak_enhancement) {
-  const double width = f <= 1.0 ? 0.07 : 0.09;
-  const double off = (f - 1.0) / width;
-  return std::pow(f, -5.0) * std::exp(-1.25 * std::pow(f, -4.0)) *
-         std::pow(peak_enhancement, std::exp(-0.5 * off * off));
 }
 
 double gain_of(const WaveMakerTable& maker, double gravity) {
@@ -93,46 +80,33 @@ PeriodicWaves::PeriodicWaves(const WaveMakerTable& maker, double gravity, double
   if (maker.waves == WaveKind::regular) {
     const double omega = 2.0 * std::numbers::pi / maker.period;
     sines_.push_back(sine(omega, 0.5 * maker.height, 0.0));
-    if (maker.type == MakerType::flap) return;
-    // O.S. Madsen (1971), (20): the free wave of twice the frequency that the plate must not make.
-    const double k = sines_.front().wave_number;
-    const double H = maker.height;
-    const double y = std::min(k * h, 100.0);
-    const double sinh_y = std::sinh(y);
-    const double stroke = H * H / (32.0 * h) *
-                          (3.0 * std::cosh(y) / (sinh_y * sinh_y * sinh_y) - 2.0 * sines_.front().stroke / (0.5 * H));
-    const double bound = H * H * k / 16.0 * std::cosh(y) * (2.0 + std::cosh(2.0 * y)) / (sinh_y * sinh_y * sinh_y);
-    sines_.push_back({2.0 * omega, 2.0 * k, 0.0, stroke, bound, 0.0});
+    add_second_harmonic(maker, gravity);
     return;
   }
-  const auto seed = static_cast<std::uint64_t>(maker.seed);
-  const double width = (highest_frequency - lowest_frequency) / components;
-  double energy = 0.0;
-  std::vector<double> amplitudes;
-  std::vector<double> frequencies;
-  for (int n = 0; n < components; ++n) {
-    // Anywhere in its own bin, so that the waves do not repeat themselves.
-    const double f = lowest_frequency + width * (n + 0.5 + 0.5 * random_number(seed, static_cast<std::uint64_t>(n), 0));
-    frequencies.push_back(f);
-    amplitudes.push_back(std::sqrt(2.0 * jonswap(f, maker.peak_enhancement) * width));
-    energy += 0.5 * amplitudes.back() * amplitudes.back();
-  }
-  const double factor = 0.25 * maker.height / std::sqrt(energy);  // H_m0 = 4 sqrt(m_0)
-  for (int n = 0; n < components; ++n) {
-    const double phase = std::numbers::pi * random_number(seed, static_cast<std::uint64_t>(n), 1);
-    sines_.push_back(sine(2.0 * std::numbers::pi * frequencies[n] / maker.period, factor * amplitudes[n], phase));
+  for (const WaveComponent& part : wave_components(maker, gravity, h)) {
+    sines_.push_back(sine(part.omega, part.amplitude, part.phase));
   }
 }
 
-/// Smooth growth from 0 to 1.
-double PeriodicWaves::share(double since) const {
-  return since >= ramp_ ? 1.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * since / ramp_));
+void PeriodicWaves::add_second_harmonic(const WaveMakerTable& maker, double gravity) {
+  const double h = maker.depth;
+  const double omega = sines_.front().omega;
+  const double k = sines_.front().wave_number;
+  if (k * h > deepest_second_order) return;
+  // X sin(omega t) is the real part of -i X exp(i omega t).
+  const std::complex<double> stroke =
+      second_harmonic_stroke(maker.type, omega, std::complex<double>(0.0, -sines_.front().stroke), gravity, h);
+  sines_.push_back({2.0 * omega, 2.0 * k, std::arg(stroke) + 0.5 * std::numbers::pi, std::abs(stroke), 0.0, 0.0});
+  const double sinh_y = std::sinh(k * h);
+  const double bound = maker.height * maker.height * k / 16.0 * std::cosh(k * h) * (2.0 + std::cosh(2.0 * k * h)) /
+                       (sinh_y * sinh_y * sinh_y);
+  sines_.push_back({2.0 * omega, 2.0 * k, 0.0, 0.0, bound, 0.0});
 }
 
 double PeriodicWaves::stroke(double since) const {
   double sum = 0.0;
   for (const Sine& sine : sines_) sum += sine.stroke * std::sin(sine.omega * since + sine.phase);
-  return share(since) * sum;
+  return ramp_at(since, ramp_) * sum;
 }
 
 double PeriodicWaves::elevation(double since, double ahead) const {
@@ -142,7 +116,7 @@ double PeriodicWaves::elevation(double since, double ahead) const {
     const double angle = sine.omega * since + sine.phase;
     sum += sine.elevation * std::cos(angle - sine.wave_number * x) + sine.near_field * sine.stroke * std::sin(angle);
   }
-  return share(since) * sum;
+  return ramp_at(since, ramp_) * sum;
 }
 
 MakerLaw::MakerLaw(const WaveMakerTable& maker, double gravity, double gauge)
@@ -204,8 +178,7 @@ WavePlate<Dim>::WavePlate(const CaseSpec& spec, const WaveMakerTable& maker)
                     {"give a higher `to`, the foot as `from`, or correct depth"});
   }
   if (maker.waves == WaveKind::regular) {
-    const double k = wave_number(2.0 * std::numbers::pi / maker.period, gravity.norm(), depth);
-    const double highest = steepest * 2.0 * std::numbers::pi / k * std::tanh(k * depth);
+    const double highest = breaking_height(2.0 * std::numbers::pi / maker.period, gravity.norm(), depth);
     if (maker.height > highest) {
       throw CaseError({"{} of {:.4g} is too much for its period of {:.4g} s: such waves break at {:.4g} m",
                        owner.with_key("height"), Amount{maker.height, "m"}, maker.period, highest},

@@ -50,7 +50,9 @@ class PeriodicWaves {
     double elevation;   ///< m; amplitude of the wave
     double near_field;  ///< elevation that stays near the plate, over the plate's displacement
   };
-  double share(double since) const;
+
+  /// The bound wave of second order, and the motion that makes no free wave beside it.
+  void add_second_harmonic(const WaveMakerTable& maker, double gravity);
 
   double ramp_;
   std::vector<Sine> sines_;

@@ -9,6 +9,9 @@ namespace {
 /// Terms of the near field that are kept. They decay as exp(-j pi x/h): half a depth away the sixth is 1e-4 of itself.
 constexpr int near_field_terms = 6;
 
+/// Largest height of a periodic wave over its length, and over tanh kh: R. Miche (1944).
+constexpr double steepest = 0.142;
+
 /// The root of omega^2 h/g = -y tan y between (j - 1/2) pi and j pi, for j = 1, 2, ...: there y tan y rises from minus
 /// infinity to 0.
 double near_field_root(double omega2_h_over_g, int j) {
@@ -35,6 +38,18 @@ double wave_number(double omega, double gravity, double depth) {
   return y / depth;
 }
 
+double near_field_wave_number(double omega, double gravity, double depth, int j) {
+  return near_field_root(omega * omega * depth / gravity, j) / depth;
+}
+
+DepthShape::DepthShape(double a, double z, double h) {
+  const double up = std::exp(a * (z - h));
+  const double down = std::exp(-a * (z + h));
+  const double whole = 1.0 + std::exp(-2.0 * a * h);
+  cosh = (up + down) / whole;
+  sinh = (up - down) / whole;
+}
+
 double MakerTransfer::near_field_at(double distance) const {
   double sum = 0.0;
   for (const NearField& term : near_field) sum += term.share * std::exp(-term.wave_number * distance);
@@ -55,6 +70,17 @@ MakerTransfer maker_transfer(MakerType type, double omega, double gravity, doubl
     transfer.near_field.push_back({root / depth, 4.0 * std::sin(root) * s / (2.0 * root + std::sin(2.0 * root))});
   }
   return transfer;
+}
+
+double plate_reflection(MakerType type, double omega, double gravity, double depth) {
+  const MakerTransfer transfer = maker_transfer(type, omega, gravity, depth);
+  const double near = transfer.near_field_at(0.0);
+  return std::abs(near) / std::hypot(2.0 * transfer.wave, near);
+}
+
+double breaking_height(double omega, double gravity, double depth) {
+  const double k = wave_number(omega, gravity, depth);
+  return steepest * 2.0 * std::numbers::pi / k * std::tanh(k * depth);
 }
 
 }  // namespace tailwater

@@ -11,6 +11,15 @@ namespace tailwater {
 /// The wave number k [1/m] of a wave of angular frequency `omega` [1/s]: omega^2 = g k tanh kh.
 double wave_number(double omega, double gravity, double depth);
 
+/// The wave number k_j [1/m], j = 1, 2, ..., of the waves beside a plate that do not travel: omega^2 = -g k tan kh.
+double near_field_wave_number(double omega, double gravity, double depth, int j);
+
+/// cosh(a z)/cosh(a h) and sinh(a z)/cosh(a h), without overflow: the shape of a wave over the height z above the bed.
+struct DepthShape {
+  DepthShape(double a, double z, double h);
+  double cosh, sinh;
+};
+
 /// What a plate that oscillates by X sin(omega t) at the still water's level makes: the wave a cos(omega t - k x), and
 /// beside it the elevation X sin(omega t) sum c_j exp(-k_j x), which does not travel.
 struct MakerTransfer {
@@ -26,5 +35,11 @@ struct MakerTransfer {
 };
 
 MakerTransfer maker_transfer(MakerType type, double omega, double gravity, double depth);
+
+/// Fraction of the amplitude of waves that an absorbing plate sends back, if its gain is that of their frequency.
+double plate_reflection(MakerType type, double omega, double gravity, double depth);
+
+/// The largest height [m] of waves of angular frequency `omega` [1/s]: R. Miche (1944).
+double breaking_height(double omega, double gravity, double depth);
 
 }  // namespace tailwater

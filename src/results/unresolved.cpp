@@ -44,8 +44,9 @@ ColumnDigest connected_surface(const ProbeTable& probe, const CaseSpec& spec, co
 std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder) {
   const double dx = spec.particles.spacing;
   const double lowest = lowest_resolved_wave * dx;
+  const auto makes_waves = [](const WaveKeys& waves) { return waves.waves != WaveKind::none; };
   const bool has_waves =
-      std::ranges::any_of(spec.wave_makers, [](const WaveMakerTable& maker) { return maker.waves != WaveKind::none; });
+      std::ranges::any_of(spec.wave_makers, makes_waves) || std::ranges::any_of(spec.damping, makes_waves);
   Gauges waves, films;
   for (const ProbeTable& probe : spec.probes) {
     if (probe.type != ProbeType::depth && probe.type != ProbeType::run_up) continue;

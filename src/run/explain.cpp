@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "case/named_numbers.h"
+#include "motion/wave_theory.h"
+#include "motion/wave_zone.h"
 #include "results/progress.h"
 
 namespace tailwater {
@@ -86,7 +90,7 @@ std::string about_walls(const CaseSpec& spec) {
   return fmt::format("Walls are {}.", listed(walls));
 }
 
-void add_driven_walls(const CaseSpec& spec, std::vector<std::string>& sentences) {
+void add_gates(const CaseSpec& spec, std::vector<std::string>& sentences) {
   for (const GateTable& gate : spec.gates) {
     const std::string how = gate.motion == GateMotion::speed ? fmt::format("at {:.4g} m/s", gate.speed)
                             : gate.motion == GateMotion::acceleration
@@ -94,15 +98,9 @@ void add_driven_walls(const CaseSpec& spec, std::vector<std::string>& sentences)
                                 : "as " + gate.file + " says";
     sentences.push_back(fmt::format("Gate '{}' begins to move at {:.4g} s, {}.", gate.name, gate.start, how));
   }
-  for (const WaveMakerTable& maker : spec.wave_makers) {
-    std::string waves = fmt::format("makes {} waves {:.4g} m high", name_of(maker.waves), maker.height);
-    if (maker.waves == WaveKind::none) waves = "only absorbs";
-    if (maker.waves == WaveKind::solitary) waves = fmt::format("makes a solitary wave {:.4g} m high", maker.height);
-    if (maker.period > 0.0 && maker.waves != WaveKind::none)
-      waves += fmt::format(" with a period of {:.4g} s", maker.period);
-    sentences.push_back(fmt::format("Wave maker '{}', a {} in water {:.4g} m deep, {}.", maker.name,
-                                    name_of(maker.type), maker.depth, waves));
-  }
+}
+
+void add_bodies(const CaseSpec& spec, std::vector<std::string>& sentences) {
   for (const BodyTable& body : spec.bodies) {
     const auto lines = std::ranges::count_if(spec.moorings, [&](const MooringTable& mooring) {
       return std::ranges::find(mooring.bodies, body.name) != mooring.bodies.end();
@@ -111,6 +109,38 @@ void add_driven_walls(const CaseSpec& spec, std::vector<std::string>& sentences)
         fmt::format("Body '{}' of {:.4g} kg{} floats, free in {}{}.", body.name, body.mass, per_width(spec),
                     body.free.empty() ? "no way" : listed(body.free),
                     lines > 0 ? fmt::format(", on {}", plural(static_cast<double>(lines), "line")) : ""));
+  }
+}
+
+/// Wave makers and zones, with the waves that they reflect by their own theory.
+void add_waves(const CaseSpec& spec, std::vector<std::string>& sentences) {
+  const double gravity = gravity_magnitude(spec.physics);
+  for (const WaveMakerTable& maker : spec.wave_makers) {
+    std::string waves = fmt::format("makes {} waves {:.4g} m high", name_of(maker.waves), maker.height);
+    if (maker.waves == WaveKind::none) waves = "only absorbs";
+    if (maker.waves == WaveKind::solitary) waves = fmt::format("makes a solitary wave {:.4g} m high", maker.height);
+    if (maker.period > 0.0 && maker.waves != WaveKind::none)
+      waves += fmt::format(" with a period of {:.4g} s", maker.period);
+    if (maker.absorption == Absorption::active && maker.period > 0.0 && gravity > 0.0) {
+      const double omega = 2.0 * std::numbers::pi / maker.period;
+      waves += fmt::format(" and sends back {:.2g} % of waves of this period",
+                           100.0 * plate_reflection(maker.type, omega, gravity, maker.depth));
+    }
+    sentences.push_back(fmt::format("Wave maker '{}', a {} in water {:.4g} m deep, {}.", maker.name,
+                                    name_of(maker.type), maker.depth, waves));
+  }
+  for (const DampingTable& zone : spec.damping) {
+    const std::optional<ZoneWaves> waves = waves_at(spec, zone);
+    if (!waves || gravity == 0.0) continue;
+    const double strength = strength_of(zone, *waves, gravity);
+    const ZoneEstimate estimate = estimate_zone(waves->omega, gravity, waves->depth, length_of(zone), strength);
+    const std::string made = zone.waves != WaveKind::none
+                                 ? fmt::format("makes {} waves {:.4g} m high, within {:.2g} % of theory, and ",
+                                               name_of(zone.waves), zone.height, 100.0 * estimate.leak)
+                                 : "";
+    sentences.push_back(fmt::format(
+        "Zone '{}' {}reflects {:.2g} % of waves of kh = {:.3g}; its strength is {:.3g} 1/s.", zone.name, made,
+        100.0 * estimate.reflection, wave_number(waves->omega, gravity, waves->depth) * waves->depth, strength));
   }
 }
 
@@ -188,7 +218,9 @@ std::vector<std::string> explain_case(const CaseSpec& spec, const RunEstimate& e
                                      about_water(spec, estimate), about_walls(spec)};
   if (!spec.general.datum.empty()) sentences.push_back(fmt::format("The datum of heights is {}.", spec.general.datum));
   if (!spec.general.crs.empty()) sentences.push_back(fmt::format("Coordinates are in {}.", spec.general.crs));
-  add_driven_walls(spec, sentences);
+  add_gates(spec, sentences);
+  add_waves(spec, sentences);
+  add_bodies(spec, sentences);
   add_open_ends(spec, sentences);
   add_air(spec, sentences);
   sentences.push_back(about_physics(spec));

@@ -214,6 +214,22 @@ const std::vector<BadInput> table{
      required_keys + water + "[[damping]]\nmin = [1, 0]\nmax = [0, 1]\nstrength = 1\n",
      "8:7",
      {"damping[0].max", "max above min"}},
+    {"zone_of_a_solitary_wave",
+     required_keys + water +
+         "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nwaves = \"solitary\"\nheight = 0.1\nperiod = 1\ndepth = 1\n",
+     "9:9",
+     {"damping[0].waves", "use a piston"}},
+    {"zone_of_waves_without_a_level",
+     required_keys + water +
+         "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nwaves = \"regular\"\nheight = 0.1\nperiod = 1\ndepth = 1\n",
+     "6:1",
+     {"damping[0].level"}},
+    {"focus_of_one_number",
+     required_keys + water +
+         "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nwaves = \"focused\"\nheight = 0.1\nperiod = 1\ndepth = 1\nlevel = "
+         "1\nfocus = [3]\n",
+     "14:9",
+     {"damping[0].focus", "two numbers"}},
     {"damping_towards_the_third_dimension",
      required_keys + water + "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nstrength = 1\ntowards = \"+z\"\n",
      "10:11",

@@ -690,6 +690,37 @@ TEST(Check, ADampingZoneWhereNoWaterComesIsRefused) {
   expect_only(check(spec), Severity::error, {"damping from (1.1, 0) to (1.5, 1) is outside of the case"});
 }
 
+TEST(Check, AZoneThatReflectsIsReported) {
+  CaseSpec spec = tank();
+  DampingTable zone;
+  zone.min = {0.0, 0.0};
+  zone.max = {1.0, 1.0};
+  zone.period = 0.5;  // of waves 0.39 m long
+  zone.depth = 0.3;
+  spec.damping = {zone};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.damping[0].min[0] = 0.8;
+  expect_only(check(spec), Severity::warning,
+              {"damping is 0.2 m long, 0.51 of the wavelength: it reflects", "0.585 m long"});
+}
+
+TEST(Check, APlateThatAbsorbsBadlyIsReported) {
+  CaseSpec spec = tank();
+  WaveMakerTable maker;
+  maker.name = "piston";
+  maker.from = {0, 0};
+  maker.to = {0, 1};
+  maker.depth = 0.4;
+  maker.waves = WaveKind::none;
+  maker.absorption = Absorption::active;
+  maker.period = 2.0;  // kh = 0.71: 1 %
+  spec.wave_makers = {maker};
+  const auto fluid = make_fluid_particles<2>(spec, make_boundary<2>(spec));
+  EXPECT_TRUE(check_wave_makers<2>(spec, fluid).empty());
+  spec.wave_makers[0].period = 0.7;
+  expect_only(check_wave_makers<2>(spec, fluid), Severity::warning, {"wave_maker 'piston' sends back", "kh = 3.29"});
+}
+
 TEST(Check, AStartAfterTheEndIsTold) {
   CaseSpec spec = tank();
   spec.time.end = 1.0;

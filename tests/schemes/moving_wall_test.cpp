@@ -6,7 +6,6 @@
 #include <string>
 
 #include "case/driven_walls.h"
-#include "parts/damping_zones.h"
 #include "parts/wave_makers.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
@@ -347,18 +346,6 @@ TEST(WaveMaker, MovesAsItWasSteered) {
   }
   EXPECT_LT(expected, -1e-3);
   expect_all_in_front(flow);
-}
-
-TEST(DampingZone, GrowsAsTheSquareTowardsItsSide) {
-  DampingTable table;
-  table.min = {1.0, 0.0};
-  table.max = {3.0, 1.0};
-  table.strength = 8.0;
-  EXPECT_NEAR(DampingZone<2>(table).rate_at({2.0, 0.5}), 2.0, 1e-12);
-  EXPECT_EQ(DampingZone<2>(table).rate_at({0.9, 0.5}), 0.0);
-  EXPECT_EQ(DampingZone<2>(table).rate_at({2.0, 1.1}), 0.0);
-  table.towards = AxisDirection::minus_x;
-  EXPECT_NEAR(DampingZone<2>(table).rate_at({1.5, 0.5}), 8.0 * 9.0 / 16.0, 1e-12);
 }
 
 }  // namespace
