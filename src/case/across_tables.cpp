@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "case/key_use.h"
 #include "case/named_numbers.h"
 #include "case/nearest_name.h"
+#include "case/rheology.h"
 
 namespace tailwater {
 namespace {
@@ -209,6 +211,74 @@ void check_porous(const CaseSpec& spec, const toml::table& root, Problems& probl
   }
 }
 
+/// What a thick liquid is not computed with, and the two numbers of [physics] that it replaces.
+void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root, const LiquidTable& liquid,
+                                  Problems& problems) {
+  const auto check_number = [&](const char* key, double of_liquid) {
+    const std::optional<double> given = root["physics"][key].value<double>();
+    if (!given || *given == of_liquid) return;
+    problems.wrong(CaseLabel("physics").with_key(key), *root["physics"][key].node(),
+                   fmt::format("liquid \"{}\" has its own; remove this key", liquid.name));
+  };
+  check_number("density", liquid.density);
+  check_number("viscosity", kinematic_viscosity(liquid));
+  if (!traits_of(spec).no_floating.empty()) {
+    problems.add(&root["liquid"][0].node()->source(), CaseLabel("liquid", 0),
+                 fmt::format("liquid[0]: liquids are possible only with scheme.formulation = \"{}\" and scheme.name = "
+                             "\"{}\", and without study.displacement; choose these, or remove the liquid",
+                             name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
+  }
+  const auto refuse = [&](const char* table, bool is_there, std::string_view what) {
+    if (!is_there) return;
+    problems.add(&root[table][0].node()->source(), CaseLabel(table, 0),
+                 fmt::format("{}[0]: {} not computed with liquid \"{}\"; remove the table, or the liquid", table, what,
+                             liquid.name));
+  };
+  refuse("porous", !spec.porous.empty(), "porous layers are");
+  refuse("body", !spec.bodies.empty(), "floating bodies are");
+  refuse("inlet", !spec.inlets.empty(), "inlets are");
+  refuse("outlet", !spec.outlets.empty(), "outlets are");
+  refuse("wave_maker", !spec.wave_makers.empty(), "wave makers are");
+  if (spec.physics.channel_width > 0.0) {
+    problems.wrong(CaseLabel("physics").with_key("channel_width"), *root["physics"]["channel_width"].node(),
+                   fmt::format("friction of side walls is not computed with liquid \"{}\"; remove the key, or compute "
+                               "in three dimensions",
+                               liquid.name));
+  }
+  if (spec.air.pockets != AirPockets::none) {
+    problems.wrong(CaseLabel("air").with_key("pockets"), *root["air"]["pockets"].node(),
+                   fmt::format("enclosed air is not computed with liquid \"{}\"; give \"{}\"", liquid.name,
+                               name_of(AirPockets::none)));
+  }
+}
+
+/// All water of a case is of one liquid, whose solve of viscous forces knows walls, but not what else acts on water.
+void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  const LiquidTable* const liquid = liquid_of(spec);
+  for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
+    const CaseLabel key = CaseLabel("fluid", k).with_key("liquid");
+    const toml::node* node = root["fluid"][k]["liquid"].node();
+    if (node == nullptr || spec.fluid[k].liquid.empty()) continue;
+    check_name(spec.fluid[k].liquid, spec.liquids, "liquid", key, *node, problems);
+  }
+  for (std::size_t k = 1; k < spec.fluid.size(); ++k) {
+    if (spec.fluid[k].liquid == spec.fluid[0].liquid) continue;
+    const CaseLabel key = CaseLabel("fluid", k).with_key("liquid");
+    problems.add(&root["fluid"][k].node()->source(), key,
+                 fmt::format("{} = \"{}\": {} is of \"{}\", and one case has one liquid; give both the same", key,
+                             spec.fluid[k].liquid, CaseLabel("fluid", 0).text(), spec.fluid[0].liquid));
+    return;
+  }
+  if (liquid == nullptr && !spec.fluid.empty() && !spec.fluid[0].liquid.empty()) return;
+  for (std::size_t k = 0; k < spec.liquids.size(); ++k) {
+    if (&spec.liquids[k] == liquid) continue;
+    problems.add(&root["liquid"][k].node()->source(), CaseLabel("liquid", k),
+                 fmt::format("liquid[{}]: no [[fluid]] is of \"{}\"; give a block liquid = \"{}\", or remove the table",
+                             k, spec.liquids[k].name, spec.liquids[k].name));
+  }
+  if (liquid != nullptr) check_surroundings_of_liquid(spec, root, *liquid, problems);
+}
+
 /// Studies change parts of the robust formulations; the published ones have none of these.
 void check_study(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const toml::table* study = root["study"].as_table();
@@ -248,6 +318,7 @@ void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems
   check_bodies(spec, root, problems);
   check_air(spec, root, problems);
   check_porous(spec, root, problems);
+  check_liquids(spec, root, problems);
   check_study(spec, root, problems);
   check_names_of_others(spec, root, problems);
 }

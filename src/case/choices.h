@@ -25,6 +25,11 @@ template <>
 inline constexpr auto choices<PorousResistance> = std::to_array<std::string_view>({"van-gent", "ergun",
                                                                                    "coefficients"});
 
+enum class Rheology { newtonian, power_law, bingham, herschel_bulkley, carreau };
+template <>
+inline constexpr auto choices<Rheology> = std::to_array<std::string_view>({"newtonian", "power-law", "bingham",
+                                                                           "herschel-bulkley", "carreau"});
+
 enum class WallShape { polyline, polygon, box, mesh, plate };
 template <>
 inline constexpr auto choices<WallShape> = std::to_array<std::string_view>({"polyline", "polygon", "box", "mesh",

@@ -14,6 +14,7 @@
 #include "case/nearest_name.h"
 #include "case/overrides.h"
 #include "case/problems.h"
+#include "case/rheology.h"
 #include "case/table_reader.h"
 #include "case/table_rules.h"
 
@@ -150,6 +151,10 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   if (context.problems.none()) check_across_tables(spec, root, context.problems);
   if (context.problems.none()) read_measurements(spec, root, context.problems);
   if (!context.problems.none()) throw CaseError(context.problems.findings());
+  if (const LiquidTable* const liquid = liquid_of(spec)) {
+    spec.physics.density = liquid->density;
+    spec.physics.viscosity = kinematic_viscosity(*liquid);
+  }
   spec.sources = reader.take_sources();
   append_driven_walls(spec);
   return spec;

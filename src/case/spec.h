@@ -125,6 +125,49 @@ struct PhysicsTable {
   }
 };
 
+/// A liquid that resists shear otherwise than water. Its law of viscosity is rheology.h.
+struct LiquidTable {
+  std::string name;
+  double density = 1000.0;
+  Rheology rheology = Rheology::newtonian;
+  double viscosity = 0.0;
+  double yield_stress = 0.0;
+  double consistency = 0.0;
+  double index = 1.0;
+  double high_shear_viscosity = 0.0;
+  double relaxation_time = 0.0;
+  double rest_viscosity = 0.0;
+
+  bool operator==(const LiquidTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name by which a [[fluid]] takes it (default: liquid1, liquid2, ...)");
+    v.number("density", self.density, "kg/m^3", Range::above(0.0), "Density");
+    v.choice("rheology", self.rheology,
+             "Law of the shear stress t for the shear rate s: viscosity s (newtonian), consistency s^index "
+             "(power-law), yield_stress + viscosity s (bingham), yield_stress + consistency s^index "
+             "(herschel-bulkley), or a viscosity that falls from one value at rest to another (carreau) "
+             "(docs/theory/rheology.md)");
+    v.number("viscosity", self.viscosity, "Pa s", Range::above(0.0),
+             "Dynamic viscosity; the plastic viscosity of a Bingham liquid, and the viscosity at rest of a Carreau "
+             "liquid");
+    v.number("yield_stress", self.yield_stress, "Pa", Range::at_least(0.0),
+             "Shear stress below which the liquid does not flow");
+    v.number("consistency", self.consistency, "Pa s^n", Range::above(0.0), "Factor of the power law; n is the index");
+    v.number("index", self.index, "", Range::above_up_to(0.0, 3.0),
+             "Exponent of the power law: below 1 the liquid thins with the shear rate, above 1 it thickens");
+    v.number("high_shear_viscosity", self.high_shear_viscosity, "Pa s", Range::at_least(0.0),
+             "Dynamic viscosity of a Carreau liquid at high shear rates");
+    v.number("relaxation_time", self.relaxation_time, "s", Range::above(0.0),
+             "Time of a Carreau liquid; its viscosity falls beyond the shear rate of 1 over this time");
+    v.number("rest_viscosity", self.rest_viscosity, "Pa s", Range::above(0.0),
+             "Largest viscosity that the yield stress, or thinning, gives the liquid at rest, with which it creeps "
+             "below the yield stress (default: 1000 times the viscosity at the shear rate at which the yield stress "
+             "is half of the stress; without yield stress 1000 times the consistency)");
+  }
+};
+
 struct ParticlesTable {
   double spacing = 0.0;
   double jitter = 0.0;
@@ -248,6 +291,7 @@ struct FluidTable : PlacedFile {
   Coordinates seed;
   double level = 0.0;
   VectorField velocity;
+  std::string liquid;
 
   bool operator==(const FluidTable&) const = default;
 
@@ -266,6 +310,9 @@ struct FluidTable : PlacedFile {
     PlacedFile::describe(self, v);
     v.field("velocity", self.velocity, Variables::position, "m/s",
             "Initial velocity (default: at rest); expressions may use the particle's coordinates x, y, z");
+    v.text("liquid", self.liquid,
+           "Name of the [[liquid]] that the block is of; all blocks of a case are of one (default: water, with the "
+           "density and viscosity of [physics])");
   }
 };
 
@@ -741,12 +788,16 @@ inline bool may_bring_water(const OutletTable& outlet) { return outlet.level || 
 
 struct TimeTable {
   double end = 0.0;
+  double end_at_rest = 0.0;
 
   bool operator==(const TimeTable&) const = default;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.number("end", self.end, "s", Range::above(0.0), "Simulated time at which the run ends", Presence::required);
+    v.number("end_at_rest", self.end_at_rest, "m/s", Range::at_least(0.0),
+             "Speed below which the fluid is at rest: a run ends before `end` when it has moved and all of it has been "
+             "slower for a hundredth of `end`; 0: never");
   }
 };
 
@@ -1011,6 +1062,7 @@ struct CaseSpec {
   AirTable air;
   std::vector<PocketTable> pockets;
   std::vector<VentTable> vents;
+  std::vector<LiquidTable> liquids;
   ParticlesTable particles;
   DomainTable domain;
   std::vector<FluidTable> fluid;
@@ -1052,6 +1104,7 @@ struct CaseSpec {
     v.tables("pocket", self.pockets,
              "An enclosed space that starts at another pressure than the atmosphere's; one table each");
     v.tables("vent", self.vents, "An opening between an enclosed space and the atmosphere; one table each");
+    v.tables("liquid", self.liquids, "A thick or yielding liquid, such as mud or fresh concrete; one table each");
     v.table("particles", self.particles, "Resolution and initial arrangement");
     v.table("domain", self.domain, "Periodic directions");
     v.tables("fluid", self.fluid, "A block of fluid at the start; one table each");

@@ -11,6 +11,7 @@
 #include "case/formulation.h"
 #include "case/key_rules.h"
 #include "case/key_use.h"
+#include "case/rheology.h"
 
 namespace tailwater {
 
@@ -62,6 +63,11 @@ void set_defaults(PorousTable& porous, TableReader& reader) {
   if (porous.porosity > 0.0) porous.added_mass = added_mass_of_grains * (1.0 - porous.porosity) / porous.porosity;
 }
 
+void set_defaults(LiquidTable& liquid, TableReader& reader) {
+  reader.read_ahead(liquid, {"rheology", "viscosity", "consistency", "index", "yield_stress"});
+  liquid.rest_viscosity = default_rest_viscosity(liquid);
+}
+
 void set_defaults(ProbeTable& probe, TableReader& reader) {
   reader.read_ahead(probe, {"type"});
   if (probe.type == ProbeType::front || probe.type == ProbeType::discharge) probe.direction = along_x(reader);
@@ -100,6 +106,22 @@ void check(const PorousTable& porous, TableReader& reader) {
     reader.missing("linear",
                    "resistance = \"coefficients\" needs it: give linear (a) or quadratic (b) of the hydraulic gradient "
                    "a v + b v |v|, or both");
+  }
+}
+
+void check(const LiquidTable& liquid, TableReader& reader) {
+  if (liquid.rheology != Rheology::carreau) return;
+  const bool is_wrong =
+      reader.is_wrong("viscosity") || reader.is_wrong("high_shear_viscosity") || reader.is_wrong("index");
+  if (is_wrong) return;
+  if (reader.given("high_shear_viscosity") != nullptr && liquid.high_shear_viscosity >= liquid.viscosity) {
+    reader.wrong("high_shear_viscosity",
+                 "is not below the viscosity at rest, {:.6g} Pa s (viscosity); give a smaller one, or choose rheology "
+                 "= \"newtonian\"",
+                 liquid.viscosity);
+  }
+  if (liquid.index > 1.0) {
+    reader.wrong("index", "is above 1, with which the viscosity would rise beyond that at rest; give at most 1");
   }
 }
 

@@ -25,6 +25,7 @@ void set_defaults(OutletTable& outlet, TableReader& reader);
 void set_defaults(SchemeTable& scheme, TableReader& reader);
 void set_defaults(ProbeTable& probe, TableReader& reader);
 void set_defaults(PorousTable& porous, TableReader& reader);
+void set_defaults(LiquidTable& liquid, TableReader& reader);
 
 /// Reads the files that a sound table names. Points from a file become the table's own, and the name of a mesh file
 /// becomes absolute, so that the case does not depend on its folder any more.
@@ -52,6 +53,7 @@ void check(const BodyTable& body, TableReader& reader);
 void check(const MooringTable& mooring, TableReader& reader);
 void check(const DampingTable& damping, TableReader& reader);
 void check(const PorousTable& porous, TableReader& reader);
+void check(const LiquidTable& liquid, TableReader& reader);
 void check(const InletTable& inlet, TableReader& reader);
 void check(const OutletTable& outlet, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);

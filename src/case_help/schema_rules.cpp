@@ -176,6 +176,7 @@ Json file_rules_of_schema() {
   has_level_beyond["properties"]["outlet"] = {{"contains", {{"anyOf", Json::array({needs("level"), needs("file")})}}}};
   const Json has_bodies{{"required", Json::array({"body"})}, {"properties", {{"body", at_least(1)}}}};
   const Json has_layers{{"required", Json::array({"porous"})}, {"properties", {{"porous", at_least(1)}}}};
+  const Json has_liquids{{"required", Json::array({"liquid"})}, {"properties", {{"liquid", at_least(1)}}}};
   Json lets_bodies_float = rule_for("name", one_of({"farzin2014"}));
   lets_bodies_float["properties"]["formulation"] = one_of({"robust"});
   Json is_published = needs("scheme");
@@ -187,6 +188,7 @@ Json file_rules_of_schema() {
       {{"anyOf", Json::array({std::move(has_fluid), needs("inlet"), std::move(has_level_beyond)})}},
       if_then(has_bodies, rule_for("scheme", lets_bodies_float)),
       if_then(has_layers, rule_for("scheme", lets_bodies_float)),
+      if_then(has_liquids, rule_for("scheme", lets_bodies_float)),
       if_then(has_layers, rule_for("air", rule_for("pockets", one_of({"none"})))),
       if_then(std::move(is_published), rule_for("study", {{"maxProperties", 0}})),
       if_then(std::move(is_two_step), rule_for("study", has_studies)),

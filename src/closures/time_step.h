@@ -27,6 +27,9 @@ struct TimeStepRule {
   /// Speed [m/s] of the first rule.
   double limiting_speed(double speed) const { return std::max(std::min(speed, fastest), reference_speed); }
 
+  /// Whether a viscosity [m^2/s] limits the step of water at the reference speed more than that speed does.
+  bool is_viscous(double viscosity) const { return largest(0.0, viscosity) < largest(0.0, 0.0); }
+
   /// Largest step [s]; infinite when nothing moves and no force acts.
   double largest(double speed, double viscosity) const {
     const double infinite = std::numeric_limits<double>::infinity();

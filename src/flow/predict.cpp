@@ -14,7 +14,7 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   const Particles<Dim>& particles = flow.state.particles;
   const bool is_slippery =
       std::ranges::all_of(flow.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction == 0.0; });
-  if (setup.formulation.friction_is_viscous || is_slippery) return;
+  if (setup.formulation.friction_is_viscous || setup.has_implicit_viscosity || is_slippery) return;
 
   const std::vector<Vec<Dim>>& V = flow.state.wall_velocity;
   const std::vector<FrictionWall<Dim>> walls =

@@ -5,6 +5,7 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
+#include "case/rheology.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "motion/channel_end.h"
@@ -169,6 +170,12 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                     .reference_speed = reference_speed,
                     .viscous_share = formulation.viscous_share};
   if (reference_speed > 0.0) time_step_rule.fastest = formulation.fastest_over_reference * reference_speed;
+  const LiquidTable* const thick = liquid_of(spec);
+  has_implicit_viscosity =
+      thick != nullptr && (varies_with_shear(*thick) || time_step_rule.is_viscous(kinematic_viscosity(*thick)));
+  if (thick == nullptr) return;
+  liquid.density = thick->density;
+  liquid.viscosity.molecular = friction_law.viscosity = has_implicit_viscosity ? 0.0 : kinematic_viscosity(*thick);
 }
 
 TAILWATER_IN_2D_AND_3D(largest_depth);

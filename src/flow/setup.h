@@ -57,6 +57,9 @@ struct Setup {
   WallMotion<Dim> wall_motion;
   FrictionLaw friction_law;
   TimeStepRule time_step_rule;
+  /// Whether a part solves for the viscous forces and the friction of walls (rheology/thick_liquid.h): the viscosities
+  /// of `liquid` and `friction_law` are then 0.
+  bool has_implicit_viscosity = false;
 
   /// Whether missing neighbours count as air, so that nothing pulls near the surface.
   bool has_air() const { return formulation.surface_is_air && !is_closed; }

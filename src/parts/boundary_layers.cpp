@@ -115,7 +115,7 @@ std::unique_ptr<Part<Dim>> make_boundary_layers(const CaseSpec& /*spec*/, const 
                                                 const Boundary<Dim>& boundary) {
   const bool has_friction =
       std::ranges::any_of(boundary.walls, [](const WallProperties& wall) { return wall.friction > 0.0; });
-  if (!setup.formulation.has_eddy_viscosity || !has_friction) return nullptr;
+  if (!setup.formulation.has_eddy_viscosity || !has_friction || setup.has_implicit_viscosity) return nullptr;
   return std::make_unique<BoundaryLayers<Dim>>();
 }
 

@@ -8,12 +8,14 @@
 #include "parts/boundary_layers.h"
 #include "parts/damping_zones.h"
 #include "parts/domain_floor.h"
+#include "parts/rest_watch.h"
 #include "parts/section_counters.h"
 #include "parts/side_walls.h"
 #include "parts/wave_makers.h"
 #include "porous/porous_layers.h"
 #include "published/farmani2020.h"
 #include "published/farzin2014.h"
+#include "rheology/thick_liquid.h"
 #include "robust/formulation.h"
 
 namespace tailwater {
@@ -33,7 +35,7 @@ Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
   static constexpr std::array parts{
       make_open_ends_part<Dim>,   make_domain_floor<Dim>,    make_wave_makers<Dim>,     make_side_walls<Dim>,
       make_damping_zones<Dim>,    make_boundary_layers<Dim>, make_floating_bodies<Dim>, make_enclosed_air<Dim>,
-      make_section_counters<Dim>, make_porous_layers<Dim>,
+      make_section_counters<Dim>, make_porous_layers<Dim>,   make_thick_liquid<Dim>,    make_rest_watch<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

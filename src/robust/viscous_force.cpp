@@ -7,6 +7,7 @@ template <int Dim>
 void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient,
                                                   std::vector<Vec<Dim>>& acceleration) const {
   const Setup<Dim>& setup = flow.setup;
+  if (setup.has_implicit_viscosity) return;
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<double> viscosity(particles.size());
   const bool damps_noise = setup.formulation.noise_viscosity > 0.0;

@@ -6,6 +6,7 @@
 #include "base/for_each.h"
 #include "bodies/floating_bodies.h"
 #include "flow/stages.h"
+#include "parts/rest_watch.h"
 #include "published/make_flow.h"
 #include "schemes/advance.h"
 
@@ -34,6 +35,11 @@ void Simulation<Dim>::start() {
   guard_.require_sound_step(next_time_step(flow_));
   guard_.attempt(save_step_start(flow_), [&] { tailwater::start(flow_); });
   if (observer_ != nullptr) observer_->started(flow_);
+}
+
+template <int Dim>
+bool Simulation<Dim>::has_ended() const {
+  return flow_.state.time >= end_ || flow_.template part<RestWatch<Dim>>().is_at_rest();
 }
 
 template <int Dim>

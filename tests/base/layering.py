@@ -9,7 +9,7 @@ import sys
 
 
 CORE = {"flow", "pressure", "schemes", "robust"}
-PARTS = {"parts", "open_ends", "air", "bodies", "porous"}
+PARTS = {"parts", "open_ends", "air", "bodies", "porous", "rheology"}
 
 
 def room_order(src):

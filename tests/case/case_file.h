@@ -56,5 +56,6 @@ inline int line_count(const std::string& message) {
 /// The shortest valid case: the required keys, and one block of water in 2D.
 inline const std::string required_keys = "particles.spacing = 0.1\ntime.end = 1.0\n";
 inline const std::string water = "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\n";
+inline const std::string mud = water + "liquid = \"mud\"\n";
 
 }  // namespace tailwater

@@ -59,6 +59,16 @@ TEST(EffectiveCase, WithEveryShapeAndProbeReadsBack) {
       "[[probe]]\nname = \"i\"\ntype = \"volume\"\n");
 }
 
+TEST(EffectiveCase, WithALiquidReadsBack) {
+  for (const std::string law :
+       {"viscosity = 0.3\n", "rheology = \"bingham\"\nviscosity = 0.3\nyield_stress = 7\n",
+        "rheology = \"herschel-bulkley\"\nconsistency = 3\nindex = 0.4\nyield_stress = 7\nrest_viscosity = 1e4\n",
+        "rheology = \"power-law\"\nconsistency = 3\nindex = 1.4\n",
+        "rheology = \"carreau\"\nviscosity = 3\nindex = 0.4\nrelaxation_time = 0.1\n"}) {
+    expect_round_trip(required_keys + mud + "[[liquid]]\nname = \"mud\"\ndensity = 1234.5\n" + law);
+  }
+}
+
 TEST(EffectiveCase, WithPorousLayersReadsBack) {
   expect_round_trip(
       "parameters.H = 0.6\n" + required_keys + water +

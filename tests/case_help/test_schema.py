@@ -26,7 +26,8 @@ except ImportError:
 UNSEEN = {
     "two values": {
         "box_inside_out", "damping_inside_out", "gate_that_slants", "gate_with_the_wrong_sides", "gate_without_an_extent",
-        "level_of_a_fill_where_gravity_is_sideways", "outlet_without_extent", "period_backwards", "period_empty",
+        "level_of_a_fill_where_gravity_is_sideways", "liquid_beside_another_density", "liquid_that_thins_upwards",
+        "outlet_without_extent", "period_backwards", "period_empty",
         "porous_coefficients_without_gravity", "porous_inside_out", "probe_stretch_is_a_point", "probe_times_backwards",
         "region_upside_down", "wave_that_breaks_at_once", "less_than_a_vacuum", "vent_where_air_is_nothing", "fluid inside out",
         "wall without length"},
@@ -39,7 +40,8 @@ UNSEEN = {
         "unknown parameter", "discharge that jumps", "discharge without a value", "velocity that overflows"},
     "names": {
         "body_of_no_wall", "body_with_a_motion", "body_with_the_water_inside", "default_name_taken", "fluid_name_twice",
-        "gate_with_the_name_of_a_wall", "inlet_with_water_from_an_unknown_outlet", "mooring_of_no_body",
+        "gate_with_the_name_of_a_wall", "liquid_in_a_porous_layer", "liquid_that_is_unknown",
+        "liquid_that_no_block_is_of", "two_liquids", "inlet_with_water_from_an_unknown_outlet", "mooring_of_no_body",
         "probe_name_twice", "wall_of_two_bodies", "duplicate names of walls and fluids", "duplicate names of probes"},
     "files": {"hydrograph that is not there", "measurement_in_no_file", "measurement_in_a_device", "measurement_in_a_file_that_is_not_there"},
     "no number is equal to it": {"not_a_number", "not a number"},

@@ -1,0 +1,141 @@
+#include "rheology/thick_liquid.h"
+
+#include <algorithm>
+
+#include "base/for_each.h"
+#include "case/rheology.h"
+#include "flow/flow.h"
+#include "flow/stages.h"
+#include "rheology/viscous_solve.h"
+
+namespace tailwater {
+namespace {
+
+constexpr double tolerance = 1e-5;
+constexpr int most_iterations = 2000;
+
+/// Passes in which the law follows the velocity of the same step, at most, and the change of the velocity at which they
+/// end.
+constexpr int most_passes = 3;
+constexpr double settled_change = 0.01;
+
+}  // namespace
+
+/// By the law, at the shear rates of a velocity that is up to date on ghosts.
+template <int Dim>
+void ThickLiquid<Dim>::find_viscosity(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity) {
+  const Particles<Dim>& particles = flow.state.particles;
+  shear_rate_.resize(particles.owned);
+  forces_.find_shear_rates(flow, velocity, shear_rate_);
+  std::vector<double> viscosity(particles.owned, 0.0);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) viscosity[i] = viscosity_at(liquid_, shear_rate_[i]);
+  });
+  forces_.set_viscosity(flow, viscosity);
+}
+
+/// Finds v. `force` [m/s^2] is that of gravity and the last pressure.
+template <int Dim>
+void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt,
+                             std::span<const Vec<Dim>> predicted) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const double density = flow.setup.liquid.density;
+  std::vector<double> inertia(particles.owned, 0.0);
+  std::vector<Vec<Dim>> impulse(particles.owned, Vec<Dim>::Zero());
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    inertia[i] = density * particles.volume[i] / dt;
+    impulse[i] = inertia[i] * (predicted[i] + dt * force[i]);
+  });
+  velocity_ = particles.velocity;
+  iterations_ = 0;
+  std::vector<Vec<Dim>> rhs(particles.owned);
+  for (int pass = 0; pass < most_passes; ++pass) {
+    find_viscosity(flow, velocity_);
+    for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
+    const std::vector<Vec<Dim>> before = velocity_;
+    const ViscousReport report =
+        solve_viscous_step<Dim>(flow, forces_, inertia, rhs, tolerance, most_iterations, velocity_);
+    iterations_ += report.iterations;
+    has_converged_ = report.has_converged;
+    if (!varies_with_shear(liquid_)) return;
+    double change = 0.0;
+    double size = 0.0;
+    for_each(particles.owned, [&](std::size_t i) {
+      if (!particles.is_fluid(i)) return;
+      change += (velocity_[i] - before[i]).squaredNorm();
+      size += velocity_[i].squaredNorm();
+    });
+    flow.setup.ranks.sum_each(change, size);
+    if (change <= settled_change * settled_change * size) return;
+  }
+}
+
+template <int Dim>
+void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> /*acceleration*/, double dt,
+                                         std::span<Vec<Dim>> predicted) {
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  wall_velocity_ = flow.state.wall_velocity;
+  setup.wall_motion.get_velocity(flow.state.time + dt, flow.state.motion, wall_velocity_);
+  forces_.locate(flow, wall_velocity_);
+  std::vector<Vec<Dim>> force(particles.owned, Vec<Dim>::Zero());
+  flow.discretisation().find_gradient(flow, particles.pressure, force);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) force[i] = setup.gravity - force[i] / setup.liquid.density;
+  });
+  solve(flow, force, dt, predicted);
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) predicted[i] = velocity_[i] - dt * force[i];
+  });
+
+  std::vector<Vec<Dim>> viscous(particles.owned);
+  forces_.find_forces(flow, velocity_, viscous);
+  work_ = dt * sum_over(particles.owned, 0.0, [&](std::size_t i) {
+            if (!particles.is_fluid(i)) return 0.0;
+            return velocity_[i].dot(viscous[i] + forces_.drag_of_walls(flow, i));
+          });
+  expansion_.assign(particles.owned, 0.0);
+  std::vector<Vec<Dim>> beside_walls = velocity_;
+  set_wall_velocities<Dim>(flow, wall_velocity_, beside_walls);
+  flow.discretisation().find_divergence(flow, beside_walls, expansion_);
+}
+
+template <int Dim>
+void ThickLiquid<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
+  Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (particles.is_fluid(i)) particles.pressure[i] -= forces_.viscosity()[i] * expansion_[i];
+  });
+  flow.halo().exchange(particles.pressure);
+  if (!flow.wall_forces.are_requested) return;
+  forces_.find_forces_on_walls(flow, wall_velocity_, velocity_, flow.wall_forces.friction);
+}
+
+template <int Dim>
+void ThickLiquid<Dim>::add_work(const Flow<Dim>& /*flow*/, const std::vector<double>& /*on_walls*/, double /*dt*/,
+                                Works& works) const {
+  works.viscous += work_;
+}
+
+template <int Dim>
+std::vector<StepColumn> ThickLiquid<Dim>::step_columns() const {
+  return {{"viscous_iterations", static_cast<double>(iterations_)}};
+}
+
+template <int Dim>
+void ThickLiquid<Dim>::warn(const Flow<Dim>& /*flow*/) {}
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_thick_liquid(const CaseSpec& spec, const Setup<Dim>& setup,
+                                             const Boundary<Dim>& /*boundary*/) {
+  const LiquidTable* const liquid = liquid_of(spec);
+  if (liquid == nullptr || !setup.has_implicit_viscosity) return nullptr;
+  return std::make_unique<ThickLiquid<Dim>>(*liquid);
+}
+
+template class ThickLiquid<2>;
+template class ThickLiquid<3>;
+TAILWATER_IN_2D_AND_3D(make_thick_liquid);
+
+}  // namespace tailwater

@@ -1,0 +1,61 @@
+// A liquid whose viscous forces would limit the time step, a part of a flow. With the pressure q of the last step and
+// gravity g, a step first solves for the velocity v that viscous forces leave at its end,
+//
+//   rho (v - u)/dt = div(2 mu D(v)) - grad q + rho g,      2 mu D = the law's stress (case/rheology.h),
+//
+// in which the law takes the shear rates of the velocity found last. The projection then starts from
+// v + dt (grad q/rho - g), so that only the change of the pressure acts on v: a steady flow does not depend on the
+// step. The pressure p of the projection lacks the viscous stress of the divergence of v. So q
+// becomes p - mu div v (the rotational form of Timmermans et al. 1996), without which the pressure of a flow at
+// low Reynolds numbers would follow only in many steps. Derivation: docs/theory/rheology.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "case/spec.h"
+#include "flow/part.h"
+#include "rheology/viscous_operator.h"
+
+namespace tailwater {
+
+template <int Dim>
+class ThickLiquid final : public Part<Dim> {
+ public:
+  ThickLiquid() = default;
+  explicit ThickLiquid(const LiquidTable& liquid) : liquid_(liquid) {}
+
+  std::string_view name() const override { return "thick_liquid"; }
+  void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
+                         std::span<Vec<Dim>> predicted) override;
+  void correct(Flow<Dim>& flow, double dt) override;
+  void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
+  std::vector<StepColumn> step_columns() const override;
+  void warn(const Flow<Dim>& flow) override;
+
+ private:
+  void solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt, std::span<const Vec<Dim>> predicted);
+  void find_viscosity(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity);
+
+  LiquidTable liquid_;
+  ViscousOperator<Dim> forces_;
+  int iterations_ = 0;  ///< of the last step
+  bool has_converged_ = true;
+  bool has_warned_ = false;
+
+  // The present step; owned particles, but the velocity of ghosts too.
+  std::vector<Vec<Dim>> wall_velocity_;  ///< m/s; of rows of walls that move, at the end of the step
+  std::vector<Vec<Dim>> velocity_;       ///< m/s; v
+  std::vector<double> shear_rate_;       ///< 1/s
+  std::vector<double> expansion_;        ///< 1/s; div v
+  double work_ = 0.0;                    ///< J
+};
+
+/// Null if the case has no liquid whose viscous forces are solved for.
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_thick_liquid(const CaseSpec& spec, const Setup<Dim>& setup,
+                                             const Boundary<Dim>& boundary);
+
+}  // namespace tailwater

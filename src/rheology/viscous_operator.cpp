@@ -1,0 +1,208 @@
+#include "rheology/viscous_operator.h"
+
+#include <algorithm>
+
+#include "base/for_each.h"
+#include "closures/fluid_pairs.h"
+#include "neighbours/pair_lanes.h"
+#include "operators/symmetric.h"
+
+namespace tailwater {
+namespace {
+
+/// [dx]; nearer to a wall water counts as this far, as its friction does (walls/wall_friction.cpp).
+constexpr double least_distance = 0.25;
+
+/// Least eigenvalues of the moment below which there is no gradient, and above which it counts in full. Across a
+/// surface it is 0.45, of a single row 0.
+constexpr double no_moment = 0.1;
+constexpr double full_moment = 0.25;
+
+/// 2 lambda (1 + b) F [1/m^(Dim+2)] of pair k in the row of either particle; `d` leads from the wall to the fluid.
+template <int Dim>
+double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, double F) {
+  const Walls<Dim>& walls = flow.walls;
+  const double depth = walls.depth[row];
+  const double distance =
+      std::max(d.dot(walls.particles.normal[row]) - depth, least_distance * flow.setup.scale.spacing);
+  return 2.0 * walls.friction[row] * (1.0 + depth / distance) * F;
+}
+
+/// The numbers of a neighbour that its forces depend on.
+template <int Dim>
+struct alignas(Dim == 2 ? 32 : 64) StressEnd {
+  std::array<float, Dim> velocity;          ///< m/s
+  float viscosity;                          ///< Pa s
+  std::array<float, Dim * Dim> transposed;  ///< Pa; Q, column by column
+};
+
+}  // namespace
+
+template <int Dim>
+void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, std::span<const Vec<Dim>> V) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::size_t owned = particles.owned;
+  inverse_moment_.assign(owned, Mat<Dim>::Zero());
+  share_.assign(owned, 0.0);
+  fluid_share_.assign(owned, 1.0);
+  wall_weight_.assign(owned, 0.0);
+  wall_velocity_.assign(owned, Vec<Dim>::Zero());
+  for_each(owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    Mat<Dim> moment = Mat<Dim>::Zero();
+    Mat<Dim> with_walls = Mat<Dim>::Zero();
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = pairs.j[k];
+      const Vec<Dim> d = pairs.d(i, k);
+      const double weight = particles.volume[j] * pairs.F(i, k);
+      if (particles.is_fluid(j)) {
+        moment += weight * d * d.transpose();
+        continue;
+      }
+      const auto row = particles.wall_row[j];
+      const double of_wall = particles.volume[j] * wall_factor(flow, row, d, pairs.F(i, k));
+      with_walls += flow.walls.friction[row] * weight * d * d.transpose();
+      wall_weight_[i] += of_wall;
+      wall_velocity_[i] += of_wall * entry_of<Dim>(V, row);
+    }
+    if (wall_weight_[i] > 0.0) wall_velocity_[i] /= wall_weight_[i];
+    const double least = least_eigenvalue<Dim>(moment);
+    share_[i] = std::clamp((least - no_moment) / (full_moment - no_moment), 0.0, 1.0);
+    if (share_[i] == 0.0) return;
+    inverse_moment_[i] = moment.inverse();
+    if (wall_weight_[i] > 0.0) fluid_share_[i] = least / least_eigenvalue<Dim>(moment + with_walls);
+  });
+}
+
+template <int Dim>
+Mat<Dim> ViscousOperator<Dim>::gradient(const Flow<Dim>& flow, std::span<const Float4> velocity, std::size_t i) const {
+  MatLanes<Dim> sums{};
+  for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
+    const Lanes weight = place.volume_of_fluid() * batch.F(place.d);
+    const VecLanes<Dim> difference = batch.of(velocity) - velocity[i];
+    for (int b = 0; b < Dim; ++b) sums.column[b] -= weight * place.d.at[b] * difference;
+  });
+  return sum_of(sums) * inverse_moment_[i];
+}
+
+template <int Dim>
+void ViscousOperator<Dim>::find_shear_rates(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity,
+                                            std::span<double> rate) const {
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::vector<Float4> in_single = as_float4<Dim>(velocity);
+  for_each(particles.owned, [&](std::size_t i) {
+    rate[i] = 0.0;
+    if (!particles.is_fluid(i)) return;
+    double squared = wall_weight_[i] * (velocity[i] - wall_velocity_[i]).squaredNorm();
+    if (share_[i] > 0.0) {
+      const Mat<Dim> G = gradient(flow, in_single, i);
+      const Mat<Dim> twice_D = G + G.transpose();
+      MatLanes<Dim> linear{};
+      for (int a = 0; a < Dim; ++a) {
+        for (int b = 0; b < Dim; ++b) linear.column[b].at[a] = in_all_lanes(G(a, b));
+      }
+      LaneSum rest;
+      for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+        const PlaceLanes<Dim> place = batch.place();
+        VecLanes<Dim> z = batch.of(in_single) - in_single[i];
+        z += linear.times(place.d);
+        rest += place.volume_of_fluid() * batch.F(place.d) * z.dot(z);
+      });
+      squared += share_[i] * (fluid_share_[i] * 0.5 * twice_D.squaredNorm() + rest.total());
+    }
+    rate[i] = std::sqrt(squared);
+  });
+}
+
+template <int Dim>
+void ViscousOperator<Dim>::set_viscosity(const Flow<Dim>& flow, std::span<const double> viscosity) {
+  viscosity_.assign(viscosity.begin(), viscosity.end());
+  shared_viscosity_.resize(viscosity.size());
+  for_each(viscosity.size(), [&](std::size_t i) { shared_viscosity_[i] = share_[i] * viscosity[i]; });
+  flow.halo().exchange(viscosity_, shared_viscosity_);
+}
+
+template <int Dim>
+void ViscousOperator<Dim>::find_forces(const Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity,
+                                       std::span<Vec<Dim>> force) const {
+  const Particles<Dim>& particles = flow.state.particles;
+  flow.halo().exchange(velocity);
+  const std::vector<Float4> in_single = as_float4<Dim>(std::span<const Vec<Dim>>(velocity));
+  std::vector<Mat<Dim>> Q(particles.owned, Mat<Dim>::Zero());
+  for_each(particles.owned, [&](std::size_t i) {
+    if (shared_viscosity_[i] == 0.0) return;
+    const Mat<Dim> G = gradient(flow, in_single, i);
+    Q[i] = shared_viscosity_[i] * (fluid_share_[i] * (G + G.transpose()) * inverse_moment_[i] - G);
+  });
+  flow.halo().exchange(Q);
+  using End = StressEnd<Dim>;
+  std::vector<End> ends(particles.size());
+  for_each(ends.size(), [&](std::size_t i) {
+    for (int a = 0; a < Dim; ++a) ends[i].velocity[a] = in_single[i].at[a];
+    ends[i].viscosity = static_cast<float>(shared_viscosity_[i]);
+    for (int n = 0; n < Dim * Dim; ++n) ends[i].transposed[n] = static_cast<float>(Q[i].data()[n]);
+  });
+  const auto number = [](std::size_t offset) { return offset / sizeof(float); };
+  for_each(particles.owned, [&](std::size_t i) {
+    force[i].setZero();
+    if (!particles.is_fluid(i)) return;
+    const End& own = ends[i];
+    VecSum<Dim> sum;
+    for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+      const PlaceLanes<Dim> place = batch.place();
+      const auto other = batch.j.numbers(ends.data());
+      const Lanes weight = in_all_lanes(particles.volume[i]) * place.volume_of_fluid() * batch.F(place.d);
+      const Lanes viscosity = own.viscosity + other[number(offsetof(End, viscosity))];
+      MatLanes<Dim> transposed;
+      for (int n = 0; n < Dim * Dim; ++n) {
+        transposed.column[n / Dim].at[n % Dim] = own.transposed[n] + other[number(offsetof(End, transposed)) + n];
+      }
+      VecLanes<Dim> terms = transposed.times(place.d);
+      for (int a = 0; a < Dim; ++a) {
+        const Lanes difference = other[number(offsetof(End, velocity)) + a] - own.velocity[a];
+        terms.at[a] = weight * (viscosity * difference - terms.at[a]);
+      }
+      sum += terms;
+    });
+    force[i] = sum.total() - particles.volume[i] * viscosity_[i] * wall_weight_[i] * velocity[i];
+  });
+}
+
+template <int Dim>
+void ViscousOperator<Dim>::find_diagonal(const Flow<Dim>& flow, std::span<double> diagonal) const {
+  const Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    diagonal[i] = 0.0;
+    if (!particles.is_fluid(i)) return;
+    LaneSum sum;
+    for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+      const PlaceLanes<Dim> place = batch.place();
+      const Lanes viscosity = in_all_lanes(shared_viscosity_[i]) + batch.of(shared_viscosity_);
+      sum += place.volume_of_fluid() * batch.F(place.d) * viscosity;
+    });
+    diagonal[i] = particles.volume[i] * (sum.total() + viscosity_[i] * wall_weight_[i]);
+  });
+}
+
+template <int Dim>
+void ViscousOperator<Dim>::find_forces_on_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V,
+                                                std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> force) const {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Particles<Dim>& particles = flow.state.particles;
+  for_each(pairs.owned(), [&](std::size_t w) {
+    if (particles.is_fluid(w)) return;
+    const auto row = particles.wall_row[w];
+    const Vec<Dim> own = entry_of<Dim>(V, row);
+    force[w] = particles.volume[w] * sum_over_fluid(pairs, particles, w, [&](std::int32_t i, std::size_t k) {
+                 const double factor = wall_factor<Dim>(flow, row, -pairs.d(w, k), pairs.F(w, k));
+                 return Vec<Dim>(particles.volume[i] * viscosity_[i] * factor * (velocity[i] - own));
+               });
+  });
+}
+
+template class ViscousOperator<2>;
+template class ViscousOperator<3>;
+
+}  // namespace tailwater

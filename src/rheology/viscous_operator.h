@@ -1,0 +1,76 @@
+// Viscous forces as the negative derivative of a dissipation that is never negative,
+//
+//   Phi = 1/2 sum_i w_i mu_i s_i^2,
+//   s_i^2 = k_i 2 D_i:D_i + sum_j w_j F_ij |z_ij|^2 + sum_w 2 lambda_w (1 + b_iw) w_w F_iw |u_i - V_w|^2.
+//
+// G_i = [ sum_j w_j F_ij (u_j - u_i) (r_j - r_i)^T ] M_i^-1 is the velocity gradient by least squares over the fluid j,
+// with M_i = sum_j w_j F_ij (r_j - r_i) (r_j - r_i)^T and F = -(dW/dr)/r. D_i is its symmetric part, and
+// z_ij = u_j - u_i - G_i (r_j - r_i) the rest that a linear field leaves, without which the force would not see what
+// varies from particle to particle. The force on particle i is
+//
+//   f_i = w_i sum_j w_j F_ij [ (mu_i + mu_j) (u_j - u_i) + (Q_i + Q_j) (r_j - r_i) ] + those of walls,
+//   Q_i = mu_i (2 k_i D_i M_i^-1 - G_i),
+//
+// which inside, where M = I and k = 1, is the two-point Laplacian (laplacian_morris.h) and the transposed term
+// div(mu (grad u)^T) of closures/viscosity.h. Since s_i is exact for linear fields on any set of particles and 0 for
+// rigid motion:
+// - The operator is symmetric and dissipates, for any viscosity of the particles.
+// - Linear and angular momentum are conserved, but for walls.
+// - At a free surface the stress vanishes, the natural condition.
+//
+// Walls with friction: between particle i at the distance d_i from a wall and a particle w of it, b_iw = d_w/d_i behind
+// the wall, the velocity is linear and that of the wall on it. lambda_w is the wall's friction. k_i is the fraction of
+// the least moment of neighbours that fluid alone has there, so that uniform shear beside a wall is in balance. Where
+// fluid has too few neighbours for a gradient, as in spray, mu_i fades. Derivation: docs/theory/rheology.md.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flow/flow.h"
+
+namespace tailwater {
+
+template <int Dim>
+class ViscousOperator {
+ public:
+  /// Finds what depends on the positions alone and on the velocity V [m/s] of the walls, one entry per moving row.
+  void locate(const Flow<Dim>& flow, std::span<const Vec<Dim>> V);
+
+  /// The shear rates s_i [1/s] of owned fluid. The velocity must be up to date on ghosts.
+  void find_shear_rates(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity, std::span<double> rate) const;
+
+  /// Sets the dynamic viscosity [Pa s] of owned fluid; 0 of walls. Collective.
+  void set_viscosity(const Flow<Dim>& flow, std::span<const double> viscosity);
+  /// That of all particles, ghosts too.
+  const std::vector<double>& viscosity() const { return viscosity_; }
+
+  /// The forces [N] of fluid at `velocity` on owned particles, and of walls as if these were at rest. Gets the ghosts
+  /// of `velocity`. Collective.
+  void find_forces(const Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity, std::span<Vec<Dim>> force) const;
+
+  /// The part of the force on owned particle i that comes from the motion of the walls [N].
+  Vec<Dim> drag_of_walls(const Flow<Dim>& flow, std::size_t i) const {
+    return flow.state.particles.volume[i] * viscosity_[i] * wall_weight_[i] * wall_velocity_[i];
+  }
+
+  /// The two-point part of each diagonal entry [N s/m], which is at least half of all of it.
+  void find_diagonal(const Flow<Dim>& flow, std::span<double> diagonal) const;
+
+  /// The forces [N] on owned wall particles. Velocity and viscosity must be up to date on ghosts.
+  void find_forces_on_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity,
+                            std::span<Vec<Dim>> force) const;
+
+ private:
+  Mat<Dim> gradient(const Flow<Dim>& flow, std::span<const Float4> velocity, std::size_t i) const;
+
+  std::vector<Mat<Dim>> inverse_moment_;  ///< M^-1 of owned fluid
+  std::vector<double> share_;             ///< of the viscosity; 0 where there is no gradient
+  std::vector<double> fluid_share_;       ///< k
+  std::vector<double> wall_weight_;       ///< 1/m^2; sum_w 2 lambda (1 + b) w F
+  std::vector<Vec<Dim>> wall_velocity_;   ///< m/s; mean of V with these weights
+  std::vector<double> viscosity_;         ///< Pa s
+  std::vector<double> shared_viscosity_;  ///< Pa s; times `share_`, ghosts too
+};
+
+}  // namespace tailwater
