@@ -218,6 +218,28 @@ TYPED_TEST(RanksTest, ConsistentOperatorsStressAndFriction) {
   expect_same<Dim>(spec, 0.3, as_it_is);
 }
 
+TYPED_TEST(RanksTest, AYieldingLiquid) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = jittered_tank<Dim>();
+  for (WallTable& wall : spec.walls) {
+    wall.slip = Slip::no_slip;
+    wall.friction = 1.0;
+  }
+  LiquidTable liquid;
+  liquid.name = "mud";
+  liquid.rheology = Rheology::bingham;
+  liquid.viscosity = 10.0;
+  liquid.yield_stress = 5.0;
+  liquid.rest_viscosity = 1e3;
+  spec.liquids = {liquid};
+  for (FluidTable& block : spec.fluid) block.liquid = liquid.name;
+  expect_same<Dim>(spec, 0.3, [](Flow<Dim>& flow) {
+    for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+      if (flow.state.particles.is_fluid(i)) flow.state.particles.velocity[i][0] = flow.state.particles.position[i][1];
+    }
+  });
+}
+
 TYPED_TEST(RanksTest, WaterThatEntersAPorousLayer) {
   constexpr int Dim = TypeParam::value;
   for (const Integrator integrator : {Integrator::explicit_projection, Integrator::implicit_projection}) {

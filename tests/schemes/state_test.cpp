@@ -73,6 +73,24 @@ CaseSpec rough_case() {
   return spec;
 }
 
+CaseSpec yielding_case() {
+  CaseSpec spec = dam_break(Integrator::explicit_projection);
+  LiquidTable liquid;
+  liquid.name = "mud";
+  liquid.rheology = Rheology::bingham;
+  liquid.viscosity = 10.0;
+  liquid.yield_stress = 50.0;
+  liquid.rest_viscosity = 1e4;
+  spec.liquids = {liquid};
+  for (FluidTable& block : spec.fluid) block.liquid = liquid.name;
+  for (WallTable& wall : spec.walls) {
+    wall.slip = Slip::no_slip;
+    wall.friction = 1.0;
+  }
+  spec.time.end_at_rest = 1e-3;
+  return spec;
+}
+
 CaseSpec porous_case() {
   CaseSpec spec = dam_break(Integrator::explicit_projection);
   PorousTable rock;
@@ -131,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, StateTest,
                                          Variant{"two_step", two_step_case()}, Variant{"published", published_case()},
                                          Variant{"moving_wall", gate_case()}, Variant{"outlet", outlet_case()},
                                          Variant{"inlet", inlet_case()}, Variant{"rough", rough_case()},
-                                         Variant{"porous", porous_case()}),
+                                         Variant{"porous", porous_case()}, Variant{"yielding", yielding_case()}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
