@@ -122,6 +122,22 @@ void print_sections(const CaseSpec& spec) {
   }
 }
 
+/// Prints what zones of refinement make of the case.
+template <int Dim>
+void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, double water) {
+  if (flow.setup.graded == nullptr) return;
+  const SpacingField<Dim>& field = flow.setup.graded->field();
+  for (std::size_t n = 0; n < spec.refinement.size(); ++n) {
+    const auto& zone = field.zones()[n];
+    fmt::print("refinement: {}: spacing {:.4g} m behind borders of {:.4g} m, about {:.2g} particles when full\n",
+               spec.refinement[n].name, spec.particles.spacing * std::exp2(-zone.level), zone.border,
+               particles_of_full_zone(field, n, spec.particles.spacing, flow.box()));
+  }
+  const double finest = spec.particles.spacing * field.finest();
+  fmt::print("            the time step is that of {:.4g} m; with this spacing everywhere {:.2g} fluid particles\n",
+             finest, water / power<Dim>(finest));
+}
+
 template <int Dim>
 void check_in(const CaseSpec& spec, const CheckOptions& options) {
   try {
@@ -141,6 +157,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   if (estimate.largest_fluid > 1.1 * estimate.particles.fluid) {
     fmt::print("           with what comes in about {:.2g} fluid at the most\n", estimate.largest_fluid);
   }
+  print_refinement(spec, flow, estimate.water);
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
   fmt::print(
       "time:      about {:.0f} steps, {} on one core of this machine, from trial steps of {} (violent flow takes more "

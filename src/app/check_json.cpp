@@ -121,7 +121,10 @@ void check_sound(const CaseSpec& spec, const std::string& origin, TrialSteps tri
   }
   const FluidParticles<Dim> fluid = make_fluid_particles(spec, boundary);
   answer["drawing"] = drawing_of<Dim>(spec, boundary, fluid);
-  const Findings geometry = check_geometry(spec, boundary, fluid);
+  const Findings geometry =
+      spec.refinement.empty()
+          ? check_geometry(spec, boundary, fluid)
+          : check_geometry(spec, boundary, make_fluid_particles(spec, boundary, {}, 0, StartVelocities::left_out));
   add_findings(answer, spec.sources.located(geometry), origin);
   const ParticleCount count = expected_particle_count(spec, boundary);
   const double memory_bytes = memory_estimate<Dim>(count, neighbours_in_support<Dim>(traits_of(spec).support));

@@ -1,4 +1,4 @@
-// Rules of what moves: gates, wave makers, bodies and their moorings; and of damping zones.
+// Rules of what moves: gates, wave makers, bodies and their moorings; and of zones of damping and of finer particles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -134,6 +134,8 @@ void check(const DampingTable& damping, TableReader& reader) {
     check_waves(damping, damping.depth, "zone", reader);
   }
 }
+
+void check(const RefinementTable& zone, TableReader& reader) { check_box(zone.min, zone.max, reader); }
 
 void check(const GateTable& gate, TableReader& reader) { check_plate(gate.from, gate.to, gate.side, "a gate", reader); }
 

@@ -604,6 +604,27 @@ struct DampingTable : WaveKeys {
   }
 };
 
+/// A zone in which particles are finer than elsewhere (refinement/spacing_field.h).
+struct RefinementTable {
+  std::string name;
+  Coordinates min;
+  Coordinates max;
+  int level = 1;
+
+  bool operator==(const RefinementTable&) const = default;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor& v) {
+    v.text("name", self.name, "Name in messages");
+    v.coordinates("min", self.min, "m",
+                  "Lowest corner of the zone, an axis-parallel box; the spacing falls from its edge inwards, over "
+                  "4 dx per level, except where the box reaches to the outermost walls",
+                  Presence::required);
+    v.coordinates("max", self.max, "m", "Highest corner of the zone", Presence::required);
+    v.integer("level", self.level, "", Range::between(1, 4), "The spacing inside is particles.spacing / 2^level");
+  }
+};
+
 /// A region filled with stones or grains that rest. What the law makes of the grains is porous/porous_law.h.
 struct PorousTable : PlacedFile {
   std::string name;
@@ -1072,6 +1093,7 @@ struct CaseSpec {
   std::vector<BodyTable> bodies;
   std::vector<MooringTable> moorings;
   std::vector<DampingTable> damping;
+  std::vector<RefinementTable> refinement;
   std::vector<PorousTable> porous;
   std::vector<InletTable> inlets;
   std::vector<OutletTable> outlets;
@@ -1115,6 +1137,7 @@ struct CaseSpec {
     v.tables("mooring", self.moorings, "A line that holds a body; one table each");
     v.tables("damping", self.damping,
              "A zone in which waves decay, or a relaxation zone that makes and absorbs waves; one table each");
+    v.tables("refinement", self.refinement, "A zone of finer particles; one table each");
     v.tables("porous", self.porous, "A layer of stones or grains that water flows through; one table each");
     v.tables("inlet", self.inlets, "An open end through which water enters; one table each");
     v.tables("outlet", self.outlets, "An open end through which water leaves; one table each");

@@ -52,6 +52,7 @@ void check(const WaveMakerTable& maker, TableReader& reader);
 void check(const BodyTable& body, TableReader& reader);
 void check(const MooringTable& mooring, TableReader& reader);
 void check(const DampingTable& damping, TableReader& reader);
+void check(const RefinementTable& zone, TableReader& reader);
 void check(const PorousTable& porous, TableReader& reader);
 void check(const LiquidTable& liquid, TableReader& reader);
 void check(const InletTable& inlet, TableReader& reader);

@@ -35,6 +35,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_bodies(spec, boundary));
   append(findings, check_body_gaps(spec, boundary));
   append(findings, check_moorings(spec, boundary));
+  append(findings, check_refinement(spec, boundary, fluid));
   append(findings, check_air_places(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));
   if (!has_error(findings)) append(findings, check_hanging_water(spec, boundary, fluid));

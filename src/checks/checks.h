@@ -118,6 +118,12 @@ Findings check_wave_zones(const CaseSpec& spec);
 template <int Dim>
 Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
+/// Errors: a zone of refinement outside of the case, narrower than its borders, over one end of a period only, or with
+/// what particles of several spacings do not work with: other schemes and pair vectors than the default ones, plates and
+/// walls that move, open ends, bodies, enclosed air, porous layers.
+template <int Dim>
+Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
 /// Error: a probe where no water can come. Warning: times of a probe after the end of the run; a probe of the pressure
 /// on a wall that is not at one.
 template <int Dim>

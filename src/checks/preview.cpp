@@ -27,6 +27,7 @@ constexpr const char* wall_colour = "#222222";
 constexpr const char* dummy_colour = "#b9b2a7";
 constexpr const char* probe_colour = "#c0392b";
 constexpr const char* opening_colour = "#1e8449";
+constexpr const char* refinement_colour = "#8e44ad";
 
 double text_width(std::string_view text) { return letter_width * font_size * static_cast<double>(text.size()); }
 
@@ -312,6 +313,20 @@ void draw_walls(Svg& svg, const Boundary<Dim>& boundary, const View& view) {
   }
 }
 
+/// Zones of refinement as they are given, as far as they are in the picture, with their names.
+template <int Dim>
+void draw_refinement(Svg& svg, const CaseSpec& spec, const View& view) {
+  for (const RefinementTable& zone : spec.refinement) {
+    const CaseLabel owner("refinement", zone.name);
+    const Vec<2> low = project(to_vec<Dim>(zone.min, owner, "min")).cwiseMax(view.low).cwiseMin(view.high);
+    const Vec<2> high = project(to_vec<Dim>(zone.max, owner, "max")).cwiseMax(view.low).cwiseMin(view.high);
+    const std::array<Vec<2>, 4> corners{low, Vec<2>(high[0], low[1]), high, Vec<2>(low[0], high[1])};
+    for (int c = 0; c < 4; ++c) svg.line(view(corners[c]), view(corners[(c + 1) % 4]), refinement_colour, 2.0);
+    const Vec<2> name = view(corners[3]);
+    svg.text(name[0] + 6.0, name[1] + 16.0, "start", zone.name);
+  }
+}
+
 /// A marker with its name in the given row above the plot, and a line down to it.
 void draw_marker(Svg& svg, const Marker& marker, int row, const View& view) {
   const double baseline = view.top - 10.0 - row * line_height;
@@ -368,6 +383,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   draw_wall_particles(svg, boundary, walls, view, diameter);
   draw_fluid(svg, spec, fluid, view, diameter);
   draw_walls(svg, boundary, view);
+  draw_refinement<Dim>(svg, spec, view);
   draw_open_ends(svg, ends, view);
   draw_axes(svg, view);
   svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");

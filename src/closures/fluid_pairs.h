@@ -20,7 +20,8 @@ Vec<Dim> sum_over_fluid(const Pairs<Dim>& pairs, const Particles<Dim>& particles
 }
 
 /// Kernel-weighted mean of `field` over the fluid neighbours of particle i and the particle itself, which has weight
-/// `own_weight`. 0 if all weights are 0. `field` must be up to date on ghosts.
+/// `own_weight` at the case's spacing. Where particles have several spacings, weights are by volume. 0 if all weights
+/// are 0. `field` must be up to date on ghosts.
 template <int Dim>
 double mean_over_fluid(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> field, double own_weight) {
   Lanes sums{};
@@ -30,8 +31,9 @@ double mean_over_fluid(const Pairs<Dim>& pairs, std::size_t i, std::span<const d
     sums += weight * batch.of(field);
     weights += weight;
   });
-  const double weight = own_weight + sum_of(weights);
-  return weight > 0.0 ? (own_weight * field[i] + sum_of(sums)) / weight : 0.0;
+  const double own = pairs.is_graded() ? own_weight * pairs.weight_in_means_of(i) : own_weight;
+  const double weight = own + sum_of(weights);
+  return weight > 0.0 ? (own * field[i] + sum_of(sums)) / weight : 0.0;
 }
 
 }  // namespace tailwater

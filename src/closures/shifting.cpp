@@ -23,8 +23,11 @@ std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_spee
   return count_each(pairs.owned(), [&](std::size_t i) {
     shift[i].setZero();
     if (!particles.is_fluid(i) || pairs.begin(i) == pairs.end(i) || surroundings.interior[i] == 0.0) return false;
-    shift[i] = -std::min(law.strength * largest_speed * dt, law.spacing) * law.spacing * surroundings.crowding[i];
-    return bound_shift<Dim>(shift[i], kept_share(surroundings.interior[i], surroundings.mean_interior[i]), law.cap);
+    const double relative = pairs.relative_spacing_of(i);
+    const double spacing = law.spacing * relative;
+    shift[i] = -std::min(law.strength * largest_speed * dt, spacing) * spacing * surroundings.crowding[i];
+    return bound_shift<Dim>(shift[i], kept_share(surroundings.interior[i], surroundings.mean_interior[i]),
+                            law.cap * relative);
   });
 }
 

@@ -26,8 +26,8 @@ namespace tailwater {
 
 struct ShiftingLaw {
   double strength = 0.0;  ///< s
-  double cap = 0.0;       ///< m; no shift is longer
-  double spacing = 0.0;   ///< m
+  double cap = 0.0;       ///< m; no shift is longer, where particles have the case's spacing
+  double spacing = 0.0;   ///< m; of the case
 };
 
 /// Keeps a share of a shift and bounds it. Returns whether what is kept was longer than the bound.

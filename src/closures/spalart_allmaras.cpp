@@ -1,5 +1,6 @@
 #include "closures/spalart_allmaras.h"
 
+#include "neighbours/pair_lanes.h"
 #include "operators/laplacian_morris.h"
 
 namespace tailwater::spalart_allmaras {

@@ -26,9 +26,10 @@ struct alignas(Dim == 2 ? 32 : 64) ViscousEnd {
 };
 
 template <int Dim>
-std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::span<const double> viscosity,
-                                          std::span<const Vec<Dim>> velocity, std::span<const Mat<Dim>> gradient,
-                                          double reach) {
+std::vector<ViscousEnd<Dim>> viscous_ends(const Pairs<Dim>& pairs, const Particles<Dim>& particles,
+                                          std::span<const double> viscosity, std::span<const Vec<Dim>> velocity,
+                                          std::span<const Mat<Dim>> gradient) {
+  const double radius = kernel_radius(pairs.kernel);
   std::vector<ViscousEnd<Dim>> ends(particles.size());
   for_each(ends.size(), [&](std::size_t i) {
     ViscousEnd<Dim>& end = ends[i];
@@ -36,6 +37,7 @@ std::vector<ViscousEnd<Dim>> viscous_ends(const Particles<Dim>& particles, std::
     for (int n = 0; n < Dim * Dim; ++n) end.gradient[n] = static_cast<float>(gradient[i].data()[n]);
     end.viscosity = static_cast<float>(viscosity[i]);
     const bool is_in_layer = particles.layer_viscosity[i] > 0.0;
+    const double reach = radius * pairs.relative_spacing_of(i);
     const bool is_beside_wall = particles.is_fluid(i) && particles.wall_distance[i] < reach;
     end.shear = (is_in_layer ? in_layer | beside_wall : 0U) | (is_beside_wall ? beside_wall : 0U);
   });
@@ -59,9 +61,10 @@ struct ViscousPairs {
   MatLanes<Dim> change;      ///< 1/s; velocity gradient of j less that of i
   Lanes squared;             ///< m^2; d.d
   Lanes volumes;             ///< m^(2 Dim); w_i w_j, 0 of walls
-  Lanes morris_volumes;      ///< m^(2 Dim); the volumes, less for pairs that nearly coincide (laplacian_morris.h)
-  std::uint32_t own_shear;   ///< bits of i
-  IntegerLanes shear;        ///< bits of j
+  Lanes noise_spacing;   ///< mean spacing of both over that of the case, to which the noise viscosity is proportional
+  Lanes morris_volumes;  ///< m^(2 Dim); the volumes, less for pairs that nearly coincide (laplacian_morris.h)
+  std::uint32_t own_shear;  ///< bits of i
+  IntegerLanes shear;       ///< bits of j
 
   template <class Several>
   ViscousPairs(const Several& batch, const PlaceLanes<Dim>& place_of_pairs, Lanes F_of_pairs,
@@ -82,7 +85,8 @@ struct ViscousPairs {
     }
     squared = place.d.dot(place.d);
     volumes = in_all_lanes(particles.volume[batch.i]) * place.volume_of_fluid();
-    morris_volumes = volumes * share_of_morris_weight(squared, spacing);
+    morris_volumes = volumes * share_of_morris_weight(batch.squared_over_spacing(squared), spacing);
+    noise_spacing = batch.relative_spacing();
   }
 
   /// Adds the force of a viscosity `noise_viscosity` [m^2/s] that damps noise alone: the part of the velocity
@@ -98,7 +102,7 @@ struct ViscousPairs {
     if (any_shear) allow_for_shear(explained, noise);
     const Lanes work = min_of(Lanes{}, noise.dot(difference));
     const Lanes given = work / max_of(difference.dot(difference), in_all_lanes(least));
-    const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * morris_volumes * F;
+    const Lanes weight = static_cast<float>(2.0 * noise_viscosity) * noise_spacing * morris_volumes * F;
     for (int a = 0; a < Dim; ++a) terms.at[a] += weight * (noise.at[a] - given * difference.at[a]);
   }
 
@@ -138,8 +142,7 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
                              const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration) {
-  const std::vector<ViscousEnd<Dim>> ends =
-      viscous_ends(particles, viscosity, velocity, gradient, kernel_radius(pairs.kernel));
+  const std::vector<ViscousEnd<Dim>> ends = viscous_ends(pairs, particles, viscosity, velocity, gradient);
   const bool any_shear = is_any_sheared(ends);
   for_each(pairs.owned(), [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;

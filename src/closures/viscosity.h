@@ -34,7 +34,8 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 /// the divergence of (grad u)^T, vanishes inside and makes that condition zero stress. Conserves momentum; only the
 /// first term is sure never to add energy. `gradient` [1/s] is needed on ghosts.
 ///
-/// A `noise_viscosity` [m^2/s] above 0, one number for the whole flow, dissipates noise: a two-point viscous force on
+/// A `noise_viscosity` [m^2/s] above 0, one number for the whole flow, and proportional to the spacing where that
+/// varies, dissipates noise: a two-point viscous force on
 /// the part of the velocity difference that a linear field does not explain,
 ///
 ///   d_ij = u_j - u_i - l_ij,    l_ij = (grad u_i + grad u_j)/2 . (r_j - r_i),

@@ -37,14 +37,14 @@ Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>
   const std::size_t first = all * rank / ranks;
   TAILWATER_ASSERT(fluid.position.empty() || static_cast<std::size_t>(fluid.first) == first,
                    "the water is distributed as all particles are");
+  const std::size_t first_wall = std::max(first, fluid_count);
+  const std::size_t end = std::max(all * (rank + 1) / ranks, first_wall);
+  const std::size_t own_fluid = fluid.position.size();
   Particles<Dim> particles;
-  particles.add(all * (rank + 1) / ranks - first, [&](std::size_t i) -> NewParticle<Dim> {
-    const std::size_t n = first + i;
-    if (n >= fluid_count) return wall_particle(setup, walls.particles, n - fluid_count);
-    return {.position = fluid.position[i],
-            .velocity = fluid.velocity[i],
-            .volume = fluid.volume[i],
-            .id = static_cast<std::int64_t>(n)};
+  particles.add(own_fluid + end - first_wall, [&](std::size_t i) -> NewParticle<Dim> {
+    if (i >= own_fluid) return wall_particle(setup, walls.particles, first_wall - fluid_count + i - own_fluid);
+    return {
+        .position = fluid.position[i], .velocity = fluid.velocity[i], .volume = fluid.volume[i], .id = fluid.id_of(i)};
   });
   return particles;
 }
@@ -74,7 +74,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
       parts(make_parts(spec, setup, drawing.walls.boundary, makers)),
       decomposition(ranks, spec.parallel),
       neighbourhood(setup.scale.kernel, setup.scale.spacing, skin_over_spacing * setup.scale.spacing,
-                    setup.formulation.walls->traits().pairs, setup.domain, ranks),
+                    setup.formulation.walls->traits().pairs, setup.domain, ranks, drawing.spacing_field),
       pair_workspace(std::make_shared<PairWorkspace>()),
       pressure_rows(ranks, pair_workspace),
       pressure_solver(spec.pressure_solver, {.rows_deep = largest_depth(spec, drawing.fluid) / setup.scale.spacing,

@@ -118,6 +118,9 @@ struct Flow {
   std::vector<Vec<Dim>> filter_velocity() const;
   /// Sums over a full lattice of particles like particle i.
   LatticeSums lattice_of(std::size_t i) const {
+    if (setup.graded != nullptr) {
+      return setup.graded->lattice(pairs().relative_spacing_of(i), state.particles.volume[i]);
+    }
     return pores == nullptr ? setup.scale.lattice : pores->lattice_of(state.particles.volume[i]);
   }
   double kinetic_energy_of(std::size_t i) const {

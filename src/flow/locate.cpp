@@ -13,6 +13,7 @@ template <int Dim>
 void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
   const Particles<Dim>& particles = flow.state.particles;
   const bool with_gradient = flow.setup.formulation.needs_concentration_gradient;
+  const GradedSums<Dim>* const graded = flow.setup.graded.get();
   surroundings.crowding.resize(particles.owned);
   for_each(particles.owned, [&](std::size_t i) {
     surroundings.concentration[i] = 1.0;
@@ -21,10 +22,13 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
     if (!has_equation(flow.role[i])) return;
     const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.scale.kernel_values);
     surroundings.concentration[i] = sums.concentration / flow.lattice_of(i).concentration;
+    ContinuumSums<Dim> continuum;
+    if (graded != nullptr) continuum = graded->continuum(particles.position[i]);
+    surroundings.concentration[i] /= continuum.concentration;
     if (!particles.is_fluid(i)) return;
     if (with_gradient) surroundings.concentration_gradient[i] = sums.gradient;
     surroundings.first_moment[i] = packed<Dim>(sums.first_moment);
-    surroundings.crowding[i] = sums.crowding;
+    surroundings.crowding[i] = sums.crowding - continuum.gradient;
   });
 }
 

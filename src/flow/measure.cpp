@@ -13,14 +13,14 @@ struct EnergyAndDensity {
   double potential_energy = 0.0;
   double density_error = 0.0;
   double density_error_squared = 0.0;
-  std::int64_t bulk_particles = 0;
+  double bulk = 0.0;  ///< weight of the bulk particles
 
   EnergyAndDensity& operator+=(const EnergyAndDensity& other) {
     kinetic_energy += other.kinetic_energy;
     potential_energy += other.potential_energy;
     density_error += other.density_error;
     density_error_squared += other.density_error_squared;
-    bulk_particles += other.bulk_particles;
+    bulk += other.bulk;
     return *this;
   }
 };
@@ -91,9 +91,10 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     if (!particles.is_fluid(i)) return {};
     EnergyAndDensity own{flow.kinetic_energy_of(i), flow.potential_energy_of(i)};
     if (!is_bulk(flow, i)) return own;
-    own.density_error = density_error_of(flow, i);
-    own.density_error_squared = own.density_error * own.density_error;
-    own.bulk_particles = 1;
+    const double error = density_error_of(flow, i);
+    own.bulk = flow.setup.weight_in_statistics(particles.volume[i]);
+    own.density_error = own.bulk * error;
+    own.density_error_squared = own.bulk * (error * error);
     return own;
   });
   FlowMeasures measures;
@@ -102,15 +103,13 @@ FlowMeasures measure(const Flow<Dim>& flow) {
     return is_bulk(flow, i) ? std::abs(density_error_of(flow, i)) : 0.0;
   });
   const Communicator& ranks = flow.setup.ranks;
-  ranks.sum_each(sums.kinetic_energy, sums.potential_energy, sums.density_error, sums.density_error_squared,
-                 sums.bulk_particles);
+  ranks.sum_each(sums.kinetic_energy, sums.potential_energy, sums.density_error, sums.density_error_squared, sums.bulk);
   ranks.largest_each(measures.largest_speed, measures.density_error_largest);
   measures.kinetic_energy = sums.kinetic_energy;
   measures.potential_energy = sums.potential_energy;
-  if (sums.bulk_particles > 0) {
-    const auto count = static_cast<double>(sums.bulk_particles);
-    measures.density_error_mean = sums.density_error / count;
-    measures.density_error_rms = std::sqrt(sums.density_error_squared / count);
+  if (sums.bulk > 0.0) {
+    measures.density_error_mean = sums.density_error / sums.bulk;
+    measures.density_error_rms = std::sqrt(sums.density_error_squared / sums.bulk);
   }
   for (const auto& part : flow.parts) {
     part->add_passed_water(measures.departed, measures.arrived);

@@ -61,7 +61,7 @@ std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     gradient[i] =
-        particles.wall_distance[i] < kernel_radius(flow.setup.scale.kernel)
+        particles.wall_distance[i] < kernel_radius(flow.setup.scale.kernel) * flow.pairs().relative_spacing_of(i)
             ? gradient_in_water<Dim>(flow.pairs(), i, velocity)
             : corrected_gradient<Dim>(flow.pairs(), i, unpacked<Dim>(flow.surroundings.first_moment[i]), velocity);
   });

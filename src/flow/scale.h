@@ -1,4 +1,5 @@
-// The resolution of a flow: the particle spacing, and what follows from it and the kernel.
+// The resolution of a flow where no zone of refinement is: the particle spacing, and what follows from it and the
+// kernel.
 #pragma once
 
 #include "kernel/kernel.h"
@@ -15,7 +16,7 @@ struct Scale {
         lattice(lattice_sums(kernel, spacing)),
         kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {}
 
-  double spacing;  ///< m; dx
+  double spacing;  ///< m; dx of the case
   Kernel<Dim> kernel;
   LatticeSums lattice;
   KernelValues kernel_values;

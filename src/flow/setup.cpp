@@ -35,7 +35,7 @@ constexpr double cube_over_spacing = 32.0;
 /// The drawn walls, those of ducts, and the rows in this rank's share of space.
 template <int Dim>
 Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks,
-                      Boundary<Dim> drawn) {
+                      const SpacingField<Dim>& field, Boundary<Dim> drawn) {
   Walls<Dim> walls;
   walls.boundary = std::move(drawn);
   const Lattice<Dim> lattice = lattice_behind_meshes<Dim>(spec, walls.boundary);
@@ -44,9 +44,10 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   const SpaceShare share{
       .edge = cube_over_spacing * spec.particles.spacing, .share = ranks.rank(), .shares = ranks.size()};
   walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share, lattice);
+  if (!field.is_uniform()) divide_wall_particles(field, walls.boundary, spec.particles.spacing, walls.particles);
   const double reach = 2.0 * dummy_layers(spec) * spec.particles.spacing;
-  for (std::vector<double>* field : {&walls.friction, &walls.roughness, &walls.depth}) {
-    field->reserve(walls.particles.size());
+  for (std::vector<double>* of_rows : {&walls.friction, &walls.roughness, &walls.depth}) {
+    of_rows->reserve(walls.particles.size());
   }
   for (std::size_t row = 0; row < walls.particles.size(); ++row) {
     const WallProperties& wall = walls.boundary.walls[walls.particles.wall[row]];
@@ -137,7 +138,8 @@ Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const C
 /// The drawn walls are kept for the water only where open ends may add ducts to them.
 template <int Dim>
 Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks, Boundary<Dim> drawn)
-    : walls(make_walls(spec, model, ranks,
+    : spacing_field(spec, drawn),
+      walls(make_walls(spec, model, ranks, spacing_field,
                        spec.inlets.empty() && spec.outlets.empty() ? std::move(drawn) : Boundary<Dim>(drawn))),
       shared_rows(ranks, walls),
       wall_motion(spec, walls.boundary, walls.particles),
@@ -152,6 +154,9 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
              .viscosity = {.molecular = spec.physics.viscosity,
                            .artificial = formulation.artificial_viscosity * spec.particles.spacing}},
       scale(spec.particles.spacing, formulation.kernel),
+      graded(drawing.spacing_field.is_uniform()
+                 ? nullptr
+                 : std::make_shared<GradedSums<Dim>>(scale.kernel, scale.spacing, drawing.spacing_field)),
       first_wall_id(drawing.fluid.all),
       gravity(gravity_of<Dim>(spec)),
       length(formulation.length > 0.0 ? formulation.length : largest_depth(spec, drawing.fluid)),
@@ -166,7 +171,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
   const double g = gravity.norm();
   const double reference_speed = std::sqrt(2.0 * g * length);
   time_step_rule = {.courant = formulation.courant,
-                    .spacing = scale.spacing,
+                    .spacing = scale.spacing * finest_spacing(),
                     .reference_speed = reference_speed,
                     .viscous_share = formulation.viscous_share};
   if (reference_speed > 0.0) time_step_rule.fastest = formulation.fastest_over_reference * reference_speed;

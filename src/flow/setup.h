@@ -1,6 +1,7 @@
 // What does not change during a run: the case as the steps need it.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "closures/time_step.h"
@@ -9,6 +10,7 @@
 #include "flow/scale.h"
 #include "motion/wall_motion.h"
 #include "neighbours/halo.h"
+#include "operators/graded_sums.h"
 #include "parallel/communicator.h"
 #include "sampling/fluid_particles.h"
 #include "walls/shared_rows.h"
@@ -24,6 +26,7 @@ struct Drawing {
   /// Throws InputError for an impossible geometry. Collective.
   Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks);
 
+  SpacingField<Dim> spacing_field;
   Walls<Dim> walls;
   SharedRows<Dim> shared_rows;
   WallMotion<Dim> wall_motion;
@@ -48,8 +51,9 @@ struct Setup {
   FlowFormulation<Dim> formulation;
   Liquid liquid;
   Scale<Dim> scale;
-  std::int64_t first_wall_id;  ///< of a wall particle of number 0
-  Vec<Dim> gravity;            ///< m/s^2
+  std::shared_ptr<const GradedSums<Dim>> graded;  ///< null: all particles have the spacing of `scale`
+  std::int64_t first_wall_id;                     ///< of a wall particle of number 0
+  Vec<Dim> gravity;                               ///< m/s^2
   double length;  ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   PeriodicDomain<Dim> domain;
   Vec<Dim> gravity_across;  ///< m/s^2; across the periodic directions: along them water falls without end
@@ -63,7 +67,15 @@ struct Setup {
 
   /// Whether missing neighbours count as air, so that nothing pulls near the surface.
   bool has_air() const { return formulation.surface_is_air && !is_closed; }
-  /// Viscosity [m^2/s] of the noise dissipation when the largest speed is `speed`.
+  /// Spacing of particles at a place over that of the case.
+  double relative_spacing(const Vec<Dim>& x) const { return graded == nullptr ? 1.0 : graded->field().at(x); }
+  /// The least that there is.
+  double finest_spacing() const { return graded == nullptr ? 1.0 : graded->field().finest(); }
+  /// Weight of a particle of this volume [m^Dim] in statistics of the water: 1 if all have one spacing.
+  double weight_in_statistics(double volume) const {
+    return graded == nullptr ? 1.0 : volume / power<Dim>(scale.spacing);
+  }
+  /// At the case's spacing: viscosity [m^2/s] of the noise dissipation when the largest speed is `speed`.
   double noise_viscosity(double speed) const {
     return formulation.noise_viscosity * scale.spacing * std::max(speed, time_step_rule.reference_speed);
   }

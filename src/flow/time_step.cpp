@@ -17,6 +17,19 @@ constexpr double time_between_looks = 0.01;
 /// (docs/theory/robustness.md).
 constexpr double largest_approach_in_step = 0.9;
 
+/// The largest speed [m/s] of the water where particles have several spacings: over the spacing where the water is,
+/// times the finest one.
+template <int Dim>
+double largest_speed_over_spacing(const Flow<Dim>& flow) {
+  const Setup<Dim>& setup = flow.setup;
+  const Particles<Dim>& particles = flow.state.particles;
+  const double finest = setup.finest_spacing();
+  return setup.ranks.largest(largest_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return 0.0;
+    return particles.velocity[i].norm() * finest / setup.relative_spacing(particles.position[i]);
+  }));
+}
+
 /// The largest distance [m] that a corner of a wall is from where it was, within `dt` [s] from now on.
 template <int Dim>
 double largest_displacement_within(const Flow<Dim>& flow, double dt) {
@@ -42,13 +55,14 @@ double largest_approach(Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   const std::vector<Float4> velocity = as_float4<Dim>(particles.velocity);
+  const auto finest = static_cast<float>(flow.setup.finest_spacing());
   const double largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i) || particles.velocity[i].norm() < least_speed) return 0.0;
     Lanes approach{};
     for_each_pair(pairs, i, [&](const auto& batch) {
       const PlaceLanes<Dim> place = batch.place();
       const Lanes rate = (batch.of(velocity) - velocity[i]).dot(place.d) / sqrt_of(place.d.dot(place.d));
-      approach = max_of(approach, place.of_fluid(rate));
+      approach = max_of(approach, place.of_fluid(rate * finest / batch.relative_spacing()));
     });
     return largest_of(approach);
   });
@@ -66,11 +80,13 @@ template <int Dim>
 double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
   const Setup<Dim>& setup = flow.setup;
   const double speed = std::max(largest_speed(flow), limits.speed);
-  const double viscosity = setup.liquid.viscosity.at_speed(speed) + setup.noise_viscosity(speed) + limits.viscosity;
-  const double dt = setup.time_step_rule.largest(speed, viscosity);
+  const double viscosity =
+      setup.liquid.viscosity.at_speed(speed) + setup.finest_spacing() * setup.noise_viscosity(speed) + limits.viscosity;
+  const double limiting = setup.graded == nullptr ? speed : std::max(largest_speed_over_spacing(flow), limits.speed);
+  const double dt = setup.time_step_rule.largest(limiting, viscosity);
   // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.
   const double approach = std::min(flow.state.approach, 2.0 * setup.time_step_rule.limiting_speed(speed));
-  return approach > 0.0 ? std::min(dt, largest_approach_in_step * setup.scale.spacing / approach) : dt;
+  return approach > 0.0 ? std::min(dt, largest_approach_in_step * setup.time_step_rule.spacing / approach) : dt;
 }
 
 template <int Dim>
@@ -82,7 +98,7 @@ double next_time_step(const Flow<Dim>& flow) {
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
   // because a gate may start within the step.
-  const double largest = setup.time_step_rule.courant * setup.scale.spacing;
+  const double largest = setup.time_step_rule.courant * setup.time_step_rule.spacing;
   for (double displacement = 0.0; (displacement = largest_displacement_within(flow, dt)) > largest;) {
     dt *= std::max(0.1, 0.99 * largest / displacement);
   }

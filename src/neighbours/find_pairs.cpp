@@ -83,7 +83,7 @@ class Candidates {
     std::uint32_t not_a_candidate = 0;
     std::uint32_t& own_place = holds_group_ ? at_[0][offset_of_group_ + i] : not_a_candidate;
     own_place += farthest;  // so that the particle does not find itself
-    const FoundRow row = write_near(pairs, pairs.place[i], j);
+    const FoundRow row = pairs.is_graded() ? write_near<true>(pairs, i, j) : write_near<false>(pairs, i, j);
     own_place -= farthest;
     return row;
   }
@@ -92,8 +92,10 @@ class Candidates {
   /// The largest distance between two places, because places repeat.
   static constexpr std::uint32_t farthest = 1U << 31;
 
-  /// Writes those within the support around `own` to `j`, and up to a batch beyond them.
-  FoundRow write_near(const Pairs<Dim>& pairs, const Place<Dim>& own, std::int32_t* j) const {
+  /// Writes those within the support around particle i to `j`, and up to a batch beyond them.
+  template <bool is_graded>
+  FoundRow write_near(const Pairs<Dim>& pairs, std::size_t i, std::int32_t* j) const {
+    const Place<Dim>& own = pairs.place[i];
     const double radius = kernel_radius(pairs.kernel);
     const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
     const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.least_squared;
@@ -119,7 +121,12 @@ class Candidates {
         const Lanes square = d.dot(d);
         std::memcpy(reinterpret_cast<float*>(&distances) + m, &square, sizeof(square));
       }
-      const IndexBatch is_near = distances < radius_squared;
+      FloatBatch reach_squared = radius_squared;
+      if constexpr (is_graded) {
+        const FloatBatch mean = 0.5F * (pairs.relative_spacing[i] + batch_at<FloatBatch>(relative_spacing_.data() + n));
+        reach_squared *= mean * mean;
+      }
+      const IndexBatch is_near = distances < reach_squared;
       walls |= is_near & batch_at<IndexBatch>(signed_volume + n);  // of which the sign counts
       least = distances < least ? distances : least;
       end = write_chosen(index + n, bits_of(is_near), end);
@@ -133,6 +140,7 @@ class Candidates {
     if (room > index_.size()) {
       index_.resize(2 * room);
       signed_volume_.resize(2 * room);
+      if (pairs.is_graded()) relative_spacing_.resize(2 * room);
       for (auto& at : at_) at.resize(2 * room);
     }
     for (std::size_t n = 0; n < list.size(); n += lane_count) {
@@ -142,6 +150,9 @@ class Candidates {
       std::memcpy(index_.data() + count_ + n, &j, sizeof(j));
       for (int a = 0; a < Dim; ++a) std::memcpy(at_[a].data() + count_ + n, &numbers[a], sizeof(j));
       std::memcpy(signed_volume_.data() + count_ + n, &numbers[Dim], sizeof(j));
+      if (!pairs.is_graded()) continue;
+      const Lanes relative = LaneIndices(j)(pairs.relative_spacing.data());
+      std::memcpy(relative_spacing_.data() + count_ + n, &relative, sizeof(relative));
     }
     count_ += list.size();
   }
@@ -150,6 +161,7 @@ class Candidates {
   std::vector<std::int32_t> index_;
   std::array<std::vector<std::uint32_t>, Dim> at_;  ///< in units of Pairs::unit
   std::vector<float> signed_volume_;                ///< m^Dim; negative of a wall particle
+  std::vector<float> relative_spacing_;             ///< if particles have several spacings
   std::size_t count_ = 0;
   bool holds_group_ = false;
   std::ptrdiff_t offset_of_group_ = 0;  ///< from the index of a particle of the group to its candidate

@@ -40,13 +40,14 @@ void pick(std::span<const std::int32_t> kept, std::vector<Value>& field) {
 
 template <int Dim>
 Neighbourhood<Dim>::Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows,
-                                  PeriodicDomain<Dim> domain, Communicator ranks)
+                                  PeriodicDomain<Dim> domain, Communicator ranks, SpacingField<Dim> field)
     : kernel_(std::move(kernel)),
       spacing_(spacing),
       skin_(skin),
       wall_rows_(wall_rows),
       domain_(std::move(domain)),
       ranks_(std::move(ranks)),
+      field_(std::move(field)),
       has_ghosts_(!ranks_.is_alone() ||
                   std::ranges::any_of(domain_, [](const auto& interval) { return interval.has_value(); })) {}
 
@@ -60,6 +61,7 @@ bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
   }
   grid_ = CellGrid<Dim>(particles.position, kernel_radius(kernel_));
   find_places<Dim>(particles, domain_, kernel_radius(kernel_), pairs_);
+  find_relative_spacing(particles);
   find_pairs<Dim>(kernel_, grid_, particles, wall_rows_, least_distance_over_spacing * spacing_, pairs_);
   has_pairs_ = true;
   return renew;
@@ -98,6 +100,15 @@ std::vector<double> Neighbourhood<Dim>::work(const Particles<Dim>& particles) co
     work[i] = row_cost + (particles.is_fluid(i) ? 1.0 : wall_pair_cost) * neighbours;
   });
   return work;
+}
+
+template <int Dim>
+void Neighbourhood<Dim>::find_relative_spacing(const Particles<Dim>& particles) {
+  if (field_.is_uniform()) return;
+  pairs_.inverse_cell = static_cast<float>(1.0 / power<Dim>(spacing_));
+  pairs_.relative_spacing.resize(particles.size());
+  for_each(particles.size(),
+           [&](std::size_t i) { pairs_.relative_spacing[i] = static_cast<float>(field_.at(particles.position[i])); });
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "neighbours/halo.h"
 #include "neighbours/pairs.h"
 #include "particles/particles.h"
+#include "refinement/spacing_field.h"
 
 namespace tailwater {
 
@@ -20,8 +21,9 @@ template <int Dim>
 class Neighbourhood {
  public:
   /// `skin` [m] is how far ghosts reach beyond the kernel's support.
+  /// `kernel` and `spacing` are those of the case, where `field` is 1.
   Neighbourhood(Kernel<Dim> kernel, double spacing, double skin, WallRows wall_rows, PeriodicDomain<Dim> domain,
-                Communicator ranks = {});
+                Communicator ranks = {}, SpacingField<Dim> field = {});
 
   /// Brings everything up to date with particles.position. Collective. Returns whether the ghosts, and their number,
   /// are new. pairs() and their order may change at every call.
@@ -65,6 +67,7 @@ class Neighbourhood {
   std::size_t renewals() const { return renewals_; }
 
  private:
+  void find_relative_spacing(const Particles<Dim>& particles);
   bool ghosts_are_valid(const Particles<Dim>& particles) const;
   void renew_ghosts(Particles<Dim>& particles);
 
@@ -74,6 +77,7 @@ class Neighbourhood {
   WallRows wall_rows_;
   PeriodicDomain<Dim> domain_;
   Communicator ranks_;
+  SpacingField<Dim> field_;
   bool has_ghosts_;  ///< whether there can be any
   CellGrid<Dim> grid_;
   Halo<Dim> halo_;

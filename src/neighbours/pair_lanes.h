@@ -27,8 +27,9 @@ struct PlaceLanes {
   return unit * __builtin_convertvector(reinterpret_cast<SignedLanes>(own - places), Lanes);
 }
 
-/// Several pairs of particle i, side by side: as many as there are lanes, or the rest of its row.
-template <int Dim, bool is_full>
+/// Several pairs of particle i, side by side: as many as there are lanes, or the rest of its row. `is_graded`: whether
+/// particles have several spacings. If not, the functions that depend on the spacing cost nothing.
+template <int Dim, bool is_full, bool is_graded>
 struct PairBatch {
   const Pairs<Dim>& pairs;
   std::size_t i;
@@ -55,49 +56,96 @@ struct PairBatch {
     return lanes;
   }
 
+  /// Of each pair, the mean of both particles.
+  Lanes relative_spacing() const {
+    if constexpr (!is_graded) return in_all_lanes(1.0);
+    return 0.5F * (pairs.relative_spacing[i] + of(std::span<const float>(pairs.relative_spacing)));
+  }
+  /// m^2; squares of distances as if the pairs had the spacing of the case.
+  Lanes squared_over_spacing(Lanes squared) const {
+    if constexpr (!is_graded) return squared;
+    const Lanes inverse = 1.0F / relative_spacing();
+    return squared * (inverse * inverse);
+  }
+  /// 1/m^Dim; values of the kernel as if the pairs had the spacing of the case.
+  Lanes kernel_over_spacing(Lanes W) const {
+    if constexpr (!is_graded) return W;
+    return W * power_of<Dim>(relative_spacing());
+  }
+  /// Weights of neighbours in means: their volumes over that of a particle of the case's spacing, 1 if all have one
+  /// spacing.
+  Lanes weight_in_means(const PlaceLanes<Dim>& place) const {
+    if constexpr (!is_graded) return in_all_lanes(1.0);
+    return place.volume() * pairs.inverse_cell;
+  }
+
   /// m; between the particles, never 0.
   Lanes distance(const VecLanes<Dim>& d) const { return sqrt_of(max_of(d.dot(d), Lanes{} + pairs.least_squared)); }
   /// 1/m^(Dim+2); F = -(dW/dr)/r at these differences times the weights of the pairs, 0 in lanes left over.
   Lanes F(const VecLanes<Dim>& d) const {  // NOLINT(readability-identifier-naming): as in formulas
-    return weighted(range.only(kernel_steepness(pairs.kernel_in_lanes, distance(d))));
+    if constexpr (!is_graded) return weighted(range.only(kernel_steepness(pairs.kernel_in_lanes, distance(d))));
+    const Lanes inverse = 1.0F / relative_spacing();
+    const Lanes steepness = kernel_steepness(pairs.kernel_in_lanes, distance(d) * inverse);
+    return weighted(range.only(steepness * power_of<Dim + 2>(inverse)));
   }
   /// 1/m^Dim; W at these differences times the weights of the pairs.
-  Lanes kernel_at(const VecLanes<Dim>& d) const { return weighted(kernel_value(pairs.kernel_in_lanes, distance(d))); }
-  /// 1/m^Dim; W_ij, and 0 with walls and in lanes left over.
-  Lanes kernel_of_fluid() const {
-    const PlaceLanes<Dim> where = place();
-    return where.of_fluid(kernel_at(where.d));
+  Lanes kernel_at(const VecLanes<Dim>& d) const {
+    if constexpr (!is_graded) return weighted(kernel_value(pairs.kernel_in_lanes, distance(d)));
+    const Lanes inverse = 1.0F / relative_spacing();
+    return weighted(kernel_value(pairs.kernel_in_lanes, distance(d) * inverse) * power_of<Dim>(inverse));
   }
+  /// 1/m^Dim; weights of neighbours in means over the fluid: W_ij and the weight in means; 0 for walls and in lanes
+  /// left over.
+  Lanes kernel_of_fluid(const PlaceLanes<Dim>& where) const {
+    return where.of_fluid(weight_in_means(where) * kernel_at(where.d));
+  }
+  Lanes kernel_of_fluid() const { return kernel_of_fluid(place()); }
 
   /// Writes to the places of these pairs in `row`, which has all pairs of i. Returns what was written, with 0 in lanes
   /// left over.
   Lanes store(Lanes lanes, float* row) const { return range.store(lanes, row + (range.begin - pairs.begin(i))); }
 
  private:
+  template <int exponent>
+  static Lanes power_of(Lanes base) {
+    Lanes product = base;
+    for (int n = 1; n < exponent; ++n) product *= base;
+    return product;
+  }
   Lanes weighted(const Lanes& lanes) const {
     return pairs.weight.empty() ? lanes : lanes * range.load(pairs.weight.data());
   }
 };
 
 /// Pair k of particle i alone.
-template <int Dim>
-PairBatch<Dim, false> one_pair(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) {
+template <bool is_graded = false, int Dim>
+PairBatch<Dim, false, is_graded> one_pair(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) {
   const LaneRange<false> range{k, 1};
   return {pairs, i, range, range.neighbours(pairs.j.data())};
+}
+/// Calls body(batch) with it.
+template <int Dim, class Body>
+auto with_one_pair(const Pairs<Dim>& pairs, std::size_t i, std::size_t k, Body&& body) {
+  return pairs.is_graded() ? body(one_pair<true>(pairs, i, k)) : body(one_pair(pairs, i, k));
 }
 
 template <int Dim>
 float Pairs<Dim>::F(std::size_t i, std::size_t k) const {
-  const PairBatch<Dim, false> pair = one_pair(*this, i, k);
-  return pair.F(pair.place().d)[0];
+  return with_one_pair(*this, i, k, [](const auto& pair) { return pair.F(pair.place().d)[0]; });
 }
 
 /// Calls body(batch), of PairBatch, for the pairs of particle i, in their order. What the body adds up stays in
 /// registers.
 template <int Dim, class Body>
 [[gnu::always_inline, gnu::flatten]] inline void for_each_pair(const Pairs<Dim>& pairs, std::size_t i, Body&& body) {
+  if (pairs.is_graded()) {
+    for_each_lanes(pairs.begin(i), pairs.end(i), [&]<bool is_full>(LaneRange<is_full> range) {
+      body(PairBatch<Dim, is_full, true>{pairs, i, range, range.neighbours(pairs.j.data())});
+    });
+    return;
+  }
   for_each_lanes(pairs.begin(i), pairs.end(i), [&]<bool is_full>(LaneRange<is_full> range) {
-    body(PairBatch<Dim, is_full>{pairs, i, range, range.neighbours(pairs.j.data())});
+    body(PairBatch<Dim, is_full, false>{pairs, i, range, range.neighbours(pairs.j.data())});
   });
 }
 

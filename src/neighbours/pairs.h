@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -35,8 +36,12 @@ struct Pairs {
   std::array<float, Dim> unit{};        ///< m; of places
   std::vector<Vec<Dim>> position;       ///< m; of all particles when the pairs were found
   std::vector<std::int64_t> id;         ///< of all particles
-  double least_distance = 0.0;          ///< m; two particles nearer than this count as this far apart
-  float least_squared = 0.0F;           ///< m^2; its square
+  /// Of all particles: the spacing where each stands over that of the case, and with it the radius of its support over
+  /// that of the kernel. A pair has the mean of both. Empty: 1 for all particles.
+  std::vector<float> relative_spacing;
+  float inverse_cell = 1.0F;    ///< 1/m^Dim; of a particle of the case's spacing
+  double least_distance = 0.0;  ///< m; two particles nearer than this count as this far apart
+  float least_squared = 0.0F;   ///< m^2; its square
   Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
   Kernel<Dim, float> kernel_in_lanes = in_single_precision(kernel);
 
@@ -49,9 +54,20 @@ struct Pairs {
   }
   double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }          ///< m; |r_ij|
   Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }  ///< unit vector along r_ij
+  /// Whether particles have several spacings.
+  bool is_graded() const { return !relative_spacing.empty(); }
+  double relative_spacing_of(std::size_t i) const { return is_graded() ? relative_spacing[i] : 1.0; }
+  /// Weight of particle i in means by the kernel at its place, over that of one of the case's spacing.
+  double weight_in_means_of(std::size_t i) const {
+    const double volume = std::abs(place[i].signed_volume) * static_cast<double>(inverse_cell);
+    return volume / power<Dim>(relative_spacing_of(i));
+  }
   /// 1/m^Dim; W_ij times the weight of the pair. F, slope and gradient contain the weight too.
   double value(std::size_t i, std::size_t k) const {
-    return (weight.empty() ? 1.0 : weight[k]) * kernel_value(kernel, r(i, k));
+    const double of_pair = weight.empty() ? 1.0 : weight[k];
+    if (!is_graded()) return of_pair * kernel_value(kernel, r(i, k));
+    const double relative = 0.5 * (relative_spacing[i] + relative_spacing[j[k]]);
+    return of_pair * kernel_value(kernel, r(i, k) / relative) / power<Dim>(relative);
   }
   /// 1/m^(Dim+2); F = -(dW/dr)/r as loops in lanes have it, never negative, so that grad_i W_ij = -F d. To call it,
   /// and what follows, include pair_lanes.h.

@@ -23,7 +23,7 @@ struct KernelSums {
   Vec<Dim> crowding;      ///< 1/m
 };
 
-/// Values of the kernel [1/m^Dim].
+/// Values of the kernel [1/m^Dim] where particles have the case's spacing.
 struct KernelValues {
   double W_0;        ///< W(0)
   double W_spacing;  ///< W(dx)
@@ -36,10 +36,12 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const Kernel
   VecLanes<Dim> gradient{};
   VecLanes<Dim> crowding{};
   SymmetricLanes<Dim> moment{};
+  const double relative = pairs.relative_spacing_of(i);
   for_each_pair(pairs, i, [&](const auto& batch) {
     const PlaceLanes<Dim> place = batch.place();
     const Lanes W = batch.kernel_at(place.d);
-    const Lanes squared_ratio = (W * inverse_W) * (W * inverse_W);
+    const Lanes ratio = batch.kernel_over_spacing(W) * inverse_W;
+    const Lanes squared_ratio = ratio * ratio;
     const Lanes pairing = 1.0F + 0.2F * (squared_ratio * squared_ratio);
     const VecLanes<Dim> weights = place.volume() * batch.F(place.d) * place.d;
     concentration += place.volume() * W;
@@ -48,7 +50,8 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const Kernel
     moment.add(weights, place.d);
   });
   const double volume_i = std::abs(pairs.place[i].signed_volume);
-  return {volume_i * values.W_0 + sum_of(concentration), sum_of(gradient), sum_of(moment), sum_of(crowding)};
+  return {volume_i * (values.W_0 / power<Dim>(relative)) + sum_of(concentration), sum_of(gradient), sum_of(moment),
+          sum_of(crowding)};
 }
 
 }  // namespace tailwater

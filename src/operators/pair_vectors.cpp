@@ -57,7 +57,8 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     }
     correction[i] = (1.0 - share) * packed<Dim>(at_surface);
     if (share == 0.0) return;
-    // Weights 1 - (r/R)^2: a mean over as many neighbours as there are, and continuous.
+    // Weights 1 - (r/R)^2, and by volume where volumes differ: a mean over as many neighbours as there are, and
+    // continuous.
     std::array<Lanes, symmetric_size<Dim>> sums{};
     Lanes weight_sums{};
     Lanes interiors{};
@@ -67,18 +68,20 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
       const Lanes squared = place.d.dot(place.d);
       const auto other = batch.j.numbers(moments.data());
       const Lanes other_interior = other[0];
-      const Lanes weight = batch.range.only(other_interior) * (1.0F - squared * inverse_square);
+      const Lanes weight = batch.weight_in_means(place) * batch.range.only(other_interior) *
+                           (1.0F - batch.squared_over_spacing(squared) * inverse_square);
       for (int n = 0; n < symmetric_size<Dim>; ++n) sums[n] += weight * other[first_moment + n];
       weight_sums += weight;
-      const Lanes W = place.of_fluid(batch.kernel_at(place.d));
+      const Lanes W = batch.kernel_of_fluid(place);
       interiors += W * other_interior;
       kernel_sums += W;
     });
     const double kernel_sum = sum_of(kernel_sums);
     mean_interior[i] = kernel_sum > 0.0 ? sum_of(interiors) / kernel_sum : 0.0;
-    Packed<Dim> sum = share * input.first_moment[i];
+    const double own = pairs.is_graded() ? share * input.volume[i] * pairs.inverse_cell : share;
+    Packed<Dim> sum = own * input.first_moment[i];
     for (int n = 0; n < symmetric_size<Dim>; ++n) sum[n] += sum_of(sums[n]);
-    const double weights = share + sum_of(weight_sums);
+    const double weights = own + sum_of(weight_sums);
     const Mat<Dim> mean = unpacked<Dim>(sum / weights);
     correction[i] += share * packed<Dim>(mean.inverse());
   });

@@ -54,7 +54,7 @@ constexpr int closing_sweeps(CorrectionReach reach) { return reach == Correction
 /// What the corrections go by. All arrays have an entry per particle, ghosts included and up to date.
 template <int Dim>
 struct CorrectionInput {
-  double radius;                              ///< m; of the support
+  double radius;                              ///< m; of the support at the case's spacing
   std::span<const double> volume;             ///< m^Dim
   std::span<const ParticleKind> kind;         ///< only fluid has an l
   std::span<const double> interior;           ///< 0 at the surface and at walls, 1 inside
@@ -82,8 +82,8 @@ template <int Dim>
 struct PairVectorField {
   std::vector<PairVectorEnd<Dim>> ends;  ///< of all particles, ghosts included
 
-  template <bool is_full>
-  PairVectorLanes<Dim> operator()(const PairBatch<Dim, is_full>& batch) const {
+  template <bool is_full, bool is_graded>
+  PairVectorLanes<Dim> operator()(const PairBatch<Dim, is_full, is_graded>& batch) const {
     using End = PairVectorEnd<Dim>;
     static_assert(offsetof(End, at) == offsetof(Place<Dim>, at) &&
                   offsetof(End, signed_volume) == offsetof(Place<Dim>, signed_volume));
@@ -102,7 +102,7 @@ struct PairVectorField {
 
   /// a_ij of pair k of particle i.
   Vec<Dim> at(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) const {
-    const VecLanes<Dim> a = (*this)(one_pair(pairs, i, k)).a;
+    const VecLanes<Dim> a = with_one_pair(pairs, i, k, [this](const auto& pair) { return (*this)(pair).a; });
     return Vec<Dim>::NullaryExpr([&a](Eigen::Index n) { return a.at[n][0]; });
   }
 };

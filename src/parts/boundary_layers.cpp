@@ -43,7 +43,7 @@ double next_layer_viscosity(const Flow<Dim>& flow, const FrictionWall<Dim>& wall
   const Particles<Dim>& particles = flow.state.particles;
   const double molecular = setup.liquid.viscosity.molecular;
   const double nu = particles.layer_viscosity[i];
-  const bool is_beside_wall = wall.is_turbulent() && d < setup.scale.spacing;
+  const bool is_beside_wall = wall.is_turbulent() && d < setup.scale.spacing * flow.pairs().relative_spacing_of(i);
   const double seed = is_beside_wall ? sa::seed({molecular, wall.roughness}, wall.friction_velocity) : 0.0;
   double rate = 0.0;
   double destruction = 0.0;

@@ -12,7 +12,8 @@ double find_fullness(const Flow<Dim>& flow) {
   if (!flow.setup.has_air() || flow.is_open()) return 0.0;
   const Vec<2> nothing = Vec<2>::Zero();
   Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
-    return flow.role[i] == Role::water ? Vec<2>(1.0 - flow.surroundings.interior[i], 1.0) : nothing;
+    const double weight = flow.setup.weight_in_statistics(flow.state.particles.volume[i]);
+    return flow.role[i] == Role::water ? Vec<2>(weight * (1.0 - flow.surroundings.interior[i]), weight) : nothing;
   });
   flow.setup.ranks.sum_each(beside_air_and_all[0], beside_air_and_all[1]);
   return beside_air_and_all[1] > 0.0 ? std::max(0.0, 1.0 - beside_air_and_all[0]) : 0.0;

@@ -32,7 +32,8 @@ template <int Dim>
 double bulk_rms(const Flow<Dim>& flow, const std::vector<double>& field) {
   const Vec<2> nothing = Vec<2>::Zero();
   Vec<2> squares_and_count = sum_over(field.size(), nothing, [&](std::size_t i) {
-    return flow.is_inside(i) ? Vec<2>(field[i] * field[i], 1.0) : nothing;
+    const double weight = flow.setup.weight_in_statistics(flow.state.particles.volume[i]);
+    return flow.is_inside(i) ? Vec<2>(weight * (field[i] * field[i]), weight) : nothing;
   });
   flow.setup.ranks.sum_each(squares_and_count[0], squares_and_count[1]);
   return squares_and_count[1] > 0.0 ? std::sqrt(squares_and_count[0] / squares_and_count[1]) : 0.0;

@@ -20,6 +20,7 @@
 #include "parallel/communicator.h"
 #include "particles/particles.h"
 #include "particles/wall_forces.h"
+#include "refinement/spacing_field.h"
 
 namespace tailwater {
 
@@ -67,7 +68,11 @@ struct ProbeContext {
   std::span<const BodyState<Dim>> bodies = {};   ///< floating bodies
   /// Pa; pressure of the air at a place, above the atmosphere's. The same on all ranks; empty without pockets.
   std::function<double(const Vec<Dim>&)> air_pressure = {};
+  /// Where particles are finer than `spacing`; null: nowhere.
+  const SpacingField<Dim>* spacing_field = nullptr;
 
+  double relative_spacing(const Vec<Dim>& x) const { return spacing_field == nullptr ? 1.0 : spacing_field->at(x); }
+  double spacing_at(const Vec<Dim>& x) const { return spacing * relative_spacing(x); }
   double air_pressure_at(const Vec<Dim>& x) const { return air_pressure ? air_pressure(x) : 0.0; }
 
   /// This instant for other particles. Data that belong to particles or ranks are left out.
@@ -81,7 +86,8 @@ struct ProbeContext {
             .spacing = spacing,
             .time = time,
             .totals = totals,
-            .air_pressure = air_pressure};
+            .air_pressure = air_pressure,
+            .spacing_field = spacing_field};
   }
 };
 
@@ -99,13 +105,17 @@ double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& x, 
 /// 0.
 template <int Dim, class Body>
 void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&& body) {
+  const double relative = context.relative_spacing(x);
   std::visit(
       [&](const auto& kernel) {
+        const double radius = relative * kernel.radius();
         context.grid.for_each_near(x, [&](std::int32_t j) {
           const double squared = (x - context.particles.position[j]).squaredNorm();
-          if (squared >= kernel.radius() * kernel.radius()) return;
+          if (squared >= radius * radius) return;
           const double visible = visible_fraction_of(context, x, j);
-          if (visible > 0.0) body(j, visible * context.particles.volume[j] * kernel.value(std::sqrt(squared)));
+          if (visible == 0.0) return;
+          const double W = kernel.value(std::sqrt(squared) / relative) / power<Dim>(relative);
+          body(j, visible * context.particles.volume[j] * W);
         });
       },
       context.kernel);

@@ -36,15 +36,15 @@ Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
     return particles.is_fluid(k) && !context.boundary.is_in_duct(particles.position[k]);
   };
   for (const std::size_t i : indices_where(particles.owned, counts)) {
-    heap.emplace_back(particles.position[i].dot(direction), static_cast<std::int32_t>(i));
+    const Vec<Dim>& x = particles.position[i];
+    heap.emplace_back(x.dot(direction) + 0.5 * context.spacing_at(x), static_cast<std::int32_t>(i));
   }
   if (heap.empty()) return {};
   std::make_heap(heap.begin(), heap.end());
-  const double half = 0.5 * context.spacing;
-  const double front = heap.front().first + half;
-  // Tests the foremost particles one by one until one is connected.
+  const double front = heap.front().first;
+  // Checks the foremost particles one by one until one is connected.
   while (!heap.empty()) {
-    if (is_connected(context, heap.front().second)) return {front, heap.front().first + half};
+    if (is_connected(context, heap.front().second)) return {front, heap.front().first};
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
   }

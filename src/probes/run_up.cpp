@@ -58,7 +58,7 @@ struct RunUp {
     const auto foot = context.boundary.nearest(particles.position[i], wetting_distance * context.spacing);
     if (foot.face < 0 || !walls.contains(context.boundary.faces[foot.face].wall, foot.point)) return nowhere;
     const double across = context.boundary.faces[foot.face].normal.dot(up);
-    return foot.point.dot(up) + 0.5 * context.spacing * std::sqrt(std::max(0.0, 1.0 - across * across));
+    return foot.point.dot(up) + 0.5 * context.spacing_at(foot.point) * std::sqrt(std::max(0.0, 1.0 - across * across));
   }
 
   /// Collective.

@@ -8,6 +8,7 @@
 #include "parts/boundary_layers.h"
 #include "parts/damping_zones.h"
 #include "parts/domain_floor.h"
+#include "parts/refinement.h"
 #include "parts/rest_watch.h"
 #include "parts/section_counters.h"
 #include "parts/side_walls.h"
@@ -36,6 +37,7 @@ Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
       make_open_ends_part<Dim>,   make_domain_floor<Dim>,    make_wave_makers<Dim>,     make_side_walls<Dim>,
       make_damping_zones<Dim>,    make_boundary_layers<Dim>, make_floating_bodies<Dim>, make_enclosed_air<Dim>,
       make_section_counters<Dim>, make_porous_layers<Dim>,   make_thick_liquid<Dim>,    make_rest_watch<Dim>,
+      make_refinement<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

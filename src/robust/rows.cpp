@@ -35,7 +35,7 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
     LaneSum sums;
     for_each_pair(pairs, i, [&](const auto& batch) {
       const VecLanes<Dim> d = batch.place().d;
-      const Lanes share = share_of_morris_weight(d.dot(d), spacing);
+      const Lanes share = share_of_morris_weight(batch.squared_over_spacing(d.dot(d)), spacing);
       sums += batch.store(2.0F * share * batch.of(volume_taking_part) * batch.F(d), weights);
     });
     return sums.total();
@@ -50,7 +50,7 @@ double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::siz
   const double air = laws_.air.weight(sum, flow.lattice_of(i).morris);
   const double interior = flow.surroundings.interior[i];
   if (interior == 0.0) return air;
-  const double spacing = flow.setup.scale.spacing;
+  const double spacing = flow.setup.scale.spacing * flow.pairs().relative_spacing_of(i);
   const double inside = 4.0 * flow.surroundings.open_faces[i].squaredNorm() + softness / (spacing * spacing);
   return std::lerp(air, inside, interior);
 }

@@ -34,7 +34,7 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   for_each(owned, [&](std::size_t i) {
     const double error = concentration[i] - 1.0;
     const double answered = (error < 0.0 ? pull * flow.surroundings.interior[i] : lift) * error + overlap[i];
-    source[i] = share * unit * answered;
+    source[i] = share / flow.pairs().relative_spacing_of(i) * unit * answered;
   });
   return source;
 }

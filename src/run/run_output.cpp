@@ -225,7 +225,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .dt = dt,
                   .wall_forces = &flow.wall_forces,
                   .bodies = flow.state.motion.bodies.each,
-                  .air_pressure = air_of(flow).pressure_field()});
+                  .air_pressure = air_of(flow).pressure_field(),
+                  .spacing_field = flow.setup.graded == nullptr ? nullptr : &flow.setup.graded->field()});
 }
 
 template <int Dim>

@@ -97,10 +97,16 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
 }
 
-/// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall.
+/// How many ids the parts of a cell may have.
 template <int Dim>
-Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, Vec<Dim> x) {
-  const double dx = spec.particles.spacing;
+std::int64_t ids_per_cell(const SpacingField<Dim>& field) {
+  return std::llround(power<Dim>(1.0 / field.finest()));
+}
+
+/// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall. `dx` is the spacing at x.
+template <int Dim>
+Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, double dx,
+                        Vec<Dim> x) {
   if constexpr (Dim == 3) {
     // What is behind a mesh may be nearer to another wall, in front of it.
     for (const WallMesh& mesh : boundary.meshes) {
@@ -139,6 +145,7 @@ class BlockWater {
         axes_(make_lattice<Dim>(spec, index, boundary)),
         shape_(spec, index, boundary, axes_),
         velocity_(spec, block_, owner_),
+        field_(spec, boundary),
         lattice_{axes_, {}},
         stands_on_walls_(traits_of(spec).walls.on_wall) {
     for (int axis = 0; axis < Dim; ++axis) {
@@ -161,11 +168,10 @@ class BlockWater {
     return std::llround(std::accumulate(fitted_.in_row.begin(), fitted_.in_row.end(), 0.0));
   }
 
-  /// Calls put(position, velocity, volume) for the particles `from` to `to` - 1 of this block; its first one is number
-  /// `first` of all.
+  /// Calls put(position, velocity, volume, id) for the particles of the cells `from` to `to` - 1 of this block; its
+  /// first one is number `first` of all.
   template <class Put>
   void make(std::int64_t from, std::int64_t to, std::int64_t first, StartVelocities velocities, Put&& put) {
-    const double jitter = spec_.particles.jitter * spec_.particles.spacing;
     std::int64_t number = 0;
     for (std::int64_t row = 0; row < lattice_.rows() && number < to; ++row) {
       const std::int64_t in_row = std::llround(fitted_.in_row[row]);
@@ -177,22 +183,41 @@ class BlockWater {
         if (!takes(cell)) return;
         const std::int64_t n = number++;
         if (n < from || n >= to) return;
-        const Vec<Dim> centre = at(cell);
-        Vec<Dim> x = centre;
-        for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
-          x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(first + n), axis);
+        Vec<Dim> edges;
+        for (int axis = 0; axis < Dim; ++axis) edges[axis] = axes_[axis].width(static_cast<int>(cell[axis]));
+        const auto put_part = [&](const Vec<Dim>& centre, const Vec<Dim>& part, std::int64_t id) {
+          const Vec<Dim> x = place_of(centre, spec_.particles.spacing * field_.at(centre), id);
+          double volume = fitted_.share;
+          for (int axis = 0; axis < Dim; ++axis) volume *= part[axis];
+          put(x, velocities == StartVelocities::found ? velocity_.at(x) : Vec<Dim>(Vec<Dim>::Zero()), volume, id);
+        };
+        if (field_.is_uniform() || velocities == StartVelocities::left_out) {
+          put_part(at(cell), edges, first + n);
+          return;
         }
-        // Not to the other side of a wall without thickness.
-        if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x)) x = centre;
-        x = kept_off_walls(spec_, boundary_, block_, x);
-        double volume = fitted_.share;
-        for (int axis = 0; axis < Dim; ++axis) volume *= axes_[axis].width(static_cast<int>(cell[axis]));
-        put(x, velocities == StartVelocities::found ? velocity_.at(x) : Vec<Dim>(Vec<Dim>::Zero()), volume);
+        std::int64_t parts = 0;
+        divide_cell<Dim>(
+            field_, spec_.particles.spacing, at(cell), edges, [&](const Vec<Dim>& centre, const Vec<Dim>& part) {
+              const std::int64_t id_of_part = first_id_of_parts + (first + n) * ids_per_cell(field_) + parts;
+              put_part(centre, part, parts++ == 0 ? first + n : id_of_part);
+            });
       });
     }
   }
 
  private:
+  /// Where the particle of a cell with this centre and spacing stands.
+  Vec<Dim> place_of(const Vec<Dim>& centre, double spacing, std::int64_t id) const {
+    const double jitter = spec_.particles.jitter * spacing;
+    Vec<Dim> x = centre;
+    for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
+      x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(id), axis);
+    }
+    // Not to the other side of a wall without thickness.
+    if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x)) x = centre;
+    return kept_off_walls(spec_, boundary_, block_, spacing, x);
+  }
+
   Vec<Dim> at(const Cell<Dim>& cell) const {
     Vec<Dim> x;
     for (int axis = 0; axis < Dim; ++axis) x[axis] = axes_[axis].at(static_cast<int>(cell[axis]), share_[axis]);
@@ -211,7 +236,7 @@ class BlockWater {
   /// Whether the particle of a cell that is cut can stand in front of all walls.
   bool leaves_room(const Cell<Dim>& cell) const {
     const double dx = spec_.particles.spacing;
-    const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, at(cell)), dx);
+    const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, dx, at(cell)), dx);
     return wall.face == -1 || wall.signed_distance > (least_wall_distance - corner_tolerance) * dx;
   }
 
@@ -260,6 +285,7 @@ class BlockWater {
   Lattice<Dim> axes_;
   WaterShape<Dim> shape_;
   StartVelocity<Dim> velocity_;
+  SpacingField<Dim> field_;
   LatticeBlock<Dim> lattice_;
   bool stands_on_walls_;
   std::array<double, Dim> share_{};  ///< of the way through its cell at which a place stands
@@ -323,7 +349,8 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
   fluid.block.reserve(end - fluid.first);
   std::int64_t first = 0;  // of a block
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const auto put = [&](const Vec<Dim>& x, const Vec<Dim>& velocity, double volume) {
+    const auto put = [&](const Vec<Dim>& x, const Vec<Dim>& velocity, double volume, std::int64_t id) {
+      if (!spec.refinement.empty() && velocities == StartVelocities::found) fluid.id.push_back(id);
       fluid.position.push_back(x);
       fluid.velocity.push_back(velocity);
       fluid.volume.push_back(volume);
@@ -335,6 +362,12 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
   return fluid;
 }
 
+template <int Dim>
+std::int64_t first_id_after_start(const SpacingField<Dim>& field, std::int64_t cells) {
+  return first_id_of_parts + cells * ids_per_cell(field);
+}
+
+TAILWATER_IN_2D_AND_3D(first_id_after_start);
 template struct FluidParticles<2>;
 template struct FluidParticles<3>;
 TAILWATER_IN_2D_AND_3D(make_fluid_particles);

@@ -10,6 +10,9 @@
 namespace tailwater {
 namespace {
 
+/// dx; farther than the particles behind a wall are from it.
+constexpr double reach_to_wall = 8.0;
+
 // Which function samples the walls in each dimension.
 WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
   return sample_chains(body, layers);
@@ -93,6 +96,31 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
   return all;
 }
 
+/// How often the edges of a wall particle at `x` are halved, by the field where its wall is nearest.
+template <int Dim>
+int level_at_wall(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& x) {
+  const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
+  const double relative = field.at(wall.face < 0 ? x : wall.point);
+  return static_cast<int>(std::lround(-std::log2(relative)));
+}
+
+/// The normal of the wall nearest to `x`, and directions along it.
+template <int Dim>
+Mat<Dim> axes_at_wall(const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& x) {
+  Mat<Dim> axes = Mat<Dim>::Identity();
+  const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
+  if (wall.face < 0) return axes;
+  const Vec<Dim>& normal = boundary.faces[wall.face].normal;
+  axes.col(0) = normal;
+  if constexpr (Dim == 2) {
+    axes.col(1) = Vec<2>(-normal[1], normal[0]);
+  } else {
+    axes.col(1) = normal.unitOrthogonal();
+    axes.col(2) = normal.cross(axes.col(1));
+  }
+  return axes;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -114,6 +142,39 @@ WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, d
                             Lattice<Dim>{});
 }
 
+template <int Dim>
+void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing,
+                           WallParticles<Dim>& particles) {
+  const std::int64_t parts_of_row = std::llround(power<Dim>(1.0 / field.finest()));
+  WallParticles<Dim> divided;
+  divided.numbers = particles.numbers * parts_of_row;
+  divided.numbers_on_wall = particles.numbers_on_wall * parts_of_row;
+  for (std::size_t row = 0; row < particles.size(); ++row) {
+    const int level = boundary.walls[particles.wall[row]].moves()
+                          ? 0
+                          : level_at_wall(field, boundary, spacing, particles.position[row]);
+    const int per_edge = 1 << level;
+    const Mat<Dim> axes = axes_at_wall(boundary, spacing, particles.position[row]);
+    const double edge = spacing / per_edge;
+    for (int part = 0; part < static_cast<int>(power<Dim>(per_edge)); ++part) {
+      Vec<Dim> steps;
+      for (int axis = 0, rest = part; axis < Dim; ++axis, rest /= per_edge) {
+        steps[axis] = edge * (rest % per_edge - 0.5 * (per_edge - 1));
+      }
+      divided.position.push_back(particles.position[row] + axes * steps);
+      divided.normal.push_back(particles.normal[row]);
+      divided.blocked.push_back(particles.blocked[row]);
+      divided.beyond_edges.push_back(particles.beyond_edges[row]);
+      divided.share.push_back(particles.share[row] / power<Dim>(per_edge));
+      divided.wall.push_back(particles.wall[row]);
+      divided.is_beyond_end.push_back(particles.is_beyond_end[row]);
+      divided.number.push_back(particles.number[row] * parts_of_row + part);
+    }
+  }
+  particles = std::move(divided);
+}
+
+TAILWATER_IN_2D_AND_3D(divide_wall_particles);
 TAILWATER_IN_2D_AND_3D(make_dummy_particles);
 TAILWATER_IN_2D_AND_3D(make_surface_particles);
 TAILWATER_IN_2D_AND_3D(make_row_and_dummy_particles);

@@ -7,6 +7,7 @@
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "refinement/spacing_field.h"
 #include "sampling/lattice_axis.h"
 #include "sampling/space_share.h"
 
@@ -55,6 +56,13 @@ struct WallParticles {
 template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
                                         const SpaceShare& share = {}, const Lattice<Dim>& lattice = {});
+
+/// Divides the particles behind walls at rest in zones of refinement, each into 2^Dim along and across its wall, until
+/// their volumes are nearest to those that the field asks for at the wall. On flat walls the rows stand as those of
+/// that spacing do.
+template <int Dim>
+void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing,
+                           WallParticles<Dim>& particles);
 
 /// One row of particles on the wall itself (F36-F39), spaced dx, with its ends and all corners sharper than 30 degrees.
 template <int Dim>

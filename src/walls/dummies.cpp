@@ -16,7 +16,7 @@ double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& forc
   VecLanes<Dim> sum{};
   for_each_pair(pairs, i, [&](const auto& batch) {
     const PlaceLanes<Dim> place = batch.place();
-    const Lanes weight = place.of_fluid(batch.kernel_at(place.d));
+    const Lanes weight = batch.kernel_of_fluid(place);
     sum += weight * place.d;
     also(batch, weight);
   });

@@ -74,10 +74,10 @@ bool cushion(const Boundary<Dim>& boundary, double spacing, const WallDisplaceme
 template <int Dim>
 void find_wall_overlap(const Pairs<Dim>& pairs, const Boundary<Dim>& boundary, double spacing,
                        const Particles<Dim>& particles, std::span<double> overlap) {
-  const double contact = contact_distance * spacing;
   for_each(pairs.owned(), [&](std::size_t i) {
     overlap[i] = 0.0;
     if (!particles.is_fluid(i) || pairs.sees_wall[i] == 0) return;
+    const double contact = contact_distance * spacing * pairs.relative_spacing_of(i);
     const NearestWall<Dim> wall = boundary.nearest_to_water(particles.position[i], contact);
     if (wall.face < 0) return;
     const double s = std::clamp(1.0 - wall.signed_distance / contact, 0.0, 1.0);
@@ -94,7 +94,7 @@ std::size_t keep_off_walls(const Pairs<Dim>& pairs, const Boundary<Dim>& boundar
     // Beside the end of a wall no wall particle need be in sight.
     const double move = (particles.position[i] - before[i]).norm();
     return (pairs.sees_wall[i] != 0 || !boundary.screens_near(particles.position[i], 2.0 * move).empty()) &&
-           cushion(boundary, spacing, displacements, before[i], particles.position[i],
+           cushion(boundary, spacing * pairs.relative_spacing_of(i), displacements, before[i], particles.position[i],
                    velocity.empty() ? nullptr : &velocity[i]);
   });
 }

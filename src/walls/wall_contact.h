@@ -27,6 +27,8 @@ namespace tailwater {
 /// dx; what looks for a wall near a particle looks no farther: behind the wall, as far as a move in one step can end.
 inline constexpr double search_distance = 3.0;
 
+/// In what follows `spacing` is that of the case [m]; distances scale with the spacing of each particle.
+
 /// Fills `overlap` of every owned particle; 0 for walls and for particles without a wall particle among their
 /// neighbours.
 template <int Dim>

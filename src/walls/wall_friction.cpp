@@ -40,11 +40,11 @@ Vec<Dim> along_wall(const WallScene<Dim>& scene, std::int32_t row, const Vec<Dim
   return v - scene.walls.particles.blocked[row] * v;
 }
 
-/// Sets the stresses of a wall whose place and slip velocity are known.
+/// Sets the stresses of a wall whose place and slip velocity are known. `spacing` [m] is that of the water there.
 template <int Dim>
-void apply_wall_law(const FrictionLaw& law, double layer_viscosity, FrictionWall<Dim>& wall) {
+void apply_wall_law(const FrictionLaw& law, double spacing, double layer_viscosity, FrictionWall<Dim>& wall) {
   const double speed = wall.slip_velocity.norm();
-  const bool may_be_thin = law.knows_layers && wall.distance < law.spacing;
+  const bool may_be_thin = law.knows_layers && wall.distance < spacing;
   const WallLaw surface{law.viscosity, wall.roughness};
   const double u_tau = surface.turbulent_friction_velocity(speed, [&](double guess) {
     if (!may_be_thin) return wall.distance;
@@ -61,6 +61,7 @@ template <int Dim>
 FrictionWall<Dim> find_friction_wall(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
                                      std::span<const Vec<Dim>> velocity, std::size_t i) {
   FrictionWall<Dim> wall;
+  const double relative = scene.pairs.relative_spacing_of(i);
   visit_friction_pairs(scene, law.spacing, i, [&](std::int32_t, std::int32_t row, double weight, std::size_t k) {
     wall.weight += weight;
     wall.slip_velocity += weight * along_wall<Dim>(scene, row, velocity[i] - entry_of<Dim>(V, row));
@@ -69,9 +70,9 @@ FrictionWall<Dim> find_friction_wall(const WallScene<Dim>& scene, const Friction
   });
   if (wall.weight == 0.0) return {};
   wall.slip_velocity /= wall.weight;
-  wall.distance = std::max(wall.distance / wall.weight, least_distance * law.spacing);
+  wall.distance = std::max(wall.distance / wall.weight, least_distance * law.spacing * relative);
   wall.roughness /= wall.weight;
-  apply_wall_law(law, scene.particles.layer_viscosity[i], wall);
+  apply_wall_law(law, law.spacing * relative, scene.particles.layer_viscosity[i], wall);
   return wall;
 }
 
@@ -96,7 +97,7 @@ void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std:
     double k_i = 0.0;
     if (wall.weight > 0.0) {
       if (wall.is_turbulent()) {
-        k_i = law.exchange_length * wall.excess / wall.slip_velocity.norm();
+        k_i = law.exchange_length * scene.pairs.relative_spacing_of(i) * wall.excess / wall.slip_velocity.norm();
         acceleration[i] -= k_i * wall.weight * wall.slip_velocity;
       }
       Vec<Dim> sum = Vec<Dim>::Zero();

@@ -11,10 +11,11 @@
 namespace tailwater {
 
 struct FrictionLaw {
-  double viscosity = 0.0;        ///< m^2/s; molecular
-  double spacing = 0.0;          ///< m; dx
-  double exchange_length = 0.0;  ///< m; water that glides at u past a wall gets the stress k u/exchange_length from k_i
-  bool knows_layers = false;     ///< whether particles carry the eddy viscosity of their layer
+  double viscosity = 0.0;  ///< m^2/s; molecular
+  double spacing = 0.0;    ///< m; dx of the case
+  double exchange_length =
+      0.0;  ///< m; at that spacing: water that glides at u past a wall gets the stress k u/exchange_length from k_i
+  bool knows_layers = false;  ///< whether particles carry the eddy viscosity of their layer
 };
 
 /// What a fluid particle feels of the walls with friction in its reach: weighted means over their particles.

@@ -41,7 +41,7 @@ double mean_in_front(const Pairs<Dim>& pairs, std::size_t i, const Vec<Dim>& n, 
     for (int a = 0; a < Dim; ++a) ahead -= static_cast<float>(n[a]) * place.d.at[a];
     ahead = max_of(ahead, Lanes{});
     const Lanes square = ahead * ahead / place.d.dot(place.d);
-    const Lanes weight = place.of_fluid(batch.kernel_at(place.d) * square * square * square * square);
+    const Lanes weight = batch.kernel_of_fluid(place) * square * square * square * square;
     sum += weight * batch.of(interior);
     weights += weight;
   });
@@ -59,9 +59,10 @@ void see_water_in_front(const WallScene<Dim>& scene, double spacing, std::span<d
     if (!particles.is_fluid(i) || interior[i] == 1.0 || scene.pairs.sees_wall[i] == 0) return;
     const double turning = share_of_turning_walls(scene, i);
     if (turning == 0.0) return;
-    const NearestWall<Dim> wall = scene.walls.boundary.nearest(particles.position[i], ends_at * spacing);
+    const double own_spacing = spacing * scene.pairs.relative_spacing_of(i);
+    const NearestWall<Dim> wall = scene.walls.boundary.nearest(particles.position[i], ends_at * own_spacing);
     if (wall.face < 0 || wall.signed_distance <= 0.0) return;
-    const double distance = wall.signed_distance / spacing;
+    const double distance = wall.signed_distance / own_spacing;
     const double share = turning * std::min(1.0, (ends_at - distance) / (ends_at - in_full_until));
     const Vec<Dim> n = (particles.position[i] - wall.point).normalized();
     raised[i] = share * mean_in_front<Dim>(scene.pairs, i, n, interior);

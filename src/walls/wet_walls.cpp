@@ -36,7 +36,7 @@ Vec<Dim> towards_water(const Pairs<Dim>& pairs, std::size_t i) {
   VecLanes<Dim> sum{};
   for_each_pair(pairs, i, [&](const auto& batch) {
     const PlaceLanes<Dim> place = batch.place();
-    sum += place.of_fluid(batch.kernel_at(place.d)) * place.d;
+    sum += batch.kernel_of_fluid(place) * place.d;
   });
   return -sum_of(sum);
 }

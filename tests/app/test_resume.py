@@ -60,6 +60,7 @@ FEATURES = {
     "a wave maker that absorbs, and a damping zone": WAVES,
     "a tank that a file rolls": ROLL,
     "water that enters a porous layer": ROCK,
+    "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),
     "a body that floats on a line": BARGE,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "an inlet, a tailwater whose water circulates, and a discharge probe": FLUME,

@@ -721,6 +721,31 @@ TEST(Check, APlateThatAbsorbsBadlyIsReported) {
   expect_only(check_wave_makers<2>(spec, fluid), Severity::warning, {"wave_maker 'piston' sends back", "kh = 3.29"});
 }
 
+TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
+  CaseSpec spec = tank();  // 1 m x 0.6 m
+  const double dx = spec.particles.spacing;
+  RefinementTable zone;
+  zone.name = "floor";
+  zone.min = {-1.0, -1.0};
+  zone.max = {2.0, 6.0 * dx};
+  spec.refinement = {zone};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.refinement[0].max[1] = 3.0 * dx;
+  expect_only(check(spec), Severity::error, {"refinement 'floor'", "nowhere would it be as fine as asked"});
+  spec.refinement[0].min[1] = 50.0;
+  spec.refinement[0].max[1] = 60.0;
+  expect_only(check(spec), Severity::error, {"refinement 'floor'", "would refine nothing"});
+  spec.refinement = {zone};
+  spec.scheme.integrator = Integrator::implicit_projection;
+  expect_only(check(spec), Severity::error, {"do not work with the implicit integrator"});
+  spec.scheme.integrator = Integrator::explicit_projection;
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.points = {{0.5, 0.0}, {0.5, 0.2}};
+  spec.walls.push_back(plate);
+  EXPECT_NE(listed(check(spec)).find("do not work with plates"), std::string::npos) << listed(check(spec));
+}
+
 TEST(Check, AStartAfterTheEndIsTold) {
   CaseSpec spec = tank();
   spec.time.end = 1.0;

@@ -81,8 +81,11 @@ std::vector<Vec<Dim>> jittered_cube(int count, double spacing, double jitter, st
 /// Particles with up-to-date neighbours.
 template <int Dim>
 struct ParticleSet {
-  ParticleSet(Particles<Dim> all, const Kernel<Dim>& kernel, double dx, PeriodicDomain<Dim> domain = {})
-      : particles(std::move(all)), neighbourhood(kernel, dx, 0.2 * dx, WallRows::all, std::move(domain)), spacing(dx) {
+  ParticleSet(Particles<Dim> all, const Kernel<Dim>& kernel, double dx, PeriodicDomain<Dim> domain = {},
+              SpacingField<Dim> field = {})
+      : particles(std::move(all)),
+        neighbourhood(kernel, dx, 0.2 * dx, WallRows::all, std::move(domain), {}, std::move(field)),
+        spacing(dx) {
     neighbourhood.update(particles);
   }
   ParticleSet(std::span<const Vec<Dim>> positions, const Kernel<Dim>& kernel, double dx,

@@ -1,0 +1,58 @@
+// Reference sums where particles have several spacings (refinement/spacing_field.h). The concentration of a particle is
+// compared with
+//
+//   C_0(h, V) C*(x),    C*(x) = int W(|y - x|, R (h(x) + h(y))/2) dy
+//
+// C_0 is the sum over a full lattice of particles of its volume and support; C* is the concentration of a continuum
+// with the supports of this field, from 0.96 to 1.04 across a border. Without it the density source would push the
+// water out of one side of a border and draw it to the other. Likewise a continuum has a gradient of C where supports
+// vary, which is no crowding.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "kernel/kernel.h"
+#include "operators/lattice.h"
+#include "refinement/spacing_field.h"
+
+namespace tailwater {
+
+/// Sums over a continuum.
+template <int Dim>
+struct ContinuumSums {
+  double concentration = 1.0;            ///< C*
+  Vec<Dim> gradient = Vec<Dim>::Zero();  ///< 1/m; int grad_x W dy at a fixed support
+};
+
+template <int Dim>
+class GradedSums {
+ public:
+  GradedSums(const Kernel<Dim>& kernel, double spacing, SpacingField<Dim> field);
+
+  const SpacingField<Dim>& field() const { return field_; }
+  /// Sums over a full lattice of particles of this volume [m^Dim] with the support of a relative spacing h.
+  LatticeSums lattice(double relative_spacing, double volume) const;
+  /// At a place: from a table behind a single face, else by quadrature.
+  ContinuumSums<Dim> continuum(const Vec<Dim>& x) const;
+
+ private:
+  /// Across one face, from one support in front of it to one behind its border.
+  struct FaceTable {
+    double first;  ///< m; depth of the first entry
+    double step;   ///< m
+    std::vector<double> concentration;
+    std::vector<double> gradient;  ///< 1/m; component inwards
+  };
+
+  FaceTable tabulate(int level) const;
+
+  Kernel<Dim> kernel_;
+  double spacing_;
+  SpacingField<Dim> field_;
+  std::vector<LatticeSums> lattices_;  ///< of ratios of lattice spacing and support, in equal steps
+  std::map<int, FaceTable> of_level_;
+};
+
+}  // namespace tailwater

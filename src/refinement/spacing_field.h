@@ -1,0 +1,91 @@
+// The spacing of particles as a smooth field of the place. It is that of the case outside of all zones of refinement
+// and falls by the level of a zone from its faces inwards:
+//
+//   h(x) = min over zones of 2^(-level S),    S = product over the faces of the zone of s(depth behind the face/border)
+//
+// s is the smooth step 3 q^2 - 2 q^3 from 0 to 1. The supports of particles follow h, not their volumes: particles of
+// several volumes that stand side by side have nearly the same support, and pairs are symmetric
+// (docs/theory/refinement.md).
+#pragma once
+
+#include <vector>
+
+#include "base/vec.h"
+#include "case/spec.h"
+#include "geometry/boundary.h"
+
+namespace tailwater {
+
+/// Width of a border over dx of the case, per level.
+inline constexpr double border_per_level = 4.0;
+
+/// h behind one plane face: 1 in front of it, 2^-level behind the border. `depth` is over the width of the border.
+double spacing_behind_face(int level, double depth);
+
+/// How h varies within a reach of a place.
+template <int Dim>
+struct SpacingNearby {
+  enum class Kind { uniform, one_face, any } kind = Kind::uniform;
+  int level = 0;                        ///< of the zone; where it varies behind one face
+  double depth = 0.0;                   ///< m; behind that face
+  Vec<Dim> inwards = Vec<Dim>::Zero();  ///< across that face
+};
+
+template <int Dim>
+class SpacingField {
+ public:
+  /// 1 everywhere.
+  SpacingField() = default;
+  /// Faces of zones that reach to the outermost walls or beyond bound nothing.
+  SpacingField(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+  /// A zone, of which a face that bounds nothing is infinitely far away.
+  struct Zone {
+    Eigen::AlignedBox<double, Dim> box;  ///< m
+    int level;
+    double border;  ///< m
+  };
+
+  const std::vector<Zone>& zones() const { return zones_; }
+  bool is_uniform() const { return zones_.empty(); }
+  /// h; 1 is the spacing of the case.
+  double at(const Vec<Dim>& x) const;
+  /// The least h there is.
+  double finest() const;
+  SpacingNearby<Dim> nearby(const Vec<Dim>& x, double reach) const;
+
+ private:
+  Vec<Dim> wrapped(Vec<Dim> x) const;
+
+  std::vector<Zone> zones_;
+  Eigen::AlignedBox<double, Dim> periodic_;  ///< m; along directions that are not periodic it has no extent
+};
+
+/// Particles in the part of a zone that is in `box`, without other zones, when it is full of water of this `spacing`
+/// [m] of the case.
+template <int Dim>
+double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, double spacing,
+                              const Eigen::AlignedBox<double, Dim>& box);
+
+/// A particle is split in two where its volume exceeds that of the field, (h dx)^Dim, by this factor.
+inline constexpr double volume_to_split = 1.34;
+
+/// Calls put(centre, edges) for the parts of a cell: halves, along the longest edge [m], of halves, until none of them
+/// is to be split.
+template <int Dim, class Put>
+void divide_cell(const SpacingField<Dim>& field, double spacing, const Vec<Dim>& centre, const Vec<Dim>& edges,
+                 const Put& put) {
+  if (edges.prod() <= volume_to_split * power<Dim>(spacing * field.at(centre))) {
+    put(centre, edges);
+    return;
+  }
+  int longest = 0;
+  edges.maxCoeff(&longest);
+  Vec<Dim> half = edges;
+  half[longest] *= 0.5;
+  const Vec<Dim> step = 0.5 * half[longest] * Vec<Dim>::Unit(longest);
+  divide_cell<Dim>(field, spacing, centre - step, half, put);
+  divide_cell<Dim>(field, spacing, centre + step, half, put);
+}
+
+}  // namespace tailwater
