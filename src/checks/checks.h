@@ -119,8 +119,8 @@ template <int Dim>
 Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
 /// Errors: a zone of refinement outside of the case, narrower than its borders, over one end of a period only, or with
-/// what particles of several spacings do not work with: other schemes and pair vectors than the default ones, plates and
-/// walls that move, open ends, bodies, enclosed air, porous layers.
+/// features that do not work with zones: other schemes and pair vectors than the default ones, bodies, enclosed air,
+/// porous layers, and walls that move and open ends nearby.
 template <int Dim>
 Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 

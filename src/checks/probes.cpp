@@ -3,6 +3,7 @@
 #include <string>
 
 #include "checks/checks.h"
+#include "checks/swept_box.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "motion/wall_motion.h"
@@ -20,16 +21,7 @@ Eigen::AlignedBox<double, Dim> box_of_case(const CaseSpec& spec, const Boundary<
   Eigen::AlignedBox<double, Dim> box = fluid.box().merged(box_around(drawn.faces));
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) box.extend(box_around(end.as_faces()));
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
-    if (!drawn.walls[w].moves()) continue;
-    const int wall = static_cast<int>(w);
-    const WallPath<Dim> path(spec, spec.walls[w], wall_label(drawn, wall));
-    for (int k = 0; k <= looks_at_walls; ++k) {
-      const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_walls);
-      if (!map.linear.allFinite() || !map.constant.allFinite()) continue;  // told by check_paths
-      for (const WallFace<Dim>& face : drawn.faces) {
-        if (face.wall == wall) box.extend(moved(map, face).box());
-      }
-    }
+    if (drawn.walls[w].moves()) box.extend(swept_box(spec, drawn, static_cast<int>(w)));
   }
   return box;
 }
@@ -94,6 +86,20 @@ void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const Pr
 }  // namespace
 
 template <int Dim>
+Eigen::AlignedBox<double, Dim> swept_box(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
+  Eigen::AlignedBox<double, Dim> box;
+  const WallPath<Dim> path(spec, spec.walls[wall], wall_label(drawn, wall));
+  for (int k = 0; k <= looks_at_walls; ++k) {
+    const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_walls);
+    if (!map.linear.allFinite() || !map.constant.allFinite()) continue;  // told by check_paths
+    for (const WallFace<Dim>& face : drawn.faces) {
+      if (face.wall == wall) box.extend(moved(map, face).box());
+    }
+  }
+  return box;
+}
+
+template <int Dim>
 Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
   Findings findings;
   if (spec.damping.empty() || drawn.faces.empty()) return findings;
@@ -128,6 +134,7 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
   return findings;
 }
 
+TAILWATER_IN_2D_AND_3D(swept_box);
 TAILWATER_IN_2D_AND_3D(check_damping);
 TAILWATER_IN_2D_AND_3D(check_probes);
 

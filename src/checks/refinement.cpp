@@ -1,13 +1,17 @@
 #include "refinement/spacing_field.h"
 
 #include "checks/checks.h"
+#include "checks/swept_box.h"
 #include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
+#include "geometry/opening.h"
 
 namespace tailwater {
 namespace {
 
-/// dx; from a zone to what particles of several spacings do not work with.
-constexpr double clearance = 4.0;
+/// dx; from a zone to walls that move, to meshes and to open ends, with the water that enters or leaves behind them.
+/// Those have the spacing of the case, and so has all water in their supports.
+constexpr double clearance = 8.0;
 
 Finding refused(const CaseLabel& owner, const std::string& what, Clause remedy) {
   return Finding::error({"{}: zones of refinement do not work with {}", owner, what}, std::move(remedy));
@@ -20,7 +24,6 @@ Findings check_features(const CaseSpec& spec, const CaseLabel& owner) {
     if (is_given) findings.push_back(refused(owner, what, std::move(remedy)));
   };
   const SchemeTable& scheme = spec.scheme;
-  refuse(spec.general.dimension == 3, "three dimensions", {"remove the zone, or compute a section in 2D"});
   refuse(scheme.formulation == Formulation::published, "published formulations", {"give formulation = \"robust\""});
   refuse(scheme.name == SchemeName::farmani2020, "the two-step scheme", {"give name = \"farzin2014\" in [scheme]"});
   refuse(scheme.integrator == Integrator::implicit_projection, "the implicit integrator",
@@ -29,7 +32,6 @@ Findings check_features(const CaseSpec& spec, const CaseLabel& owner) {
          {"give pair_vectors = \"corrected\" in [scheme]"});
   refuse(spec.air.pockets != AirPockets::none, "enclosed air", {"give pockets = \"none\" in [air]"});
   refuse(!spec.porous.empty(), "porous layers", {"remove the zone or the layers"});
-  refuse(!spec.inlets.empty() || !spec.outlets.empty(), "inlets and outlets", {"remove the zone or the open ends"});
   refuse(!spec.bodies.empty(), "floating bodies", {"remove the zone or the bodies"});
   return findings;
 }
@@ -76,27 +78,38 @@ Findings check_width(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>&
   return {};
 }
 
-/// Walls near a zone whose particles it cannot divide.
+/// Whether a zone, with what surrounds it, meets a box.
 template <int Dim>
-Findings check_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const typename SpacingField<Dim>::Zone& zone,
-                     const CaseLabel& owner) {
+bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, Eigen::AlignedBox<double, Dim> box) {
   const double margin = clearance * spec.particles.spacing;
+  box.min().array() -= margin;
+  box.max().array() += margin;
+  return zone.box.intersects(box);
+}
+
+/// Walls that move, meshes and open ends beside a zone.
+template <int Dim>
+Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                          const typename SpacingField<Dim>::Zone& zone, const CaseLabel& owner) {
   Findings findings;
-  for (const Screen<Dim>& screen : boundary.screens) {
-    Eigen::AlignedBox<double, Dim> around = screen.box();
-    around.min().array() -= margin;
-    around.max().array() += margin;
-    if (!boundary.walls[screen.wall].is_plate || !zone.box.intersects(around)) continue;
-    findings.push_back(refused(
-        owner, fmt::format("plates within {:g} spacings, as at {}", clearance, place<Dim>(screen.corner).text()),
-        {"keep the zone away from {}", wall_label(boundary, screen.wall)}));
-    return findings;
-  }
-  for (const WallFace<Dim>& face : boundary.faces) {
-    if (!boundary.walls[face.wall].moves()) continue;
+  const std::string within = fmt::format(" within {:g} spacings", clearance);
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    const int wall = static_cast<int>(w);
+    if (!boundary.walls[wall].moves() || !is_near<Dim>(spec, zone, swept_box(spec, boundary, wall))) continue;
     findings.push_back(
-        refused(owner, "walls that move", {"remove the zone, or the motion of {}", wall_label(boundary, face.wall)}));
-    return findings;
+        refused(owner, "walls that move" + within, {"end the zone farther from {}", wall_label(boundary, wall)}));
+  }
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : boundary.meshes) {
+      const Eigen::AlignedBox<double, 3> box(mesh.surface->low(), mesh.surface->high());
+      if (!is_near<Dim>(spec, zone, box)) continue;
+      findings.push_back(
+          refused(owner, "meshes" + within, {"end the zone farther from {}", wall_label(boundary, mesh.wall)}));
+    }
+  }
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
+    if (!is_near<Dim>(spec, zone, box_around(end.as_faces()))) continue;
+    findings.push_back(refused(owner, "inlets and outlets" + within, {"end the zone farther from {}", end.label()}));
   }
   return findings;
 }
@@ -122,7 +135,7 @@ Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, cons
     }
     append(findings, check_period<Dim>(spec, table, owner));
     append(findings, check_width<Dim>(spec, box, zone, owner));
-    append(findings, check_walls(spec, drawn, zone, owner));
+    append(findings, check_neighbours(spec, drawn, zone, owner));
   }
   return findings;
 }

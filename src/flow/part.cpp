@@ -28,6 +28,9 @@ bool Part<Dim>::restore(const Json& /*saved*/) {
 }
 
 template <int Dim>
+void Part<Dim>::adapt(Flow<Dim>& /*flow*/) {}
+
+template <int Dim>
 void Part<Dim>::take_out(const Flow<Dim>& /*flow*/, std::span<std::uint8_t> /*leaves*/) {}
 
 template <int Dim>

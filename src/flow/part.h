@@ -94,6 +94,9 @@ class Part {
 
   // Between steps.
 
+  /// Replaces particles by others of the same water. The pairs are those of the particles where they are now, except on
+  /// ranks where is_located or has_pairs is false.
+  virtual void adapt(Flow<Dim>& flow);
   /// Marks the owned particles that leave the flow, of those not marked yet, and counts them.
   virtual void take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leaves);
   /// Adds particles. Returns whether there were any, on any rank.

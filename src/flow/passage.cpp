@@ -1,8 +1,13 @@
-// Particles that leave the flow, and those that enter it.
+// Particles that are replaced by others between steps, that leave the flow, and that enter it.
 #include "base/for_each.h"
 #include "flow/stages.h"
 
 namespace tailwater {
+
+template <int Dim>
+void adapt(Flow<Dim>& flow) {
+  for (const auto& part : flow.parts) part->adapt(flow);
+}
 
 template <int Dim>
 bool remove_outflow(Flow<Dim>& flow) {
@@ -24,6 +29,7 @@ bool add_inflow(Flow<Dim>& flow) {
   return some_came;
 }
 
+TAILWATER_IN_2D_AND_3D(adapt);
 TAILWATER_IN_2D_AND_3D(remove_outflow);
 TAILWATER_IN_2D_AND_3D(add_inflow);
 

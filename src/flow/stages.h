@@ -65,6 +65,11 @@ void set_wall_velocities_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& star
 template <int Dim>
 void assign_roles(Flow<Dim>& flow);
 
+/// Lets parts replace particles by others of the same water; indices change then. Call between steps only, before
+/// `remove_outflow`, and not at steps at which particles are sorted. Collective.
+template <int Dim>
+void adapt(Flow<Dim>& flow);
+
 /// Removes the particles that parts take out. Returns whether this rank had any; if so, its indices have changed and
 /// its lists are gone. Call between steps only. Collective.
 template <int Dim>

@@ -90,7 +90,7 @@ class Adaptation {
     for (const std::size_t i : large) {
       const double offset = offset_of_part * edge_of<Dim>(particles_.volume[i]);
       const Vec<Dim> step = offset * widest_gap(i);
-      if (!has_room(particles_.position[i] + step) || !has_room(particles_.position[i] - step)) continue;
+      if (!has_room(i, particles_.position[i] + step) || !has_room(i, particles_.position[i] - step)) continue;
       splits.push_back({i, step, velocity_gradient(i) * step});
     }
     return splits;
@@ -118,9 +118,13 @@ class Adaptation {
     return power<Dim>(flow_.setup.scale.spacing * flow_.setup.relative_spacing(x));
   }
 
-  bool has_room(const Vec<Dim>& x) const {
+  /// Whether particle i can go to x: not into a wall, nor to the other side of one without thickness.
+  bool has_room(std::size_t i, const Vec<Dim>& x) const {
+    const Boundary<Dim>& boundary = flow_.walls.boundary;
+    const Vec<Dim>& from = particles_.position[i];
+    if (is_hidden<Dim>(boundary.screens, boundary.screens_near(x, (x - from).norm()), from, x)) return false;
     const double distance = least_distance_from_wall * flow_.setup.scale.spacing * flow_.setup.relative_spacing(x);
-    return flow_.walls.boundary.nearest_to_water(x, distance).face < 0;
+    return boundary.nearest_to_water(x, distance).face < 0;
   }
 
   /// The direction along which neighbours count least: sum_j w_j W_ij (e . d_ij/r_ij)^8. Not out of the surface, nor
@@ -179,7 +183,8 @@ class Adaptation {
         (particles_.volume[i] * particles_.position[i] + particles_.volume[j] * particles_.position[j]) / volume;
     const double wanted = wanted_volume(middle);
     const bool is_small = std::min(particles_.volume[i], particles_.volume[j]) < small_volume * wanted;
-    return volume <= (is_small ? volume_to_merge_small : volume_to_merge) * wanted && has_room(middle);
+    return volume <= (is_small ? volume_to_merge_small : volume_to_merge) * wanted && has_room(i, middle) &&
+           has_room(j, middle);
   }
 
   const Flow<Dim>& flow_;
@@ -262,8 +267,8 @@ bool Refinement<Dim>::restore(const Json& saved) {
 }
 
 template <int Dim>
-bool Refinement<Dim>::bring_in(Flow<Dim>& flow) {
-  if (flow.state.step % steps_between != step_of_adaptation) return false;
+void Refinement<Dim>::adapt(Flow<Dim>& flow) {
+  if (flow.state.step % steps_between != step_of_adaptation) return;
   const Communicator& ranks = flow.setup.ranks;
   std::vector<Split<Dim>> splits;
   std::vector<Merge> merges;
@@ -288,13 +293,11 @@ bool Refinement<Dim>::bring_in(Flow<Dim>& flow) {
   if (merged > 0) {
     for (const auto& part : flow.parts) part->reordered(Reordering::removed);
   }
-  if (!splits.empty() || !merges.empty()) {
-    flow.neighbourhood.forget(particles);
-    merge_particles(merges, particles);
-    split_particles(splits, first_id, particles);
-    if (!merges.empty()) remove_merged(flow, merges);
-  }
-  return ranks.any(!splits.empty());
+  if (splits.empty() && merges.empty()) return;
+  flow.neighbourhood.forget(particles);
+  merge_particles(merges, particles);
+  split_particles(splits, first_id, particles);
+  if (!merges.empty()) remove_merged(flow, merges);
 }
 
 template <int Dim>

@@ -27,7 +27,7 @@ class Refinement final : public Part<Dim> {
   std::string_view name() const override { return "refinement"; }
   Json save() const override;
   bool restore(const Json& saved) override;
-  bool bring_in(Flow<Dim>& flow) override;
+  void adapt(Flow<Dim>& flow) override;
   void add_to_summary(const Flow<Dim>& flow, Json& summary) const override;
 
  private:

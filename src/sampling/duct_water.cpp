@@ -103,6 +103,7 @@ void append_water(const std::vector<WaterParticle<Dim>>& water, std::int64_t oth
     fluid.velocity.push_back(particle.velocity);
     fluid.volume.push_back(particle.volume);
     fluid.block.push_back(particle.block);
+    if (!fluid.id.empty()) fluid.id.push_back(before + n);
   }
   fluid.all += count;
 }

@@ -58,7 +58,7 @@ Totals totals_of(const Flow<2>& flow) {
 void advance_steps(Flow<2>& flow, int steps) {
   for (int n = 0; n < steps; ++n) {
     if (flow.state.step % 10 == 0) sort_particles(flow);
-    add_inflow(flow);
+    adapt(flow);
     step(flow);
   }
 }
@@ -71,7 +71,7 @@ TEST(RefinementTest, SplitsAndMergesKeepVolumeMomentumAndPlace) {
     const std::int64_t before = part.splits() + part.merges();
     const double energy_before = part.energy();
     const Totals old = totals_of(flow);
-    add_inflow(flow);
+    adapt(flow);
     const Totals now = totals_of(flow);
     const double rounding = 1e-13 * old.volume;
     EXPECT_NEAR(now.volume, old.volume, rounding);
