@@ -82,8 +82,8 @@ TYPED_TEST(GradedSumsTest, ConcentrationIsOneAcrossABorder) {
     largest = std::max(largest, std::abs(C / (C_0 * expected) - 1.0));
     largest_of_lattice = std::max(largest_of_lattice, std::abs(C / C_0 - 1.0));
   }
-  // The rest is the error of the quadrature on a set that is no lattice where volumes change: up to 2.5 % of C where cells of
-  // two sizes meet. The supports alone change C by more.
+  // The rest is the error of the quadrature on a set that is no lattice where volumes change: up to 2.5 % of C where
+  // cells of two sizes meet. The supports alone change C by more.
   EXPECT_LT(largest, 0.03);
   EXPECT_GT(largest_of_lattice, 1.2 * largest);
 }
