@@ -33,6 +33,7 @@ Findings check_features(const CaseSpec& spec, const CaseLabel& owner) {
   refuse(spec.air.pockets != AirPockets::none, "enclosed air", {"give pockets = \"none\" in [air]"});
   refuse(!spec.porous.empty(), "porous layers", {"remove the zone or the layers"});
   refuse(!spec.bodies.empty(), "floating bodies", {"remove the zone or the bodies"});
+  refuse(!spec.liquids.empty(), "other liquids than water", {"remove the zone or [[liquid]]"});
   return findings;
 }
 
