@@ -119,7 +119,7 @@ def draw(told, path):
             axes.set(title=title, ylabel=unit)
         for axes in figure.axes[2:]:
             axes.set_xlabel("CPU seconds")
-        figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))  # room for the legend
+        figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))  # leaves space for the legend
         figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="lower center", ncol=6, frameon=False)
         with tempfile.TemporaryDirectory() as folder:
             figure.savefig(f"{folder}/picture.png", dpi=plots.DPI)

@@ -11,6 +11,7 @@
 #include "base/fp_traps.h"
 #include "linear/find_cells.h"
 #include "linear/orthomin.h"
+#include "neighbours/pair_lanes.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
 #include "support/pressure_system.h"

@@ -268,8 +268,8 @@ double rise_from_bed(std::vector<Coordinates> points, double area, double height
   return flow.state.motion.bodies.each[0].centre[1] - 0.5 * height;
 }
 
-// Water presses under a round hull as well, where it has no room for particles. A cylinder that touches a bed goes with
-// pi^2/3 - 1 times the water that it displaces, one far away with once: its rise is between those of both.
+// Water presses under a round hull as well, where there is no space for particles. A cylinder that touches a bed goes
+// with pi^2/3 - 1 times the water that it displaces, one far away with once: its rise is between those of both.
 TEST(FloatingBody, RoundAndPointedBodiesComeOffTheBed) {
   constexpr double R = 0.125;
   const double displaced = std::numbers::pi * R * R;
