@@ -12,16 +12,31 @@ constexpr std::string_view has_marked_surface =
 
 bool is_published(const SchemeTable& scheme) { return scheme.formulation == Formulation::published; }
 
+/// Zones of refinement have been derived and tested for the default choices only.
+std::string_view excludes_zones(const SchemeTable& scheme) {
+  if (is_published(scheme)) return "published formulations";
+  if (scheme.name == SchemeName::farmani2020) return "the two-step scheme";
+  if (scheme.integrator == Integrator::implicit_projection) return "the implicit integrator";
+  return scheme.pair_vectors == PairVectors::corrected ? "" : "other pair vectors than the default";
+}
+
 }  // namespace
 
 FormulationTraits traits_of(const CaseSpec& spec) {
   const bool is_two_step = spec.scheme.name == SchemeName::farmani2020;
+  const std::string_view no_zones = excludes_zones(spec.scheme);
   if (!is_published(spec.scheme)) {
     const bool moves_with_mean = is_two_step || spec.study.displacement == Displacement::mean_velocity;
-    return {spec.study.support, {.on_wall = false, .behind = true}, "", moves_with_mean ? not_one_projection : "", ""};
+    return {spec.study.support,
+            {.on_wall = false, .behind = true},
+            "",
+            moves_with_mean ? not_one_projection : "",
+            "",
+            no_zones};
   }
-  if (is_two_step) return {2.4, {.on_wall = true, .behind = true}, "", not_one_projection, has_marked_surface};
-  return {3.0, {.on_wall = true, .behind = false}, not_exact, not_one_projection, has_marked_surface};
+  if (is_two_step)
+    return {2.4, {.on_wall = true, .behind = true}, "", not_one_projection, has_marked_surface, no_zones};
+  return {3.0, {.on_wall = true, .behind = false}, not_exact, not_one_projection, has_marked_surface, no_zones};
 }
 
 void apply_formulation(SchemeTable& scheme) {

@@ -20,6 +20,7 @@ struct FormulationTraits {
   std::string_view no_reaction;  ///< why forces on walls cannot be measured; empty if they can
   std::string_view no_floating;  ///< why bodies cannot float; empty if they can
   std::string_view no_pockets;   ///< why enclosed air cannot be a gas; empty if it can
+  std::string_view no_zones;     ///< the choice that excludes zones of refinement; empty if they can be used
 };
 
 FormulationTraits traits_of(const CaseSpec& spec);

@@ -1,5 +1,6 @@
 #include "refinement/spacing_field.h"
 
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "checks/swept_box.h"
 #include "geometry/from_spec.h"
@@ -23,13 +24,8 @@ Findings check_features(const CaseSpec& spec, const CaseLabel& owner) {
   const auto refuse = [&](bool is_given, const std::string& what, Clause remedy) {
     if (is_given) findings.push_back(refused(owner, what, std::move(remedy)));
   };
-  const SchemeTable& scheme = spec.scheme;
-  refuse(scheme.formulation == Formulation::published, "published formulations", {"give formulation = \"robust\""});
-  refuse(scheme.name == SchemeName::farmani2020, "the two-step scheme", {"give name = \"farzin2014\" in [scheme]"});
-  refuse(scheme.integrator == Integrator::implicit_projection, "the implicit integrator",
-         {"give integrator = \"explicit\" in [scheme]"});
-  refuse(scheme.pair_vectors != PairVectors::corrected, "other pair vectors than the default",
-         {"give pair_vectors = \"corrected\" in [scheme]"});
+  const std::string_view choice = traits_of(spec).no_zones;
+  refuse(!choice.empty(), std::string(choice), {"remove the zone, or what [scheme] has beside its defaults"});
   refuse(spec.air.pockets != AirPockets::none, "enclosed air", {"give pockets = \"none\" in [air]"});
   refuse(!spec.porous.empty(), "porous layers", {"remove the zone or the layers"});
   refuse(!spec.bodies.empty(), "floating bodies", {"remove the zone or the bodies"});

@@ -76,9 +76,9 @@ StepReport Simulation<Dim>::step() {
   return report;
 }
 
-/// Makes all changes to the indices of particles. Every few steps all particles are repartitioned and sorted; at the other
-/// steps parts may replace particles. Then particles that have passed an open end are removed, and new ones come in. A
-/// checkpoint has the state in between: before water that may have limited the time step has left.
+/// Makes all changes to the indices of particles. Every few steps all particles are repartitioned and sorted; at the
+/// other steps parts may replace particles. Then particles that have passed an open end are removed, and new ones come
+/// in. A checkpoint has the state in between: before water that may have limited the time step has left.
 template <int Dim>
 void Simulation<Dim>::rearrange() {
   const bool is_repartitioned = flow_.state.step % steps_between_sorts == 0;

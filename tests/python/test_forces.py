@@ -183,14 +183,43 @@ class AtInlets(PackageTest):
 
 class OnWalls(PackageTest):
     def stroke(self, kind, time, height=0.06, period=0.8, depth=0.2, ramp=0.3):
-        """Stroke of the plate at the still-water level, m: Dean & Dalrymple (1991), ch. 6; second order: Madsen
-        (1971)."""
-        omega, y = 2 * np.pi / period, brentq(lambda y: y * np.tanh(y) - (2 * np.pi / period)**2 * depth / 9.81, 1e-3, 9)
-        shape = np.sinh(y) + ((1 - np.cosh(y)) / y if kind == "flap" else 0)
-        transfer = 4 * np.sinh(y) * shape / (np.sinh(2 * y) + 2 * y)
+        """Stroke of the plate at the still-water level, m: Dean & Dalrymple (1991), ch. 6, and Schaffer (1996)."""
+        omega, k = 2 * np.pi / period, self.wave_numbers(2 * np.pi / period, depth)
+        y, shape = k[0] * depth, self.shape_integral(kind, k, depth) * k
+        first = height / 2 / (2 * np.tanh(y) * shape[0] / (np.tanh(y) + y / np.cosh(y)**2)).real
+        second = self.second_stroke(kind, omega, k, -1j * first, depth)
         share = 1 if time >= ramp else (1 - np.cos(np.pi * time / ramp)) / 2
-        bound = (3 * np.cosh(y) / np.sinh(y)**3 - 2 / transfer) * height**2 / 32 / depth if kind == "piston" else 0
-        return share * (height / 2 / transfer * np.sin(omega * time) + bound * np.sin(2 * omega * time))
+        return share * (first * np.sin(omega * time) + (second * np.exp(2j * omega * time)).real)
+
+    def wave_numbers(self, omega, depth, count=60):
+        """Of the travelling mode, and -i times those of the modes that decay from the plate, 1/m."""
+        deep = omega**2 * depth / 9.81
+        found = [brentq(lambda y: y * np.tanh(y) - deep, 1e-3, 99)]
+        for j in range(1, count + 1):
+            found.append(-1j * brentq(lambda y: y * np.sin(y) + deep * np.cos(y), (j - 0.5) * np.pi, j * np.pi, xtol=1e-14))
+        return np.array(found, complex) / depth
+
+    def shape_integral(self, kind, p, h):
+        """Integral over the depth of cosh p(z + h)/cosh ph, for a flap times 1 + z/h."""
+        return np.tanh(p * h) / p - ((1 - 1 / np.cosh(p * h)) / (p * p * h) if kind == "flap" else 0)
+
+    def second_stroke(self, kind, omega, k, first, h):
+        """The complex stroke of twice the frequency with which only the bound wave leaves the plate."""
+        free = self.wave_numbers(2 * omega, h, 0)[0]
+        norm = (np.tanh(k * h) / k + h / np.cosh(k * h)**2) / 2
+        potential = -omega * first * self.shape_integral(kind, k, h) / (k * norm)
+        one, other = np.meshgrid(k, k)
+        bound = np.outer(potential, potential) * 1j * omega / 9.81 * (-1j * (one + other)) / ((one + other)**2 - free**2) * (
+            one * other + (one**2 + other**2) / 4 - 1.5 * (omega**2 / 9.81)**2)
+        both = np.cosh(k * h) * np.cosh(free * h)
+
+        def of_sum_and_difference(part):
+            return (part(k + free) + part(k - free)) / 2 / both
+
+        plate = potential * k**2 * of_sum_and_difference(lambda r: self.shape_integral(kind, r, h) * np.cosh(r * h))
+        if kind == "flap":
+            plate += potential * k / h * of_sum_and_difference(lambda r: (np.cosh(r * h) - 1) / r)
+        return (bound.sum() - first * plate.sum() / 2) / (2j * omega * self.shape_integral(kind, free, h))
 
     def motion(self, case, hook=None):
         with case.simulation(hook=hook) as simulation:

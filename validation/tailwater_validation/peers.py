@@ -33,7 +33,7 @@ def figures_of_peers(path=FILE):
 def work_table(path=WORK):
     """The runs of work_precision.json as a table in Markdown, by code, below a line that says where they are from."""
     told = json.loads(path.read_text(encoding="utf-8"))
-    lines = [f"`benchmarks/work_precision.py`, {told['date']}, {told['program']}, {told['processor']}.", "",
+    lines = [f"`benchmarks/work_precision.py`, {told['date']}, {told['processor']}.", "",
              "| code | spacing, m | CPU s | pressure at z = 0.12 m, RMS over rho g H | its impulse, relative | level H1, RMS over H "
              "| noise of the pressure, over rho g H |", "|" + " --- |" * 7]
     for code in dict.fromkeys(run["code"] for run in told["runs"]):
