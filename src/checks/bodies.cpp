@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Around a body's walls as they are drawn.
+/// The box around a body's walls as drawn.
 template <int Dim>
 Eigen::AlignedBox<double, Dim> box_of_body(const FloatingBody<Dim>& body, const Boundary<Dim>& boundary) {
   Eigen::AlignedBox<double, Dim> box;
@@ -18,11 +18,11 @@ Eigen::AlignedBox<double, Dim> box_of_body(const FloatingBody<Dim>& body, const 
   return box;
 }
 
-/// dx. With a smaller draught the pressure of a single row of particles moves the body more than it weighs, and its
-/// motion and the pressure do not agree (0.04 dx failed, 0.08 dx did not).
+/// dx. With a smaller draught the pressure of a single row of particles is larger than the weight of the body, and its
+/// motion and the pressure are inconsistent (0.04 dx failed, 0.08 dx did not).
 constexpr double least_draught = 0.05;
 
-/// A body that floats on the surface like a film; empty if it does not.
+/// An error for a body that floats on the surface like a film; empty if it does not.
 template <int Dim>
 Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const Eigen::AlignedBox<double, Dim>& box) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);

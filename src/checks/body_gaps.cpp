@@ -9,12 +9,12 @@
 namespace tailwater {
 namespace {
 
-/// dx; the least sum of the gaps on both sides of a body. Through less, water does not get past it: trapped water can
-/// neither leave nor be compressed, and its pressure moves the body as it likes. A box that falls into a tank
-/// failed with a sum of up to 2, and with 3 at no spacing.
+/// dx; minimum sum of the gaps on both sides of a body. Water does not pass smaller gaps: trapped water can neither
+/// leave nor be compressed, and its pressure moves the body arbitrarily. A box that falls into a tank failed with a sum
+/// of up to 2, and with 3 at no spacing.
 constexpr double least_sum = 3.0;
 
-/// A wall is on a side of a body if it faces that side within 45 degrees.
+/// Minimum cosine: a wall is on a side of a body if it faces that side within 45 degrees.
 constexpr double least_facing_side = 0.7;
 
 /// The nearest wall at rest on one side of a body.
@@ -28,7 +28,7 @@ struct SideGap {
 template <int Dim>
 using SideGaps = std::array<std::optional<SideGap<Dim>>, 2 * Dim>;  ///< by axis, the lower side first
 
-/// The walls at rest that a body, as drawn, is nearer to than `reach` [m].
+/// The walls at rest nearer than `reach` [m] to a body, as drawn.
 template <int Dim>
 SideGaps<Dim> side_gaps_of(const std::vector<Vec<Dim>>& points, const Boundary<Dim>& resting, double reach) {
   SideGaps<Dim> gaps;
@@ -46,7 +46,7 @@ SideGaps<Dim> side_gaps_of(const std::vector<Vec<Dim>>& points, const Boundary<D
   return gaps;
 }
 
-/// The gap on the narrower side of a body along an axis, with the width of both; none if water gets past it there.
+/// The gap on the narrower side of a body along an axis, with the width of both; none if water can pass there.
 template <int Dim>
 std::optional<SideGap<Dim>> both_gaps(const SideGaps<Dim>& gaps, int axis, double least) {
   const auto& low = gaps[2 * axis];
@@ -57,7 +57,7 @@ std::optional<SideGap<Dim>> both_gaps(const SideGaps<Dim>& gaps, int axis, doubl
   return both;
 }
 
-/// Whether a body goes all across a periodic direction.
+/// Whether a body spans a periodic direction.
 template <int Dim>
 bool spans_period(const CaseSpec& spec, const std::vector<Vec<Dim>>& points, int axis) {
   const std::vector<double>& range = periodic_range(spec.domain, axis);
@@ -81,7 +81,7 @@ Finding body_gap_finding(const CaseSpec& spec, const Boundary<Dim>& boundary, co
                         {"leave {:.3g} m or more on one side of the body{}", 1.01 * least_sum * dx, finer});
 }
 
-/// The gap because of which water cannot get past a body; none if it can.
+/// The gap that prevents water from passing a body; none if it can pass.
 template <int Dim>
 std::optional<SideGap<Dim>> closing_gap(const CaseSpec& spec, const std::vector<Vec<Dim>>& points,
                                         const Boundary<Dim>& resting, int upright) {
@@ -103,7 +103,7 @@ template <int Dim>
 Findings check_body_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const std::vector<FloatingBody<Dim>> bodies = make_bodies<Dim>(spec);
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  // Enclosed air gives way to a body that closes its space.
+  // Enclosed air yields to a body that closes its space.
   if (bodies.empty() || gravity.isZero(0.0) || spec.air.pockets != AirPockets::none) return {};
   int upright = 0;
   gravity.cwiseAbs().maxCoeff(&upright);

@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// Adds the triangles of a file as they are; none if the file cannot be read.
+/// Adds the triangles of a file unchanged; none if the file cannot be read.
 void append_triangles(const PlacedFile& file, int wall, Boundary<3>& boundary) {
   if (file.file.empty()) return;
   try {
@@ -19,11 +19,11 @@ void append_triangles(const PlacedFile& file, int wall, Boundary<3>& boundary) {
           {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).stableNormalized(), wall});
     }
   } catch (const UserError&) {
-    // There is nothing of it to be drawn.
+    // There is nothing to draw.
   }
 }
 
-/// The walls that can be made by themselves.
+/// The walls that can each be made alone.
 template <int Dim>
 Boundary<Dim> draw_walls_one_by_one(const CaseSpec& spec) {
   Boundary<Dim> all;

@@ -1,4 +1,4 @@
-// What can be drawn of a case whose geometry is wrong, so that its user sees where.
+// The drawable parts of a case whose geometry is wrong, so that its user sees the place of the error.
 #pragma once
 
 #include <vector>
@@ -17,12 +17,12 @@ struct BrokenCase {
   FluidParticles<Dim> fluid;
 };
 
-/// All that can be made of a wrong case: walls that cannot be made are left out, but of a mesh that cannot be a wall
-/// there are its triangles. There is no water unless all walls can be made.
+/// All valid parts of a wrong case. Walls that cannot be made are left out, except that a mesh that cannot be a wall
+/// gives its triangles. There is no water unless all walls can be made.
 template <int Dim>
 BrokenCase<Dim> draw_broken_case(const CaseSpec& spec);
 
-/// The places that a picture marks: those that the findings name.
+/// The places that a picture marks, from the findings.
 template <int Dim>
 std::vector<Vec<Dim>> places_of(const Findings& findings);
 

@@ -28,7 +28,7 @@ CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces
   const Vec<Dim> high = box.max();
   const Vec<Dim> extent = (high - low_).cwiseMax(spec.particles.spacing);
   double cell = std::max(spec.particles.spacing, std::pow(extent.prod() / most, 1.0 / Dim));
-  // Where the case is thinner than such a cell, there would be more of them along its other extents.
+  // Larger cells than the thickness of the case would be more along its other extents.
   const auto cells_in_all = [&] { return (extent / cell).cwiseMax(1.0).prod(); };
   while (cells_in_all() > 1.001 * most) cell *= 2.0;
   std::size_t cells = 1;
@@ -95,7 +95,7 @@ void CellSpace<Dim>::set_faces(std::vector<WallFace<Dim>> faces) {
       visit_around(faces_[f], faces_[f], [&](const Cell& c) { visit(index(c), static_cast<int>(f)); });
     }
   };
-  // First how many faces each cell has, then where its list ends; filling it from the end leaves where it begins.
+  // First the number of faces of each cell, then the end of its list; filling it from the end leaves its begin.
   std::fill(near_faces_.begin(), near_faces_.end(), 0);
   for_each_near([&](std::size_t c, int) { ++near_faces_[c]; });
   std::partial_sum(near_faces_.begin(), near_faces_.end(), near_faces_.begin());
@@ -114,7 +114,7 @@ template <int Dim>
 bool CellSpace<Dim>::is_behind_walls(const Cell& c) const {
   const Vec<Dim> x = centre(c);
   double least = std::numeric_limits<double>::infinity();
-  bool is_behind = false;  // all of the nearest, as the two that meet at a convex edge
+  bool is_behind = false;  // behind all of the nearest faces, as the two that meet at a convex edge
   for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
     const WallFace<Dim>& face = faces_[near_list_[k]];
     const double distance = (closest_point(face, x) - x).norm();
@@ -129,7 +129,7 @@ bool CellSpace<Dim>::is_behind_walls(const Cell& c) const {
 template <int Dim>
 int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
   int first = -1;
-  double least = std::numeric_limits<double>::infinity();  // share of the line before the first face
+  double least = std::numeric_limits<double>::infinity();  // fraction of the line before the first face
   for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
     const WallFace<Dim>& face = faces_[near_list_[k]];
     if (!passes(face, from, to)) continue;

@@ -1,4 +1,4 @@
-// Where water can get to in a case: cells that cover the case, and the walls between them.
+// The space that water can reach in a case: cells that cover the case, and the walls between them.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace tailwater {
 
-/// Largest number of cells of a whole case; if cells of size dx were more, they are larger.
+/// Maximum number of cells of a whole case; if there would be more cells of size dx, the cells are larger.
 constexpr double most_cells_of_case = 4e6;
 
-/// The faces of the walls, and those that close the `ends`.
+/// The faces of the walls, and the faces that close the `ends`.
 template <int Dim>
 std::vector<WallFace<Dim>> faces_with(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends);
 
@@ -32,8 +32,8 @@ class CellSpace {
             double most);
 
   std::size_t count() const { return near_faces_.size() - 1; }
-  double volume() const { return size_.prod(); }                 ///< of a cell, m^Dim
-  double edge() const { return std::pow(volume(), 1.0 / Dim); }  ///< of a cell, m
+  double volume() const { return size_.prod(); }                 ///< volume of a cell, m^Dim
+  double edge() const { return std::pow(volume(), 1.0 / Dim); }  ///< edge of a cell, m
   std::size_t index(const Cell& c) const;
   Cell cell(std::size_t index) const;
   Vec<Dim> centre(const Cell& c) const;
@@ -46,18 +46,18 @@ class CellSpace {
   void set_faces(std::vector<WallFace<Dim>> faces);
 
   /// Whether the straight line from one place to another passes the face. A place exactly on it counts as in front, so
-  /// that no line can pass a wall by resting on it.
+  /// that no line can pass a wall through a place on it.
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// Whether the centre of a cell is behind the walls next to it. On one it is on neither side, and beside a convex
-  /// edge it is in front although it may be behind the plane of one of the faces that meet there.
+  /// Whether the centre of a cell is behind the walls next to it. A centre on a wall is on neither side. Beside a
+  /// convex edge a centre is in front, although it may be behind the plane of one of the faces that meet there.
   bool is_behind_walls(const Cell& c) const;
   /// The first face that the line passes, which begins in cell `c` and is no longer than a cell; -1 if none. A line
-  /// that cuts a corner off a body passes two: into it and out again.
+  /// that cuts a corner off a body passes two faces: into the body and out again.
   int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// The same from the centre of a cell to that of the next one, which may be outside.
+  /// face_between for the line from the centre of a cell to that of the next one, which may be outside.
   int face_beside(const Cell& c, int axis, int step) const;
-  /// Calls visit(face) for the faces that the same line meets first and from the front: of two that are back to back,
-  /// the one that looks here.
+  /// Calls visit(face) for the faces that the same line meets first and from the front. If two are back to back, only
+  /// the one that faces this cell counts.
   template <class Visit>
   void visit_fronts_beside(const Cell& c, int axis, int step, Visit&& visit) const;
 
@@ -88,32 +88,32 @@ class CellSpace {
   Cell count_;
   std::array<bool, Dim> is_periodic_;
   std::vector<std::size_t>
-      near_faces_;  ///< by cell: where in near_list_ the faces begin that one step from it may meet
+      near_faces_;  ///< by cell: begin in near_list_ of the faces that one step from the cell may meet
   std::vector<int> near_list_;
 };
 
 /// The cells that water reaches.
 template <int Dim>
 struct Spread {
-  std::vector<typename CellSpace<Dim>::Cell> cells;  ///< in the order in which it reaches them
+  std::vector<typename CellSpace<Dim>::Cell> cells;  ///< in the order in which water reaches them
   std::optional<Vec<Dim>> way_out;  ///< the last place inside, if water leaves the case; the search ends there
   std::vector<bool> met;            ///< by face: whether it held the water
-  std::vector<bool> wet;            ///< by face: whether it did from its front
+  std::vector<bool> wet;            ///< by face: whether it held the water from its front
   std::vector<std::optional<Vec<Dim>>> behind;  ///< by face: a place behind it that the water reaches
   std::size_t sides = 0;                        ///< sides of the cells that are at faces
 };
 
-/// Whether water that comes to the edge of all cells leaves the case, or is held there.
+/// Whether water at the outer edge of the cells leaves the case, or is held there.
 enum class Edge { leads_out, holds };
 
-/// Lets water run from the cells of `start` from cell to cell until it is at rest or leaves the case. If `down` is 0 it
-/// runs in all directions, else (a unit vector) sideways and down, never up.
+/// Spreads water from the cells of `start` from cell to cell until it is at rest or leaves the case. If `down` is 0 it
+/// spreads in all directions; if `down` is a unit vector, sideways and down, never up.
 template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
                    const Vec<Dim>& down, Edge edge = Edge::leads_out);
 
-/// The cell beside a place on an open end, inside of the case; none where a wall stands between them, as cells that are
-/// too large may have it.
+/// The cell beside a place on an open end, inside of the case; none if a wall is between them, as may happen with large
+/// cells.
 template <int Dim>
 std::optional<typename CellSpace<Dim>::Cell> cell_inside(const CellSpace<Dim>& space, const Opening<Dim>& end,
                                                          const Vec<Dim>& place_on_end);

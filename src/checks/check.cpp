@@ -45,7 +45,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     append(findings, check_wave_zones<Dim>(spec));
     append(findings, check_probes(spec, boundary, fluid));
   }
-  // Both faces of a plate, for one, have the same finding.
+  // Several faces may have the same finding, as the two of a plate.
   std::set<std::string> reported;
   std::erase_if(findings, [&](const Finding& finding) { return !reported.insert(finding.problem).second; });
   return findings;

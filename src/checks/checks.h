@@ -1,5 +1,5 @@
-// The checks of a case's geometry, each in a file with its name. A new one is a file, a declaration here and a line in
-// check.cpp, or in check_moving_walls if it is about moving walls.
+// The checks of a case's geometry, each in a file with its name. A new check needs a file, a declaration here and a
+// line in check.cpp, or in check_moving_walls if it is about moving walls.
 #pragma once
 
 #include "base/finding.h"
@@ -13,8 +13,8 @@ namespace tailwater {
 template <int Dim>
 Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
-/// Errors: a periodic direction narrower than four supports, in which a particle would meet its own image; a wall that
-/// is longer than the period, which would lie in itself.
+/// Errors: a periodic direction narrower than four supports, in which a particle would interact with its own image; a
+/// wall that is longer than the period, which would overlap itself.
 template <int Dim>
 Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -34,12 +34,12 @@ Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const F
 template <int Dim>
 Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
-/// Error: a wall that is no mesh and thinner than its layers of wall particles, where water can come to both sides of
-/// it. Looks straight through each face from points dx apart; at most 50 points per edge.
+/// Error: a wall that is no mesh and thinner than its layers of wall particles, where water can reach both of its
+/// sides. Tests straight through each face from points dx apart; at most 50 points per edge.
 template <int Dim>
 Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Error: a plate where the wall particles stand on the walls, which cannot be seen from one side only.
+/// Error: a plate with wall particles on the walls themselves, which act on both sides.
 template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -52,7 +52,7 @@ Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Error: blocks of fluid that overlap. On both sides of a plate they may be near each other.
+/// Error: blocks of fluid that overlap. On opposite sides of a plate they may be near each other.
 template <int Dim>
 Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
@@ -61,24 +61,24 @@ template <int Dim>
 Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Errors: an inlet or an outlet that lies across a periodic direction, has a rim that is not on the walls, overlaps a
-/// wall, has walls or water where its duct or its jet is, shares that space with another, cuts through water, is a hole
-/// without anything said of what is beyond, or faces the wrong way.
+/// wall, has walls or water in the space of its duct or its jet, shares that space with another, cuts through water, is
+/// a hole without a definition of the far side, or faces the wrong way.
 template <int Dim>
 Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: what is prescribed at an inlet or outlet does not cover the run, has no finite value, jumps, is a level
-/// outside the opening, more water than it can pass, a level with a subcritical flow, or an implausible speed. Warning:
-/// a flow shallower than a spacing.
+/// Errors: the prescribed values of an inlet or outlet do not cover the run, are not finite, jump, are a level outside
+/// the opening, more water than it can pass, a level with a subcritical flow, or an implausible speed. Warning: a flow
+/// shallower than a spacing.
 template <int Dim>
 Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Error: an inlet that brings more water than the space it opens into holds, which has no way out. Spaces that a wall
-/// that moves may open are left alone.
+/// Error: an inlet that brings more water than a space without a way out can hold. Spaces that a moving wall may open
+/// are excluded.
 template <int Dim>
 Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Counts the
-/// water at the start and what comes in through open ends, which count as closed.
+/// water at the start and the inflow through open ends, which count as closed.
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
@@ -86,16 +86,16 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
 template <int Dim>
 Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Error: water that enters, or a body, faster than water can be and count as incompressible.
+/// Error: water that enters, or a body, at a speed too high for incompressible water.
 template <int Dim>
 Findings check_speeds(const CaseSpec& spec);
 
-/// Error: a body that is so light that it floats with a draught of a twentieth of dx. Warning: a centre of mass outside
-/// of the body, or an inertia that no mass within it has.
+/// Error: a body so light that it floats with a draught of a twentieth of dx. Warning: a centre of mass outside of the
+/// body, or an inertia that no mass within it has.
 template <int Dim>
 Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Error: a body that fills its space from side to side, but for gaps through which no water gets past it.
+/// Error: a body that fills its space from side to side, except for gaps through which no water can pass.
 template <int Dim>
 Findings check_body_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -103,7 +103,7 @@ Findings check_body_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Error: a vent, or the place of air that starts at another pressure, in a wall or outside of all.
+/// Error: a vent, or the place of air that starts at another pressure, in a wall or outside of all walls.
 template <int Dim>
 Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -129,17 +129,17 @@ Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, cons
 template <int Dim>
 Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
-/// All checks of moving walls; `drawn` are the walls as in the case file. Error: a wall that is not where it is drawn
-/// at t = 0. Walls without that error then go through the checks below.
+/// All checks of moving walls; `drawn` are the walls as in the case file. Error: a wall that is not at its drawn place
+/// at t = 0. Walls without that error are then checked by the functions below.
 template <int Dim>
 Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
-/// Error: a motion from a file that jumps between two of its lines. Warning: one that overshoots what its lines say.
+/// Error: a motion from a file that jumps between two of its lines. Warning: one that exceeds the values of its lines.
 /// Findings name file and lines.
 template <int Dim>
 Findings check_motion_files(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
-/// Warning: a resting wall that ends where a moving one begins, with nothing behind its end once the other has moved.
+/// Warning: a resting wall that ends where a moving one begins, with no wall behind its end once the other has moved.
 Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);
 
 /// Error, when rows of particles stand on the walls: walls that move relative to each other and are nearer than dx at
@@ -147,9 +147,9 @@ Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);
 template <int Dim>
 Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn);
 
-/// Errors, each with time and place: a wall whose place is not finite, that is too fast for water to count as
-/// incompressible, crosses a wall, comes nearer to one than dx, or leaves enclosed water less room than it needs.
-/// Follows the `moving` walls in steps of dx/4 from the start to the end of the run.
+/// Errors, each with time and place: a wall whose place is not finite, that is too fast for incompressible water,
+/// crosses a wall, approaches one to less than dx, or leaves enclosed water less space than it needs. Follows the
+/// `moving` walls in steps of dx/4 from the start to the end of the run.
 template <int Dim>
 Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid,
                      const std::vector<int>& moving);

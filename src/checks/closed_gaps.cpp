@@ -16,18 +16,18 @@ namespace tailwater {
 namespace {
 
 constexpr double closed = 0.5;  // dx; a plate that ends as near to a wall leaves no opening (Boundary::hang_screens)
-constexpr double narrowest_drawn = 0.1;  // dx; nobody would draw as narrow an opening
+constexpr double narrowest_drawn = 0.1;  // dx; smaller gaps are not drawn on purpose
 
-/// Rows of particles with which an opening passes about what it should.
+/// Rows of particles with which an opening passes about the right discharge.
 constexpr double rows_of_good_gap = 5.0;
 
-/// dx; narrower openings are told. A little less than the rows above, as the spacing that is asked for is rounded.
+/// dx; narrower openings are reported. A little less than the rows above, as the spacing in the remedy is rounded.
 constexpr double narrow = 4.95;
 
-/// Walls that face each other within 45 degrees.
+/// Minimum cosine of walls that face each other within 45 degrees.
 constexpr double least_facing_of_gap = 0.7;
 
-/// What is within 60 degrees of where an edge of a plate points to is beyond the edge, not beside the plate.
+/// Minimum cosine: places within 60 degrees of the outward direction of an edge are beyond it, not beside the plate.
 constexpr double least_beyond_edge = 0.5;
 
 /// An opening between two walls that is too narrow for water.
@@ -81,7 +81,8 @@ std::vector<PlateEdge<3>> edges_of(const Boundary<3>& boundary, const WallPlate&
   return edges;
 }
 
-/// Where an edge of a plate is all along so near to a wall that it counts as closed, and is not on it.
+/// A place of an edge of a plate that is so near to a wall along its whole length that it counts as closed, but not on
+/// it.
 template <int Dim>
 std::optional<Gap<Dim>> closed_gap_beside(const Boundary<Dim>& boundary, int plate, const PlateEdge<Dim>& edge,
                                           double dx) {
@@ -106,7 +107,7 @@ EdgeBox<Dim> box_of(const PlateEdge<Dim>& edge) {
   return box;
 }
 
-/// Which of these faces come nearer than `reach` to a box.
+/// The faces, among these, within `reach` of a box.
 template <int Dim>
 std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int>& faces, const EdgeBox<Dim>& box,
                             double reach) {
@@ -117,7 +118,7 @@ std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int
   return near;
 }
 
-/// Faces of other walls at rest that come nearer than `reach` to an edge of a plate.
+/// Faces of other walls at rest within `reach` of an edge of a plate.
 template <int Dim>
 std::vector<int> faces_near_plate(const Boundary<Dim>& boundary, int plate, const std::vector<PlateEdge<Dim>>& edges,
                                   double reach) {
@@ -131,8 +132,8 @@ std::vector<int> faces_near_plate(const Boundary<Dim>& boundary, int plate, cons
   return faces_near<Dim>(boundary, others, box, reach);
 }
 
-/// Where there is all along, beyond an edge of a plate, a wall so near that the opening is narrow. Walls beside the
-/// plate do not count, as those of a flume at its top edge. `faces` are those that may be near.
+/// A place of the narrow opening between an edge of a plate and a wall that is near along the whole edge. Walls beside
+/// the plate do not count, as those of a flume at its top edge. `faces` are those that may be near.
 template <int Dim>
 std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, const std::vector<int>& faces, int plate,
                                           const PlateEdge<Dim>& edge, double dx) {
@@ -143,7 +144,7 @@ std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, const s
     for (const int f : near) {
       const Vec<Dim> offset = closest_point(boundary.faces[f], x) - x;
       const double width = offset.norm();
-      // What touches the edge is on no side of it.
+      // A wall that touches the edge is on no side of it.
       const bool is_beside = width > narrowest_drawn * dx && offset.dot(edge.out) < least_beyond_edge * width;
       if (width >= narrow * dx || is_beside) continue;
       if (!nearest || width < nearest->width) nearest = Gap<Dim>{plate, boundary.faces[f].wall, width, x};
@@ -165,7 +166,7 @@ bool meet_somewhere(const WallFace<Dim>& face, const WallFace<Dim>& other, doubl
   return has_corner_on(face, other) || has_corner_on(other, face);
 }
 
-/// Where a face looks straight at another that is near.
+/// The place of the gap where a face looks straight at another that is near.
 template <int Dim>
 std::optional<Gap<Dim>> gap_between(const WallFace<Dim>& face, const WallFace<Dim>& other, double dx) {
   const double facing = -face.normal.dot(other.normal);
@@ -186,7 +187,7 @@ std::optional<Gap<Dim>> gap_between(const WallFace<Dim>& face, const WallFace<Di
   return narrowest;
 }
 
-/// Between walls of one body that are no plates: near a corner, and in a fold, they are as near.
+/// Gaps between walls, except walls of one body that are no plates: near a corner, and in a fold, these are as near.
 template <int Dim>
 std::vector<Gap<Dim>> gaps_of(const Boundary<Dim>& boundary, double dx) {
   std::vector<Gap<Dim>> gaps;

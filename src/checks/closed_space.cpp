@@ -12,7 +12,7 @@ namespace {
 
 constexpr int moments_of_inflow = 1000;
 
-/// All that an end brings into a space that is full, m^Dim.
+/// Total volume that an end brings into a full space, m^Dim.
 template <int Dim>
 double inflow_of(const ChannelEnd<Dim>& end, double last) {
   double sum = 0.0;
@@ -22,7 +22,7 @@ double inflow_of(const ChannelEnd<Dim>& end, double last) {
   return sum / moments_of_inflow * last * end.width;
 }
 
-/// The water of the start in the cells that are reached, m^Dim. Collective.
+/// The water at the start in the reached cells, m^Dim. Collective.
 template <int Dim>
 double water_in(const Spread<Dim>& reached, const CellSpace<Dim>& space, const FluidParticles<Dim>& fluid) {
   std::vector<bool> is_reached(space.count(), false);
@@ -34,7 +34,7 @@ double water_in(const Spread<Dim>& reached, const CellSpace<Dim>& space, const F
   return fluid.ranks.sum(volume);
 }
 
-/// Adds an error if water that enters at an end finds no way out and too little room.
+/// Adds an error if water that enters at an end has no way out and too little space.
 template <int Dim>
 void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, const Boundary<Dim>& boundary,
                     const FluidParticles<Dim>& fluid, double last, Findings& findings) {
@@ -67,7 +67,7 @@ void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, con
 template <int Dim>
 Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
-  std::vector<Opening<Dim>> feeding;  // what leaves the other ends leaves the space
+  std::vector<Opening<Dim>> feeding;  // outflow through the other ends leaves the space
   for (const ChannelEnd<Dim>& end : ends) {
     if (end.flow.feeds()) feeding.push_back(end.mouth);
   }

@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// Walls that close at less than 45 degrees crush the water; others push it out of the wedge.
+/// Minimum cosine: walls that close at less than 45 degrees crush the water; others push it out of the wedge.
 constexpr double least_facing = 0.7;
 
 template <int Dim>

@@ -1,4 +1,4 @@
-// Finds where walls of different bodies collide.
+// Detects collisions of walls of different bodies.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace tailwater {
 template <int Dim>
 struct Collision {
   Vec<Dim> where;
-  bool is_crossing;  ///< false: they come nearer than dx to each other
+  bool is_crossing;  ///< false: their distance becomes less than dx
 };
 
 /// Checks face `a`, of a moving wall, against face `b`. `a_before` and `b_before` are the same faces at the previous

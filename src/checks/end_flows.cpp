@@ -12,14 +12,14 @@ namespace {
 
 constexpr double rim_on_wall = 0.1;          // dx, between the top of an opening and a lid
 constexpr double least_cosine = 1.0 - 1e-6;  // between gravity's part along an opening and an edge of it
-constexpr double most_of_range = 0.5;  // of the largest value, that one may change by while a wave crosses the end
-constexpr double most_moments = 1e5;   // of a quantity over the run
+constexpr double most_of_range = 0.5;        // of the largest value; change while a wave crosses the end
+constexpr double most_moments = 1e5;         // maximum number of times at which a quantity is evaluated
 /// Froude number beyond which a value is mistyped: a jet of 20 m/s and 0.1 m depth.
 constexpr double most_froude = 20.0;
 constexpr const char* unit_hint =
     "a discharge is in m^3/s, in 2D per metre of width (1 l/s is 0.001), a velocity in m/s";
 
-/// s; in which a wave crosses the end of the channel. Without gravity there are no waves, and nothing is too fast.
+/// s; time in which a wave crosses the buffer zone. Without gravity there are no waves, and no flow is too fast.
 template <int Dim>
 double time_of_crossing(const CaseSpec& spec, const ChannelEnd<Dim>& end) {
   const double gravity = end.gravity > 0.0 ? end.gravity : gravity_of<Dim>(spec).norm();
@@ -27,7 +27,7 @@ double time_of_crossing(const CaseSpec& spec, const ChannelEnd<Dim>& end) {
   return (traits_of(spec).support + 1.0) * spec.particles.spacing / std::sqrt(gravity * end.height);
 }
 
-/// Looks at what is prescribed at one open end, over the run.
+/// Checks the prescribed values of one open end over the run.
 template <int Dim>
 class EndFlowCheck {
  public:
@@ -70,7 +70,7 @@ class EndFlowCheck {
     }
   }
 
-  /// The number of equal parts of the run at whose ends a quantity is looked at.
+  /// The number of equal parts of the run at whose ends a quantity is evaluated.
   int samples() const {
     return crossing_ > 0.0 ? static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, most_moments)) : 100;
   }
@@ -135,7 +135,7 @@ class EndFlowCheck {
     }
   }
 
-  /// A discharge may begin and end at 0: only one that never makes a row of particles is told.
+  /// A discharge may begin and end at 0: only one that never makes a row of particles is reported.
   void look_at_thinness() {
     if (end_.flow.level || !end_.flow.feeds() || end_.gravity == 0.0 || has_lid_) return;
     const double critical = end_.largest_depth(last_);
@@ -150,7 +150,7 @@ class EndFlowCheck {
   /// m; height of the lowest point of the opening
   double floor() const {
     if (end_.gravity > 0.0) return end_.floor;
-    return -full_gravity_.normalized().dot(end_.mouth.corner);  // a level one
+    return -full_gravity_.normalized().dot(end_.mouth.corner);  // a level opening
   }
 
   void look_at_level(double time, double level) {
@@ -185,7 +185,7 @@ class EndFlowCheck {
   Vec<Dim> full_gravity_;  ///< m/s^2
   CaseLabel label_;
   double dx_, last_;
-  double crossing_;  ///< s; of a wave, of the end stretch
+  double crossing_;  ///< s; of a wave, through the buffer zone
   bool has_lid_;
   Findings findings_;
 };
@@ -195,7 +195,7 @@ class EndFlowCheck {
 template <int Dim>
 Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
-  if (boundary.faces.empty()) return findings;  // told by check_open_ends
+  if (boundary.faces.empty()) return findings;  // check_open_ends reports this
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     if (end.is_driven()) append(findings, EndFlowCheck<Dim>(spec, boundary, end).findings());
   }

@@ -1,4 +1,4 @@
-// How densely checks sample a face.
+// The density of the sample points of checks on a face.
 #pragma once
 
 #include <algorithm>

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Where the first particles in front of a wall belong.
+/// The expected places of the first particles in front of a wall.
 struct Standing {
   double regular;   ///< dx from the wall
   double least;     ///< m; nearer is too near
@@ -42,7 +42,7 @@ struct Contact {
   double nearest = infinite;  ///< m in front of it
   Vec<Dim> deepest_at, nearest_at;
 
-  /// Of two places that are equally near or deep, the one seen first counts.
+  /// If two places are equally near or deep, the first one counts.
   void add(const Contact& later) {
     in_front += later.in_front;
     behind += later.behind;
@@ -58,7 +58,7 @@ struct Contact {
   }
 };
 
-/// How near a block comes to a face that it is straight in front of.
+/// Distance of a block from a face that it is straight in front of.
 template <int Dim>
 struct Approach {
   double distance = infinite;  ///< m
@@ -69,15 +69,15 @@ struct Approach {
   }
 };
 
-/// Faces of a round wall, each with few particles in front of it, of which the nearest may stand anywhere up to a
-/// cell's diagonal away: only the wall as a whole has a gap or none.
+/// Whether a face is short, as the faces of a round wall. Each has few particles in front of it, of which the nearest
+/// may stand anywhere up to a cell's diagonal away. A gap is then a property of the wall as a whole.
 template <int Dim>
 bool is_short(const WallFace<Dim>& face, double dx) {
   constexpr double long_enough = 2.0;  // dx
   return Dim == 2 && (face.corners[1] - face.corners[0]).norm() < long_enough * dx;
 }
 
-/// What all ranks have found, by the same keys.
+/// The results of all ranks, by the same keys.
 template <class Found>
 std::map<std::pair<int, int>, Found> together(const Communicator& ranks,
                                               const std::map<std::pair<int, int>, Found>& own) {
@@ -92,14 +92,14 @@ std::map<std::pair<int, int>, Found> together(const Communicator& ranks,
   return all;
 }
 
-/// Where the fluid is beside the walls.
+/// The positions of the fluid beside the walls.
 template <int Dim>
 struct Contacts {
-  std::map<std::pair<int, int>, Contact<Dim>> by_wall;   ///< and block
-  std::map<std::pair<int, int>, Approach<Dim>> by_face;  ///< and block
+  std::map<std::pair<int, int>, Contact<Dim>> by_wall;   ///< by wall and block
+  std::map<std::pair<int, int>, Approach<Dim>> by_face;  ///< by face and block
 };
 
-/// `far` [m]: what is farther in front of all walls does not matter.
+/// `far` [m]: particles farther in front of all walls do not matter.
 template <int Dim>
 Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, double least, double far,
                           double dx) {
@@ -119,7 +119,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
     const double height = boundary.faces[near.face].height(x);
     const int wall = boundary.faces[near.face].wall;
     Contact<Dim>& contact = contacts.by_wall[{wall, fluid.block[i]}];
-    // Beyond a free end of a wall the sign has no meaning. Only places straight in front of or behind a face count.
+    // Beyond a free end of a wall the sign is undefined. Only places straight in front of or behind a face count.
     const bool is_square = std::abs(std::abs(near.signed_distance) - std::abs(height)) < corner_tolerance * dx;
     if (near.signed_distance >= 0.0) {
       contact.in_front += is_square ? 1 : 0;

@@ -11,18 +11,18 @@
 namespace tailwater {
 namespace {
 
-/// [edge of a cell]; so much above its surface water counts as hanging.
+/// [edge of a cell]; minimum height above its surface at which water counts as hanging.
 constexpr double least_height = 2.0;
 
 struct ConnectedWater {
-  double surface = -std::numeric_limits<double>::infinity();  ///< m, upwards; where it is highest beside air
-  double ceiling = -std::numeric_limits<double>::infinity();  ///< m; where it is highest below a wall
-  int face_above = -1;                                        ///< of that wall
+  double surface = -std::numeric_limits<double>::infinity();  ///< m, upwards; highest place beside air
+  double ceiling = -std::numeric_limits<double>::infinity();  ///< m; highest place below a wall
+  int face_above = -1;                                        ///< face of that wall
   std::size_t cell_below = 0;
   bool is_at_end = false;  ///< an open end may press on it
 };
 
-/// Follows the water from a cell, and marks what it reaches.
+/// Follows the water from a cell, and marks the cells that it reaches.
 template <int Dim>
 ConnectedWater follow(const CellSpace<Dim>& space, std::size_t first, const Vec<Dim>& up, std::size_t walls,
                       const std::vector<bool>& is_wet, std::vector<bool>& is_known) {

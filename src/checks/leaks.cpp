@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-/// Where water reaches the back of a wall, one finding per wall.
+/// Findings where water reaches the back of a wall, one per wall.
 template <int Dim>
 Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached) {
   Findings findings;

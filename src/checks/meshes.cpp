@@ -12,10 +12,10 @@ namespace {
 /// A mesh that is longer than the water by more than this factor is drawn in another unit.
 constexpr double largest_share_of_water = 200.0;
 
-/// A body that is longer than all the rest by more than this factor may be.
+/// A body that is longer than the rest of the case by more than this factor may be drawn in another unit.
 constexpr double largest_share_of_case = 2.0;
 
-/// Walls back to back are a plate where they differ by less than 8 degrees from parallel; else a sharp edge.
+/// Cosine: walls back to back are a plate where they differ by less than 8 degrees from parallel; else a sharp edge.
 constexpr double least_facing_of_plate = 0.99;
 
 Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurface& surface,
@@ -43,7 +43,7 @@ Eigen::AlignedBox<double, 3> box_of_others(const Boundary<3>& boundary, int wall
   return box;
 }
 
-/// Where a mesh at rest stands beside the rest of the case.
+/// Warns of a mesh at rest that stands beside the rest of the case.
 Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const MeshSurface& surface,
                      const Eigen::AlignedBox<double, 3>& water) {
   const WallTable& table = spec.walls[wall];
@@ -111,7 +111,7 @@ Findings check_self_crossing(const MeshSurface& surface, const CaseLabel& label,
   return {};
 }
 
-/// Looks straight back from the middle of triangles at least dx apart.
+/// Tests straight back from the middle of triangles at least dx apart.
 Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, const WallMesh& mesh,
                          const CaseLabel& label) {
   const double dx = spec.particles.spacing;

@@ -8,12 +8,12 @@
 namespace tailwater {
 namespace {
 
-/// Walls that are faster than this multiple of sqrt(2 g L), the speed of water that falls from its own height, are not
-/// what a laboratory does. They would make every step as many times shorter.
+/// Walls in laboratories are not faster than this multiple of sqrt(2 g L), the speed of water that falls from its own
+/// height. Faster walls would make every step shorter by the same factor.
 constexpr double fastest_over_water = 10.0;
 
-/// Share of the largest displacement in a file by which the curve may leave the values of two neighbouring lines. A
-/// sine does so by 1 % with 20 lines per period and by 10 % with 7.
+/// Fraction of the largest displacement in a file by which the curve may exceed the values of two neighbouring lines. A
+/// sine exceeds them by 1 % with 20 lines per period and by 10 % with 7.
 constexpr double largest_overshoot = 0.1;
 
 /// Height of the water at the start along gravity [m]; 0 without gravity.
@@ -24,7 +24,7 @@ double water_height(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   return fluid.extent_along(gravity.normalized()) + spec.particles.spacing;
 }
 
-/// The samples of one file, as the wall's corners follow them.
+/// The samples of one file, as motions of the wall's corners.
 template <int Dim>
 class FileWalk {
  public:
@@ -39,7 +39,7 @@ class FileWalk {
     }
   }
 
-  /// A jump, or else the largest overshoot; nothing if the motion is smooth.
+  /// A jump, or else the largest overshoot; empty if the motion is smooth.
   Findings findings(double fastest) const {
     double largest_displacement = 0.0;
     double worst = 0.0;
@@ -80,8 +80,8 @@ class FileWalk {
         {"correct the lines, or the units in the file's header"});
   }
 
-  /// How far a corner gets from the straight line between two samples, along that line and beyond its ends; for a
-  /// corner that rests, in any direction.
+  /// The distance of a corner from the straight line between two samples, along that line and beyond its ends; for a
+  /// corner at rest, in any direction.
   double overshoot_of(const Vec<Dim>& corner, const AffineMap<Dim>& before, const AffineMap<Dim>& after, double from,
                       double to) const {
     const Vec<Dim> begin = before(corner);

@@ -6,13 +6,13 @@
 namespace tailwater {
 namespace {
 
-/// ", in its file motion.csv," for a wall that moves as a file says.
+/// ", in its file motion.csv," for a wall whose motion is in a file.
 std::string file_of(const CaseSpec& spec, int wall) {
   const std::string& file = spec.walls[wall].series.file;
   return file.empty() ? "" : fmt::format(", in its file {},", file);
 }
 
-/// Adds an error if the wall is not where it is drawn at t = 0; returns whether it is.
+/// Adds an error if the wall is not at its drawn place at t = 0; returns whether it is there.
 template <int Dim>
 bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall, Findings& findings) {
   const AffineMap<Dim> start = WallPath<Dim>(spec, spec.walls[wall], wall_label(drawn, wall)).at(0.0);
@@ -42,7 +42,7 @@ Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, co
   }
   if (moving.empty()) return findings;
   append(findings, check_motion_files(spec, drawn, fluid));
-  if (has_error(findings)) return findings;  // a path that jumps is not worth following
+  if (has_error(findings)) return findings;  // a path that jumps is not checked further
   if constexpr (Dim == 2) append(findings, check_free_ends(spec, drawn));
   append(findings, check_touching_rows(spec, drawn));
   append(findings, check_paths(spec, drawn, fluid, moving));

@@ -36,7 +36,7 @@ std::vector<Vec<Dim>> whole_rim(const Opening<Dim>& end, double dx) {
   return rim;
 }
 
-/// The same without its top, which may be open to the air, and without what lies in a periodic plane.
+/// The rim without its top, which may be open to the air, and without parts in a periodic plane.
 template <int Dim>
 std::vector<Vec<Dim>> closed_rim(const CaseSpec& spec, const Opening<Dim>& end) {
   const double dx = spec.particles.spacing;
@@ -51,7 +51,7 @@ std::vector<Vec<Dim>> closed_rim(const CaseSpec& spec, const Opening<Dim>& end) 
   return rim;
 }
 
-/// m; of a place in the plane of an opening from its rim
+/// m; distance of a place in the plane of an opening from its rim
 template <int Dim>
 double distance_to_rim(const Opening<Dim>& end, const Vec<Dim>& x) {
   const std::vector<Vec<Dim>> corners = end.rim();
@@ -121,7 +121,7 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
   }
 }
 
-/// Neither walls nor water of the case may be where the duct is that the program adds, or where a free jet falls.
+/// Checks that no walls or water of the case are in the space of the duct that the program adds, or of a free jet.
 template <int Dim>
 void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end,
                         Findings& findings) {
@@ -147,7 +147,7 @@ void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   }
 }
 
-/// Whether the wall beside a place on the rim is one that the opening is cut into, and does not lead to it.
+/// Whether the opening is cut into the wall beside a place on the rim, so that the wall does not lead to it.
 template <int Dim>
 bool is_cut_into_wall(const Boundary<Dim>& boundary, const Opening<Dim>& end, const Vec<Dim>& on_rim, double dx) {
   Vec<Dim> middle = end.corner;
@@ -156,7 +156,7 @@ bool is_cut_into_wall(const Boundary<Dim>& boundary, const Opening<Dim>& end, co
   return wall.face >= 0 && std::abs(boundary.faces[wall.face].normal.dot(end.normal)) >= least_flush;
 }
 
-/// Water that leaves through a hole in a wall needs something beyond it: a channel that goes on would not do.
+/// Checks that the far side of a hole in a wall is defined: a continuing channel is impossible there.
 template <int Dim>
 void check_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end, Findings& findings) {
   const Opening<Dim>& mouth = end.mouth;
@@ -169,7 +169,7 @@ void check_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const Cha
       {"give beyond = \"air\" for a free jet, or the level of the water beyond"}));
 }
 
-/// Ducts of two openings must not meet.
+/// Checks that the ducts of two openings do not meet.
 template <int Dim>
 void check_ducts_apart(const CaseSpec& spec, const std::vector<ChannelEnd<Dim>>& ends, Findings& findings) {
   for (const ChannelEnd<Dim>& end : ends) {
@@ -189,7 +189,7 @@ void check_ducts_apart(const CaseSpec& spec, const std::vector<ChannelEnd<Dim>>&
   }
 }
 
-/// Returns whether it is sound.
+/// Returns whether the opening is sound.
 template <int Dim>
 bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const FluidParticles<Dim>& fluid,
                         Findings& findings) {
@@ -215,7 +215,7 @@ bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const Flu
   return false;
 }
 
-/// An end of the walls, with all of them on the side where the water should not be.
+/// Reports an end of the walls with all walls on the side where the water should not be.
 template <int Dim>
 void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
   const double dx = spec.particles.spacing;

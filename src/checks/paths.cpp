@@ -14,25 +14,25 @@
 namespace tailwater {
 namespace {
 
-/// Least number of samples of a path, even where it does not seem to move.
+/// Minimum number of samples of a path, even where it does not seem to move.
 constexpr int least_samples = 2000;
 
-/// Work that is done at most on following the paths, in looks at the place of a wall: 10 km of one wall at dx = 0.01 m.
-/// It takes some seconds.
+/// Maximum cost of following the paths, in evaluations of the place of a wall: 10 km of one wall at dx = 0.01 m. It
+/// takes some seconds.
 constexpr double most_looks = 4e6;
 
-constexpr double looks_per_letter = 0.01;    ///< of an expression
-constexpr double looks_per_corner = 0.01;    ///< of a wall
-constexpr double looks_per_collision = 0.1;  ///< of two faces
+constexpr double looks_per_letter = 0.01;    ///< per letter of an expression
+constexpr double looks_per_corner = 0.01;    ///< per corner of a wall
+constexpr double looks_per_collision = 0.1;  ///< per pair of faces
 
-/// A wall that moves, as it is drawn.
+/// A moving wall, as drawn.
 template <int Dim>
 struct Mover {
   int wall;
   WallPath<Dim> path;
   std::vector<int> faces;         ///< indices into Boundary::faces
-  std::vector<Vec<Dim>> corners;  ///< of the faces, each once
-  double looks;                   ///< what a look at it costs
+  std::vector<Vec<Dim>> corners;  ///< corners of the faces, each once
+  double looks;                   ///< cost of one evaluation
   bool is_followed = true;        ///< no error of its own so far
 };
 
@@ -79,7 +79,7 @@ class PathWalk {
       boxes_[faces_[f].wall].extend(faces_[f].box());
     }
     places_ = places_of_room_ = places_at(0.0);
-    // The room is unknown if water may leave or enter through an open end, or if a moving wall is not followed.
+    // The space is unknown if water may leave or enter through an open end, or if a moving wall is not followed.
     const auto all = std::ranges::count_if(drawn.walls, [](const WallProperties& wall) { return wall.moves(); });
     const bool is_known = spec.inlets.empty() && spec.outlets.empty() && static_cast<std::size_t>(all) == moving.size();
     if (is_known && fluid.all > 0) room_.emplace(spec, drawn, fluid);
@@ -106,7 +106,7 @@ class PathWalk {
   }
 
  private:
-  using Places = std::vector<AffineMap<Dim>>;  ///< of all movers
+  using Places = std::vector<AffineMap<Dim>>;  ///< by mover
 
   CaseLabel label(int wall) const { return wall_label(drawn_, wall); }
 
@@ -120,7 +120,7 @@ class PathWalk {
     return places;
   }
 
-  /// The corner of a wall that moves farthest between two places of the wall, and how far it moves.
+  /// The corner of a wall that moves farthest between two places of the wall, and its displacement.
   std::pair<Vec<Dim>, double> farthest(const Mover<Dim>& mover, const AffineMap<Dim>& before,
                                        const AffineMap<Dim>& after) const {
     std::pair<Vec<Dim>, double> result{Vec<Dim>::Zero(), 0.0};
@@ -179,7 +179,7 @@ class PathWalk {
       box.setEmpty();
       for (const int f : movers_[m].faces) {
         faces_before_[f] = faces_[f];
-        // A wall that is no longer followed counts where it is drawn.
+        // A wall that is no longer followed counts at its drawn place.
         faces_[f] = movers_[m].is_followed ? moved(places_[m], drawn_.faces[f]) : drawn_.faces[f];
         box.extend(faces_[f].box());
       }
@@ -220,7 +220,7 @@ class PathWalk {
     }
   }
 
-  /// Checks that the water has room, each time a wall has moved by dx; not after an error.
+  /// Checks that the water has enough space, each time a wall has moved by dx; not after an error.
   void look_for_room(double time) {
     bool has_moved = false;
     for (std::size_t m = 0; m < movers_.size(); ++m) {
@@ -256,11 +256,11 @@ class PathWalk {
   Places places_;                                      ///< of the walls at the last check
   std::vector<WallFace<Dim>> faces_;                   ///< at the last check
   std::vector<WallFace<Dim>> faces_before_;            ///< at the check before it
-  std::vector<std::vector<int>> faces_of_;             ///< each wall
+  std::vector<std::vector<int>> faces_of_;             ///< by wall
   std::vector<Eigen::AlignedBox<double, Dim>> boxes_;  ///< around each wall at the last check
   std::set<std::pair<int, int>> collided_;             ///< walls whose collision is reported
-  std::optional<RoomForWater<Dim>> room_;              ///< none if it is unknown
-  Places places_of_room_;                              ///< of the walls at the last check of the room
+  std::optional<RoomForWater<Dim>> room_;              ///< none if the space is unknown
+  Places places_of_room_;                              ///< of the walls at the last check of the space
   double looks_ = 0.0;                                 ///< so far
   Findings findings_;
 };

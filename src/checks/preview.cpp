@@ -51,7 +51,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// The two coordinates that the picture shows.
+/// The two coordinates in the picture.
 template <class Point>
 Vec<2> project(const Point& x) {
   return {x[0], x[x.size() - 1]};
@@ -128,7 +128,7 @@ class Svg {
 struct Marker {
   std::string name;
   std::vector<Vec<2>> points;  ///< m; one point, or the two ends of a stretch
-  bool is_vertical = false;    ///< a depth probe looks up and down its whole column
+  bool is_vertical = false;    ///< whether it is a depth probe, which measures its whole column
   const char* colour = probe_colour;
 };
 
@@ -177,8 +177,8 @@ void draw_axes(Svg& svg, const View& view) {
           view.left, view.top, view.right() - view.left, view.bottom() - view.top, wall_colour);
 }
 
-/// Rows of probe names above the plot. From right to left each name takes the lowest row where it has room, starting at
-/// its marker, so that the line down to the marker passes only names that begin further right.
+/// Rows of probe names above the plot. From right to left each name takes the lowest row with space, starting at its
+/// marker, so that the line down to the marker passes only names that begin further right.
 std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std::string>& names) {
   std::vector<std::size_t> order(x.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -195,7 +195,7 @@ std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std:
   return rows;
 }
 
-/// Inlets and outlets, each with its name and an arrow in the direction in which the water goes.
+/// Draws inlets and outlets, each with its name and an arrow in the direction of the flow.
 template <int Dim>
 void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View& view) {
   constexpr double arrow = 20.0;  // px
@@ -218,14 +218,14 @@ void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View&
   }
 }
 
-/// Whether a wall particle is of a wall as the case draws it: neither of a duct, which comes later, nor beyond a free
-/// end.
+/// Whether a wall particle belongs to a wall of the case, not to a duct, which is added later, nor to the part beyond a
+/// free end.
 template <int Dim>
 bool is_drawn(const Boundary<Dim>& boundary, const WallParticles<Dim>& walls, std::size_t i) {
   return walls.wall[i] < static_cast<int>(boundary.walls.size()) && walls.is_beyond_end[i] == 0;
 }
 
-/// The extent of all that the picture must show.
+/// The extent of everything that the picture must show.
 template <int Dim>
 Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
                  const std::vector<Opening<Dim>>& ends, const std::vector<Marker>& markers,
@@ -252,7 +252,8 @@ Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid
   return extent;
 }
 
-/// The scale at which the plot fits, and its left edge. Its top is not set: it depends on what stands above the plot.
+/// The scale at which the plot fits, and its left edge. Its top is not set, because it depends on the labels above the
+/// plot.
 View fitted_view(const Extent& extent, double dx) {
   View view;
   view.low = extent.low.array() - 1.5 * dx;

@@ -1,4 +1,4 @@
-// A picture of a case at its start: the eye checks what numbers cannot.
+// A picture of a case at its start, for errors that only a person can see.
 #pragma once
 
 #include <span>

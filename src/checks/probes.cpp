@@ -11,7 +11,7 @@
 namespace tailwater {
 namespace {
 
-/// Times at which walls that move are looked at.
+/// Number of times at which moving walls are evaluated.
 constexpr int looks_at_walls = 100;
 
 /// The box around the water at the start and the walls, wherever they are during the run.
@@ -26,8 +26,8 @@ Eigen::AlignedBox<double, Dim> box_of_case(const CaseSpec& spec, const Boundary<
   return box;
 }
 
-/// Where water may be: a spacing around the box, and above it as high again, where it splashes. Bodies that float may
-/// take it as far on all sides.
+/// The space that water may reach: a spacing around the box, and above it as high again, for splashes. Floating bodies
+/// may carry water as far on all sides.
 template <int Dim>
 Eigen::AlignedBox<double, Dim> reach_of_water(const CaseSpec& spec, Eigen::AlignedBox<double, Dim> box) {
   const double dx = spec.particles.spacing;
@@ -55,7 +55,7 @@ Eigen::AlignedBox<double, Dim> box_of_probe(const ProbeTable& probe) {
     box.extend(to_vec<Dim>(probe.from, owner, "from"));
     box.extend(to_vec<Dim>(probe.to, owner, "to"));
   }
-  return box;  // others look for a wall, and tell if there is none
+  return box;  // other probes search for a wall, and report if there is none
 }
 
 /// Adds a warning about times that are never reached.
@@ -69,7 +69,7 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
       {"end the run later, or leave them out"}));
 }
 
-/// Adds a warning of a probe that reads on a wall farther away than a spacing.
+/// Adds a warning for a probe that reads on a wall farther away than a spacing.
 template <int Dim>
 void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const ProbeTable& probe, Findings& findings) {
   if (probe.type != ProbeType::wall_pressure) return;

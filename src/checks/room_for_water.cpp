@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// Few enough to be checked each time a wall has moved by dx.
+/// Small enough for a check each time a wall has moved by dx.
 constexpr double most_cells_of_room = 2e4;
 
 }  // namespace
@@ -30,7 +30,7 @@ void RoomForWater<Dim>::move(std::vector<WallFace<Dim>> faces, const std::vector
     const WallFace<Dim>& before = space_.faces()[f];
     const AffineMap<Dim> back = displacement_between(displacement[f], {});
     space_.visit_around(before, faces[f], [&](const auto& cell) {
-      // In the wall's frame the cell moves.
+      // In the frame of the wall the cell moves.
       const Vec<Dim> x = space_.centre(cell);
       if (space_.passes(before, x, back(x))) is_passed[space_.index(cell)] = true;
     });

@@ -1,4 +1,4 @@
-// The room that moving walls leave to the water.
+// The space that moving walls leave to the water.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class RoomForWater {
   void move(std::vector<WallFace<Dim>> faces, const std::vector<AffineMap<Dim>>& displacement);
 
   struct Enclosed {
-    double volume;            ///< m^Dim, at most
+    double volume;            ///< m^Dim, upper bound
     std::vector<bool> walls;  ///< by face: whether it holds the water
   };
   /// Empty if the water can get out.

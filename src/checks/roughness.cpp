@@ -7,24 +7,24 @@ namespace tailwater {
 namespace {
 
 /// dx. The law of rough walls (closures/wall_law.h) has no velocity up to k_s/30 from the wall, and the first particles
-/// stand dx/2 from it. From here on they would be where there is no flow.
+/// stand dx/2 from it. Above this limit they would be in the range without flow.
 constexpr double largest_over_spacing = 15.0;
 
-/// k_s, and Manning's n if the wall has that.
+/// Text with k_s, and with Manning's n if the wall has that.
 Clause roughness_text(const WallTable& wall, double roughness) {
   if (wall.manning == 0.0) return {"its roughness k_s = {:.3g}", Amount{roughness, "m"}};
   return {"its roughness k_s = {:.3g}, which is that of manning = {:.6g} s/m^(1/3),", Amount{roughness, "m"},
           wall.manning};
 }
 
-/// The largest value of the key that gives this roughness, as a remedy, which rounding must not put above the bound.
+/// The largest value of the key for this roughness, as a remedy, which rounding must not put above the bound.
 std::string bound_on_key(const WallTable& wall, double roughness, double bound) {
   const double largest = 0.99 * bound;
   if (wall.manning == 0.0) return fmt::format("a roughness of at most {:.3g} m", largest);
   return fmt::format("manning = {:.3g} or less", wall.manning * std::pow(largest / roughness, 1.0 / 6.0));
 }
 
-/// Height [m] of all water along gravity, which nothing can exceed for long where none comes in; 0: unknown.
+/// Height [m] of all water along gravity, which the water cannot exceed for long without inflow; 0: unknown.
 template <int Dim>
 double height_without_inflow(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
@@ -39,7 +39,7 @@ Finding too_rough(const CaseLabel& label, const WallTable& wall, double roughnes
       {"give {}, and draw what is larger as a shape of the wall", bound_on_key(wall, roughness, largest)});
 }
 
-/// The law of the side walls is a mean over half of the width.
+/// Checks the side walls, whose law is a mean over half of the width.
 Findings check_side_walls(const PhysicsTable& physics) {
   const double half = 0.5 * physics.channel_width;
   if (half == 0.0 || physics.channel_roughness <= half) return {};

@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// Times at which an open end is looked at.
+/// Number of times at which an open end is evaluated.
 constexpr int looks_at_end = 200;
 
 template <int Dim>

@@ -26,7 +26,7 @@ bool is_obstacle(const WallTable& wall) {
   return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
 }
 
-/// Which faces water can come to the front of, from where it is and from open ends. These, and the box around all
+/// The faces whose front water can reach, from its start and from open ends. The open ends, and the box around all
 /// walls, count as closed.
 template <int Dim>
 std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
@@ -41,11 +41,11 @@ std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary,
   return spread(space, start, Vec<Dim>(Vec<Dim>::Zero()), Edge::holds).wet;
 }
 
-/// Finds the faces that may be behind others.
+/// Lists the faces that may be behind others.
 template <int Dim>
 class FacesBehind {
  public:
-  /// `reach` [m]: how far behind
+  /// `reach` [m]: search distance behind a face
   FacesBehind(const Boundary<Dim>& boundary, double reach) : grid_(reach) {
     boundary.visit_plain_faces([&](int f) {
       const WallFace<Dim>& face = boundary.faces[f];
@@ -54,7 +54,7 @@ class FacesBehind {
     });
   }
 
-  /// Near the places of the face that are looked at, in their order.
+  /// The faces near the sampled places of the face, in their order.
   std::vector<int> of(const WallFace<Dim>& face, double dx) const {
     std::set<int> found;
     const int samples = samples_along(face, dx);
@@ -95,7 +95,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
   const double needed = dummy_layers(spec) * dx;
   Findings findings;
   std::set<std::pair<int, int>> reported;
-  std::optional<std::vector<bool>> wet;  // by face; found when it is asked for
+  std::optional<std::vector<bool>> wet;  // by face; computed on demand
   const auto is_wet = [&](int face) {
     if (!wet) wet = wet_faces(spec, boundary, fluid);
     return wet->at(face);
