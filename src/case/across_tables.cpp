@@ -19,7 +19,7 @@
 namespace tailwater {
 namespace {
 
-/// A series must last to the end of the run; `start` [s] is the time of the run at which it begins.
+/// Checks that a series lasts to the end of the run; `start` [s] is the time of the run at which it begins.
 void check_end_of_series(const TimeSeries& series, double start, double end, const CaseLabel& key,
                          const toml::node* node, Problems& problems) {
   const double last = series.empty() ? end : start + series.time.back();
@@ -42,7 +42,7 @@ void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problem
   }
 }
 
-/// A mistyped interval would fill the disk, or make the run crawl.
+/// Checks an interval: a mistyped one would fill the disk, or make the run very slow.
 void check_interval(double interval, double end, double most, const CaseLabel& key, const toml::node* node,
                     std::string_view what, std::string_view remedy, Problems& problems) {
   if (node == nullptr || interval <= 0.0 || end / interval <= most) return;
@@ -81,7 +81,7 @@ void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Proble
   }
 }
 
-/// Messages tell walls, gates and wave makers apart by name.
+/// Walls, gates and wave makers need different names, because messages identify them by name.
 void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   std::set<std::string_view> names;
   for (const WallTable& wall : spec.walls) names.insert(wall.name);
@@ -108,7 +108,7 @@ void check_name(const std::string& name, const std::vector<Target>& targets, std
   problems.wrong(key, node, fmt::format("there is no {} \"{}\"; {}", kind, name, unknown_name_hint(name, names)));
 }
 
-/// A body is made of walls that nothing else moves.
+/// Checks that a body is made of walls that have no other motion.
 void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   std::map<std::string_view, std::string_view> body_of_wall;
   for (std::size_t k = 0; k < spec.bodies.size(); ++k) {
@@ -148,7 +148,7 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
   }
 }
 
-/// Without a gas in enclosed air there is nothing to start at another pressure, or to let out.
+/// Without a gas in enclosed air no space can start at another pressure, and no gas can be vented.
 void check_no_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const auto check_none = [&](const char* table, const auto& tables) {
     if (tables.empty()) return;
@@ -161,7 +161,7 @@ void check_no_air(const CaseSpec& spec, const toml::table& root, Problems& probl
   check_none("vent", spec.vents);
 }
 
-/// Enclosed air acts in the robust formulation, on walls whose motion is known.
+/// Enclosed air is implemented in the robust formulation, for walls whose motion is known.
 void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   if (spec.air.pockets == AirPockets::none) check_no_air(spec, root, problems);
   for (std::size_t k = 0; k < spec.pockets.size(); ++k) {
@@ -182,9 +182,9 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
                   name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust), name_of(AirPockets::none)));
 }
 
-/// Porous layers act in the formulation in which bodies float, for a reason like theirs: the pressure must know how
-/// much of its gradient the grains take. Pockets of air take space where no water is, and water in a layer stands wider
-/// apart.
+/// Porous layers need the formulation in which bodies float, for a similar reason: the pressure equation must contain
+/// the fraction of the pressure gradient that the grains take. Pockets of air cannot be combined with layers: they take
+/// the space without water, and particles in a layer stand farther apart.
 void check_porous(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   if (spec.porous.empty()) return;
   const auto wrong = [&](const std::string& message) {

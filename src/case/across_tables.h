@@ -1,4 +1,4 @@
-// Rules of a case that concern several of its tables, once each table is sound.
+// Rules that involve several tables of a case, checked once each table is sound.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// Reports what does not go together in the case `spec`, which was read from `root`.
+/// Reports contradictions between tables of the case `spec`, which was read from `root`.
 void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems& problems);
 
 }  // namespace tailwater

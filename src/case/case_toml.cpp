@@ -48,7 +48,7 @@ toml::table parse_case(std::string_view text, const std::string& file) {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
     const toml::source_position where = error.source().begin;
-    std::string description(error.description());  // it quotes letters as they are, ends of lines too
+    std::string description(error.description());  // it quotes letters unchanged, ends of lines too
     std::ranges::replace_if(
         description, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
     throw CaseError({"not valid TOML: {}", description},

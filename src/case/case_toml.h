@@ -1,4 +1,4 @@
-// The text of a case file, and the TOML that it is.
+// The text of a case file, and its TOML tree.
 #pragma once
 
 #include <toml++/toml.h>
@@ -11,13 +11,13 @@
 
 namespace tailwater {
 
-/// bytes; a hundred times what a case needs, and read in a moment
+/// bytes; a hundred times the size of usual cases, and read in an instant
 inline constexpr std::uintmax_t largest_case_file = 1 << 18;
 
-/// bytes; the case that a run leaves has every key, with its explanation
+/// bytes; the case that a run writes has every key, with its explanation
 inline constexpr std::uintmax_t largest_effective_case = 32 * largest_case_file;
 
-/// Throws IoError if it is no file that can be read, InputError if it has more than `largest` bytes.
+/// Throws IoError if the file cannot be read, InputError if it has more than `largest` bytes.
 std::string read_case_file(const std::filesystem::path& path, std::uintmax_t largest);
 
 /// The text of a case on a stream, as from standard input. Throws InputError if it has no end.

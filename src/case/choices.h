@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// The names of an enumeration; an array where it has some.
+/// The names of an enumeration; an array where it has names.
 template <class Enumeration>
 inline constexpr auto choices = nullptr;
 

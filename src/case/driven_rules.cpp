@@ -37,7 +37,7 @@ void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection s
   }
 }
 
-/// No solitary wave is higher than this share of the depth (McCowan 1894), nor is any periodic one.
+/// No solitary wave is higher than this fraction of the depth (McCowan 1894), nor is any periodic one.
 constexpr double highest_over_depth = 0.78;
 
 /// Keys that makers and zones share.
@@ -79,7 +79,7 @@ void check(const BodyTable& body, TableReader& reader) {
   if (body.walls.empty() && !reader.is_wrong("walls")) {
     reader.missing("walls", "a body needs a surface; give the names of its walls, as in [\"hull\"]");
   }
-  if (reader.dimension() == 0) return;  // what is free goes with it
+  if (reader.dimension() == 0) return;  // the names of the free motions depend on it
   const bool is_flat = reader.dimension() == 2;
   for (const std::string& degree : body.free) {
     const bool is_turn = degree.starts_with("rotation");

@@ -7,10 +7,10 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; thick enough that the water on one side does not feel what is on the other (docs/theory/moving_walls.md).
+/// [dx]; so thick that the water on one side does not interact with that on the other (docs/theory/moving_walls.md).
 constexpr double default_thickness = 4.0;
 
-/// A wall of that shape that is drawn where it starts.
+/// A wall of that shape that is drawn at its starting place.
 WallTable wall_of(WallShape shape, std::size_t dimension) {
   WallTable wall;
   wall.shape = shape;

@@ -25,13 +25,13 @@ bool is_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
-/// Whether the last letter before `position`, spaces apart, is a digit or a point.
+/// Whether the last letter before `position`, spaces ignored, is a digit or a point.
 bool follows_number(std::string_view text, std::size_t position) {
   const std::size_t last = text.substr(0, position).find_last_not_of(' ');
   return last != std::string_view::npos && (is_digit(text[last]) || text[last] == '.');
 }
 
-/// The numbers whose names occur in the text. A case may have thousands of parameters, an expression uses a few.
+/// The numbers whose names occur in the text. A case may have thousands of parameters, but an expression uses a few.
 NamedNumbers used_numbers(std::string_view text, const NamedNumbers& numbers) {
   NamedNumbers used;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -102,12 +102,12 @@ void define_functions(mu::Parser& parser) { parser.DefineFun("clamp", clamp); }
 
 struct Formula::State {
   mu::Parser parser;
-  std::vector<double> variables;  ///< where the parser reads them
+  std::vector<double> variables;  ///< the memory from which the parser reads them
 };
 
 Formula::Formula(const std::string& text, const NamedNumbers& numbers, std::span<const std::string_view> variables)
     : state_(std::make_unique<State>()) {
-  // A division by zero shows in the result.
+  // The result shows a division by zero.
   const SuspendFpTraps suspended;
   mu::Parser& parser = state_->parser;
   state_->variables.resize(variables.size());

@@ -19,7 +19,8 @@ namespace tailwater {
 /// The named numbers an expression may use, besides pi.
 using NamedNumbers = std::map<std::string, double, std::less<>>;
 
-/// An expression that has no value; what() says why, where in the text (the first letter is 1) and the remedy.
+/// An expression without a value; what() has the reason, the position in the text (the first letter is 1) and the
+/// remedy.
 class ExpressionError : public std::runtime_error {
  public:
   explicit ExpressionError(const std::string& message, std::optional<std::string> unknown_name = {})
@@ -31,7 +32,7 @@ class ExpressionError : public std::runtime_error {
   std::optional<std::string> unknown_name_;
 };
 
-/// The value of `text`. It is not finite only if one of the numbers in it is not. Throws ExpressionError.
+/// The value of `text`. It is finite unless one of its numbers is not. Throws ExpressionError.
 double evaluate(const std::string& text, const NamedNumbers& numbers);
 
 /// An expression of `numbers` and of `variables`, which take their values at each evaluation; read once.
@@ -53,7 +54,7 @@ class Formula {
   std::unique_ptr<State> state_;
 };
 
-/// Whether `name` can be given to a number: letters, digits and _, no digit first, not pi nor a function.
+/// Whether `name` can be the name of a number: letters, digits and _, no digit first, not pi nor a function.
 bool is_free_name(std::string_view name);
 
 /// The functions an expression may call, in alphabetical order.

@@ -46,7 +46,7 @@ void apply_formulation(SchemeTable& scheme) {
       if (is_published(scheme)) scheme.courant = is_explicit ? 0.05 : 0.12;
       return;
     case SchemeName::farmani2020:
-      // That of the robust one keeps its loss of energy small, which grows with the step.
+      // The value of the robust formulation keeps its loss of energy small, which grows with the step.
       scheme.courant = is_published(scheme) ? 0.1 : 0.25;
       return;
   }

@@ -1,5 +1,5 @@
-// The four formulations of the case file: farzin2014 and farmani2020, each robust or as published. They are
-// made in robust/formulation.cpp and published/; here is what must be known of them before there is a flow.
+// The four formulations of the case file: farzin2014 and farmani2020, each robust or as published.
+// robust/formulation.cpp and published/ make them; this file has the properties that are needed before there is a flow.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// Where the particles of walls stand. Where some stand on the wall, the water's lattice has nodes there too.
+/// The places of wall particles. If some stand on the wall, the water's lattice has nodes there too.
 struct WallPlacement {
   bool on_wall;
   bool behind;
@@ -16,7 +16,7 @@ struct WallPlacement {
 
 struct FormulationTraits {
   double support;                ///< dx; radius of the kernel's support
-  WallPlacement walls;           ///< where the particles of walls stand
+  WallPlacement walls;           ///< places of wall particles
   std::string_view no_reaction;  ///< why forces on walls cannot be measured; empty if they can
   std::string_view no_floating;  ///< why bodies cannot float; empty if they can
   std::string_view no_pockets;   ///< why enclosed air cannot be a gas; empty if it can
@@ -25,8 +25,8 @@ struct FormulationTraits {
 
 FormulationTraits traits_of(const CaseSpec& spec);
 
-/// Sets the keys whose default depends on `name`, `formulation` and `integrator`: the Courant number, of the papers
-/// where published. Call it on the initialisers, before the keys given in the file are read.
+/// Sets the keys whose default depends on `name`, `formulation` and `integrator`: the Courant number, which is that of
+/// the papers where published. Call it on the initialisers, before the keys given in the file are read.
 void apply_formulation(SchemeTable& scheme);
 
 }  // namespace tailwater

@@ -20,10 +20,10 @@
 namespace tailwater {
 namespace {
 
-/// What uses it is not a number either, and is not reported a second time.
+/// Numbers that use it are not numbers either, and are not reported a second time.
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Gives the parameters, dx and g their values, each after those that it uses.
+/// Sets the values of the parameters, dx and g, each after the numbers that it uses.
 class NamedNumbersReader {
  public:
   NamedNumbersReader(CaseSpec& spec, Context& context, const toml::table& root)
@@ -40,7 +40,7 @@ class NamedNumbersReader {
     std::vector<std::string> names;
     for (const auto& [name, node] : open_) names.push_back(name);
     settle(names);
-    // Last, so that a message on an unknown name lists all that there are.
+    // Done last, so that a message about an unknown name lists all known names.
     while (!of_unknown_.empty()) {
       const std::string name = of_unknown_.back();
       of_unknown_.pop_back();
@@ -81,13 +81,13 @@ class NamedNumbersReader {
     }
   }
 
-  /// Gives these numbers and those that wait for them their values, as far as what they use has one.
+  /// Sets these numbers and those that depend on them, as far as the numbers that they use have values.
   void settle(std::vector<std::string> names) {
     while (!names.empty()) {
       const std::string name = names.back();
       names.pop_back();
       const auto open = open_.find(name);
-      if (open == open_.end()) continue;  // in a circle, it waited for itself
+      if (open == open_.end()) continue;  // in a circle, it depended on itself
       const std::optional<std::string> missing = missing_in(open->second);
       if (!missing) {
         give_value(name);
@@ -117,14 +117,14 @@ class NamedNumbersReader {
     return std::nullopt;
   }
 
-  /// Of those that wait for each other.
+  /// One of the names that depend on each other.
   std::string one_in_a_circle() const {
     std::string name = open_.begin()->first;
     for (std::set<std::string> seen; seen.insert(name).second;) name = *missing_in(open_.at(name));
     return name;
   }
 
-  /// Reports why there is none, if there is none.
+  /// Sets the value of a name, or reports why there is none.
   void give_value(const std::string& name) {
     if (name == "dx") {
       particles_.read_ahead(spec_.particles, {"spacing"});
@@ -148,7 +148,7 @@ class NamedNumbersReader {
     return unknown;
   }
 
-  /// Those that have waited for this number go on.
+  /// Records a value and continues with the numbers that depend on it.
   void close(const std::string& name, double value) {
     context_.numbers[name] = value;
     open_.erase(name);
@@ -167,9 +167,9 @@ class NamedNumbersReader {
   Context& context_;
   TableReader particles_;
   TableReader physics_;
-  std::map<std::string, const toml::node*> open_;  ///< without a value yet; null: the file does not give it
+  std::map<std::string, const toml::node*> open_;  ///< without a value yet; null: absent from the file
   std::map<std::string, std::vector<std::string>> waiting_for_;
-  std::vector<std::string> of_unknown_;  ///< that use a name which there is not
+  std::vector<std::string> of_unknown_;  ///< names that use an unknown name
 };
 
 }  // namespace
@@ -178,7 +178,7 @@ void read_foundations(CaseSpec& spec, Context& context, const toml::table& root)
   TableReader general(context, root["case"].as_table(), CaseLabel("case"));
   general.read_ahead(spec.general, {"format", "dimension"});
   if (spec.general.format > case_format) {
-    // What else seems wrong may be right in that format.
+    // Other apparent errors may be valid in that format.
     general.wrong("format", *general.given("format"),
                   fmt::format("this program reads case files up to format {}; use a newer version of it", case_format));
     throw CaseError(context.problems.findings());

@@ -17,19 +17,19 @@ namespace tailwater {
 /// One key of a table.
 struct KeyInfo {
   std::string_view key;
-  std::string type;       ///< "number", "whole number", "text", "choice", "vector", "points", "numbers", "texts"; of a
-                          ///< quantity that may vary, as the help shows it
-  std::string value;      ///< as TOML
+  std::string type;   ///< "number", "whole number", "text", "choice", "vector", "points", "numbers", "texts"; or the
+                      ///< text of the help for a quantity that may vary
+  std::string value;  ///< as TOML
   std::string_view unit;  ///< empty: none
   std::string allowed;    ///< the range of a number, the names of a choice; empty: anything of that type
   std::string_view doc;   ///< one line
   Presence presence = Presence::optional;
   Range range = {};                                ///< of a number
   std::span<const std::string_view> choices = {};  ///< of a choice, and of texts that are names from a list
-  std::optional<Variables> variables = {};         ///< what an expression may depend on besides the named numbers
+  std::optional<Variables> variables = {};         ///< variables of an expression besides the named numbers
 };
 
-/// What an expression may depend on, as the help tells it: "t", "s", or "x, y, z".
+/// The variables of an expression, as in the help: "t", "s", or "x, y, z".
 std::string_view names_of(Variables variables);
 
 /// The range in words, such as "above 0" or "2 to 5"; empty if all numbers are allowed.

@@ -1,4 +1,4 @@
-// What rules of several tables ask of their keys. Keys whose own value is wrong were reported before and are left out.
+// Rules for keys that several tables use. Keys with a wrong value of their own were reported before and are left out.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ void check_shape_dimension(std::string_view shape, int dimension, std::string_vi
 
 void check_box(const Coordinates& min, const Coordinates& max, TableReader& reader);
 
-/// The number of corners that a wall of this shape has at least.
+/// The minimum number of corners of a wall of this shape.
 std::size_t least_corners(WallShape shape, int dimension);
 
 void check_corner_count(const std::vector<Coordinates>& points, std::size_t least, TableReader& reader,
@@ -26,10 +26,10 @@ Coordinates along_x(const TableReader& reader);
 
 void check_direction(const Coordinates& direction, TableReader& reader);
 
-/// Two ends of something that has an extent.
+/// Checks two ends of an object, which must differ.
 void check_ends(const Coordinates& from, const Coordinates& to, TableReader& reader);
 
-/// In 3D only boxes turn, about an axis; `key` says that the wall does.
+/// Checks that in 3D only boxes turn, about an axis; `key` is the key by which the wall turns.
 void check_turning_in_3d(const WallTable& wall, std::string_view key, TableReader& reader);
 
 }  // namespace tailwater

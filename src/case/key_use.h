@@ -1,5 +1,4 @@
-// Which keys of a block, wall, probe or scheme belong to which of its shapes, types or choices. This rule is stated
-// here only.
+// The keys that belong to each shape, type or choice of a block, wall, probe or scheme. This rule is stated here only.
 #pragma once
 
 #include <span>
@@ -12,7 +11,7 @@
 
 namespace tailwater {
 
-/// The keys that one choice needs or may have. A key that is in no row of its table goes with every choice.
+/// The keys that one choice needs or may have. A key that is in no row of its table is allowed with every choice.
 struct KeyUse {
   std::string_view table;
   std::string_view selector;  ///< the key whose value chooses
@@ -28,8 +27,8 @@ std::span<const KeyUse> key_uses();
 
 enum class KeyNeed { free, needed, possible, unused };
 
-/// What becomes of `key` under the choices made in `rows`, the keys of one table called `table`. `use` is the row that
-/// decides, null if the need is free.
+/// The need for `key` under the choices made in `rows`, the keys of one table called `table`. `use` is the decisive
+/// row, null if the need is free.
 struct KeyVerdict {
   KeyNeed need = KeyNeed::free;
   const KeyUse* use = nullptr;
@@ -40,7 +39,7 @@ KeyVerdict key_verdict(std::string_view table, std::string_view key, std::span<c
 bool has_study(const SchemeTable& scheme, std::string_view key);
 
 /// For the help: `shape = "box"`, or `type = "depth", "pressure"`, with "(needed)" where it is needed; empty if the key
-/// goes with every choice.
+/// is allowed with every choice.
 std::string key_use_text(std::string_view table, std::string_view key);
 
 }  // namespace tailwater

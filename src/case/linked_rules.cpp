@@ -1,4 +1,4 @@
-// Tables that name files: what is read from them, and what they exclude.
+// Tables that name files: the data that are read from the files, and the keys that they exclude.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace tailwater {
 
 namespace {
 
-/// Calls body, which reads the file that `key` names, and reports what is wrong with it at that key.
+/// Calls body, which reads the file that `key` names, and reports problems of the file at that key.
 template <class Body>
 void read_linked(std::string_view key, TableReader& reader, Body&& body) {
   const toml::node* node = reader.given(key);
@@ -27,7 +27,7 @@ void read_linked(std::string_view key, TableReader& reader, Body&& body) {
   }
 }
 
-/// Makes the name of a file absolute and takes its checksum; a file that is not the one of the checksum is refused.
+/// Makes the name of a file absolute and records its checksum; a file with another checksum is refused.
 void keep_linked(std::string& file, std::string& checksum, std::string_view checksum_key, TableReader& reader) {
   const std::filesystem::path path = reader.linked(file);
   const std::string found = checksum_of_file(path);
@@ -41,14 +41,14 @@ void keep_linked(std::string& file, std::string& checksum, std::string_view chec
   checksum = found;
 }
 
-/// A run begins at t = 0. That the series lasts to its end is checked when the end has been read.
+/// A run begins at t = 0. The end of the series is checked when the end of the run has been read.
 void require_start(const TimeSeries& series) {
   if (series.time.front() <= 0.0) return;
   throw InputError("{}:{}: begins at t = {:.9g} s, but the motion begins at 0; add a line for t = 0", series.file,
                    series.line.front(), series.time.front());
 }
 
-/// A series that is too short for the run is found by the room checks, when the end of the run is known.
+/// The checks across tables report a series that is too short, when the end of the run is known.
 void read_series(std::string& file, std::string& checksum, std::span<const SeriesColumn> columns, TimeSeries& series,
                  TableReader& reader) {
   if (file.empty()) return;
@@ -58,7 +58,7 @@ void read_series(std::string& file, std::string& checksum, std::span<const Serie
   });
 }
 
-/// The keys of those that have a value, in the case or in a file.
+/// Whether a key has a value in the case or in a file.
 struct Given {
   std::string_view key;
   bool in_case;
@@ -66,7 +66,7 @@ struct Given {
   bool anywhere() const { return in_case || in_file; }
 };
 
-/// No quantity may come from the case and from a file.
+/// Checks that no quantity is given both in the case and in a file.
 void check_given_once(std::span<const Given> quantities, TableReader& reader) {
   for (const Given& quantity : quantities) {
     if (!quantity.in_case || !quantity.in_file) continue;

@@ -17,10 +17,10 @@
 namespace tailwater {
 namespace {
 
-/// Times that differ by no more, as a share of them, are one: files are written with so many digits.
+/// Times whose relative difference is no larger are equal, because files are written with so many digits.
 constexpr double same_time = 1e-4;
 
-/// Reports what is wrong with `key` of measurement k; of a key that is not given, at its table.
+/// Reports problems with `key` of measurement k; if the key is not given, at its table.
 class Reporter {
  public:
   Reporter(std::size_t k, const toml::table& root, Problems& problems) : k_(k), root_(root), problems_(problems) {}
@@ -79,7 +79,7 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
     reporter.wrong("file", error.what());
     return;
   }
-  // One that begins after the end of the run is of a run that was made shorter.
+  // A measurement that begins after the end of the run is allowed, because the run may have been shortened.
   if (measurement.series.time.back() <= 0.0) {
     reporter.wrong("file", fmt::format("{} ends at t = {:.9g} s, where the run begins; correct the zero of its times",
                                        measurement.file, measurement.series.time.back()));

@@ -1,4 +1,4 @@
-// What laboratories have measured, from the files that the case names.
+// Measurements of laboratories, from the files that the case names.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// Reads the file of each measurement, and gives those their default column that name none. Reports what does not fit
+/// Reads the file of each measurement, and sets the default column of those that name none. Reports contradictions with
 /// their probes.
 void read_measurements(CaseSpec& spec, const toml::table& root, Problems& problems);
 

@@ -8,7 +8,7 @@ namespace tailwater {
 
 namespace {
 
-/// No name of a case file has as many letters; comparing such names would take long.
+/// No name of a case file has more letters; comparing such names would take long.
 constexpr std::size_t longest_name = 100;
 constexpr std::size_t most_listed = 100;
 

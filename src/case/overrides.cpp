@@ -20,10 +20,10 @@ constexpr std::string_view usage =
 /// No key of a case is deeper: list, number, key, number, number.
 constexpr std::size_t most_steps = 8;
 
-/// One step down the tree: a name in a table, a name or a number in a list.
+/// One step down the tree: a name in a table, or a name or number in a list.
 using Step = std::variant<std::string, std::size_t>;
 
-/// Why the key of an override does not exist.
+/// The reason why the key of an override does not exist.
 struct Misplaced {
   std::string reason;
 };
@@ -68,7 +68,7 @@ std::vector<Step> parse_path(std::string_view path) {
   }
 }
 
-/// The tree `value = ...`; what is not TOML becomes a string.
+/// The tree `value = ...`; a text that is not TOML becomes a string.
 toml::table parse_value(std::string_view text, std::string_view origin) {
   if (line_of_deep_key(text)) throw Misplaced{fmt::format("the value is nested too deeply; {}", usage)};
   try {
@@ -99,7 +99,7 @@ toml::node* find_element(toml::array& list, std::string_view list_name, std::siz
   return &list[index];
 }
 
-/// The node one step below `node`; a table that does not exist is made.
+/// The node one step below `node`; a missing table is made.
 toml::node* descend(toml::node* node, const Step& step, const std::string& above) {
   if (const auto* name = std::get_if<std::string>(&step)) {
     if (toml::array* list = node->as_array()) return find_named(*list, above, *name);
@@ -115,7 +115,7 @@ toml::node* descend(toml::node* node, const Step& step, const std::string& above
   throw Misplaced{fmt::format("{} is not a {}; {}", above, step.index() == 0 ? "table" : "list", usage)};
 }
 
-/// No expression of the case would ask for a parameter that its file has not: it is a slip.
+/// An override cannot add a parameter: no expression of the case uses it, so the name is a typing error.
 void require_parameter(const toml::table& parameters, std::string_view name) {
   if (parameters.contains(name)) return;
   std::vector<std::string_view> names;

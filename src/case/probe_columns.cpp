@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// Units in words and at the end of headings.
+/// Units in texts and at the end of headings.
 struct Units {
   const char* in_3d;
   const char* in_2d;

@@ -1,6 +1,6 @@
 // The output of probes, declared once for each type in probe_types.cpp: the columns of its table, its totals in
-// summary.json and its results. The headings of tables and their units, what a measurement can be compared with, the
-// summary and docs/reference/probes.md follow from these declarations.
+// summary.json and its results. The headings of tables and their units, the quantities for comparison with
+// measurements, the summary and docs/reference/probes.md follow from these declarations.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace tailwater {
 
-/// The numbers that one declaration stands for.
+/// The numbers that one declaration represents.
 enum class Parts {
   one,
   one_in_3d,
   vector,        ///< NAME_x, NAME_y and in 3D NAME_z
-  turn,          ///< in 2D one, in 3D NAME_x, NAME_y and NAME_z
+  turn,          ///< in 2D one number, in 3D NAME_x, NAME_y and NAME_z
   velocity,      ///< NAMEu, NAMEv and in 3D NAMEw
   vector_range,  ///< least_NAME_x, largest_NAME_x, and so on
   turn_range,
@@ -27,7 +27,7 @@ enum class Parts {
 /// Whether a measurement can be compared with a column. One that names no column is compared with the default.
 enum class Comparison { none, possible, by_default };
 
-/// A column that needs something is absent from the tables of probes without it.
+/// A column with a need is absent from the tables of probes that do not meet it.
 enum class Need { nothing, diameter, moment_about, moving_walls };
 
 struct DeclaredColumn {
@@ -70,7 +70,7 @@ struct OutputColumn {
 
 std::vector<OutputColumn> columns_in(int dimension, const DeclaredColumn& declared);
 
-/// The columns of a probe's table after the time. `walls_move`: one of the walls that the probe is for moves.
+/// The columns of a probe's table after the time. `walls_move`: whether one of the probe's walls moves.
 std::vector<OutputColumn> columns_of(const ProbeTable& probe, int dimension, bool walls_move = false);
 
 /// The totals of a probe, in their order.
@@ -80,10 +80,10 @@ std::vector<OutputColumn> totals_of(ProbeType type, int dimension);
 std::vector<OutputColumn> comparable_columns(const ProbeTable& probe, int dimension);
 
 struct Compared {
-  std::size_t probe;  ///< in the case
+  std::size_t probe;  ///< index in the case
   OutputColumn column;
 };
-/// With what a measurement of a case that has been read is compared.
+/// The probe and the column with which a measurement is compared, in a case that has been read.
 Compared compared_with(const MeasurementTable& measurement, const CaseSpec& spec);
 
 /// The quantity of a statistic of a column.

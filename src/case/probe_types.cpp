@@ -17,7 +17,7 @@ constexpr std::string_view above_atmosphere = "pressure above that of the atmosp
 constexpr DeclaredColumn pressure_on_wall{"pressure", pressure, above_atmosphere, by_default};
 constexpr DeclaredColumn impulse_on_wall{"impulse", impulse, "integral of the pressure over all steps since the start"};
 
-// From the impulse, so that no step between two lines of the table is left out.
+// Computed from the impulse, so that no step between two lines of the table is left out.
 const std::vector<DeclaredResult> wall_pressure_results{{"pressure", "", "impulse", rate},
                                                         {"largest pressure", "largest", "impulse", max_rate},
                                                         {"rise", "risen in", "impulse", rise},

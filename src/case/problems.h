@@ -10,7 +10,7 @@
 
 namespace tailwater {
 
-/// A value as messages show it: TOML on one line, cut off if it is long.
+/// A value as in messages: TOML on one line, cut off if it is long.
 std::string value_text(const toml::node& node);
 
 /// The position in the file, or the override that the value came from; just the file if `source` is null or unknown.
@@ -20,7 +20,7 @@ class Problems {
  public:
   explicit Problems(const std::string& file) : file_(printable(file)) {}
 
-  /// `source` is where the thing is, in the file or in an override; null: the file as a whole.
+  /// `source` is the position in the file or in an override; null: the file as a whole.
   void add(const toml::source_region* source, const CaseLabel& about, const std::string& message);
 
   /// Adds "wall[0].points[1] = 3: MESSAGE" about a value; `part` names a part of the key, such as "points[1]".
@@ -31,7 +31,7 @@ class Problems {
 
   bool none() const { return findings_.empty(); }
 
-  /// Overrides, then the file from top to bottom, then what is missing.
+  /// Problems of overrides come first, then those of the file from top to bottom, then missing keys.
   Findings findings() const;
 
  private:

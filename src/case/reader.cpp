@@ -22,7 +22,7 @@ namespace tailwater {
 
 namespace {
 
-/// Names of blocks, walls, outlets and probes must differ.
+/// Checks that names of blocks, walls, outlets and probes differ.
 template <class Table>
 void check_names(const std::vector<Table>& tables, std::vector<TableReader>& readers) {
   std::map<std::string_view, std::size_t> first_with;
@@ -38,7 +38,7 @@ void check_names(const std::vector<Table>& tables, std::vector<TableReader>& rea
   }
 }
 
-/// The table of that name; null if there is none or it is something else, which `CaseReader` reports.
+/// The table of that name; null if there is none or if it is something else, which `CaseReader` reports.
 const toml::table* find_table(const toml::table& root, std::string_view name) { return root[name].as_table(); }
 
 /// Visitor for CaseSpec::describe.
@@ -130,7 +130,7 @@ class CaseReader {
   std::vector<std::string_view> names_{"parameters"};
 };
 
-/// `folder`: that of the case, for files it names.
+/// `folder` is that of the case, for the files that it names.
 CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text, const std::string& origin,
                       const std::vector<std::string>& overrides) {
   Context context(origin, folder);

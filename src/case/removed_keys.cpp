@@ -15,7 +15,7 @@ constexpr std::string_view pulled =
     "\"g*(m - M)/(m + M)\"";
 constexpr std::string_view in_study = "was moved to the table [study], under the same name";
 
-/// Keys of tables of which a case may have several. What has become of them cannot be written by a rule.
+/// Keys of tables that a case may have several times. No rule can migrate them.
 constexpr std::array removed_of_lists{
     RemovedKey{"gate", "direction",
                "was removed: a gate is pulled up, against gravity; one that moves otherwise is a [[wall]] with shape = "

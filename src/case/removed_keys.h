@@ -1,4 +1,4 @@
-// What has become of keys that case files once had.
+// The fate of keys that case files once had.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@ namespace tailwater {
 struct RemovedKey {
   std::string_view table;
   std::string_view key;
-  std::string_view fate;            ///< what a message says of it, as in "was removed: ..."
+  std::string_view fate;            ///< the end of a message, as in "was removed: ..."
   std::string_view successor = {};  ///< the key of [study] that has its value today; empty: none
 };
 
-/// Those that `tailwater migrate` changes: of tables of which a case has one.
+/// The keys that `tailwater migrate` changes, in tables that occur once in a case.
 std::span<const RemovedKey> removed_keys();
 
-/// For a message: what to do in place of a key that is no more, and whether `tailwater migrate` does it; empty if there
-/// never was such a key. `table` is a name without an index.
+/// For a message: the remedy for a removed key, and whether `tailwater migrate` applies it; empty if there never was
+/// such a key. `table` is a name without an index.
 std::string fate_of(std::string_view table, std::string_view key);
 
 }  // namespace tailwater

@@ -14,13 +14,13 @@ class CaseSources {
   /// Adds a table with its last line, or a key. The label of a table in a list has its index and its name.
   void add(const CaseLabel& label, FilePosition position, int last_line = 0);
 
-  /// The findings with the position of their key, else of their table, and with the index of the table.
+  /// The findings with the position of their key, or else of their table, and with the index of the table.
   Findings located(Findings findings) const;
 
-  /// First and last line of a table in the file; empty for a table that an override gives.
+  /// First and last line of a table in the file; empty for a table from an override.
   std::optional<std::array<int, 2>> lines(const CaseLabel& table) const;
 
-  /// Where a value was written is no part of the case.
+  /// The position of a value is no part of the case.
   bool operator==(const CaseSources&) const { return true; }
 
  private:

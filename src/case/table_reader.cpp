@@ -24,7 +24,7 @@ bool is_too_small(double value, const Range& range) {
   return range.low == 0.0 && value > 0.0 && value < smallest_number;
 }
 
-/// For a key in the wrong table: the tables that have it.
+/// For a key in the wrong table: the tables that contain it.
 std::string home_of(std::string_view key) {
   std::vector<std::string> homes;
   for (const TableInfo& table : case_tables()) {
@@ -262,7 +262,7 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
       return std::nullopt;
     }
     if (!std::isfinite(*value)) {
-      // It uses a number that has no value itself, which is reported at that number.
+      // It uses a number without a value, which is reported at that number.
       context_.keys_wrong.insert(full(key));
       return std::nullopt;
     }

@@ -20,18 +20,18 @@
 
 namespace tailwater {
 
-/// " in m", or nothing for a number without unit.
+/// " in m", or empty for a number without unit.
 std::string in_unit(std::string_view unit);
 
-/// The number that a node is, if it is one. A large whole number is rounded; toml++ has no double for it.
+/// The number in a node, if it is one. A large whole number is rounded, because toml++ has no double for it.
 std::optional<double> number_in(const toml::node& node);
 
-/// State that the tables of one file share while they are read.
+/// State that is common to the tables of one file while they are read.
 struct Context {
   Context(const std::string& file, std::filesystem::path home) : problems(file), folder(std::move(home)) {}
 
   Problems problems;
-  std::filesystem::path folder;  ///< files that the case names are relative to it
+  std::filesystem::path folder;  ///< base of relative names of files in the case
   NamedNumbers numbers;
   int dimension = 0;                 ///< 0: unknown, because the file gives an invalid one
   std::set<std::string> keys_done;   ///< full keys that were read ahead of their table
@@ -53,7 +53,7 @@ class TableReader {
   void coordinates(std::string_view key, Coordinates& value, std::string_view unit, std::string_view doc,
                    Presence presence = Presence::optional);
   void varying(std::string_view key, Varying& value, Variables variables, std::string_view unit, std::string_view doc);
-  /// "" is no value, as in the effective case.
+  /// "" means no value, as in the effective case.
   void varying(std::string_view key, std::optional<Varying>& value, Variables variables, std::string_view unit,
                std::string_view doc);
   void field(std::string_view key, VectorField& value, Variables variables, std::string_view unit,
@@ -79,20 +79,20 @@ class TableReader {
     for (const std::string_view key : keys) context_.keys_done.insert(full(key));
   }
 
-  /// The node that the file has for a key; null if there is none.
+  /// The node of a key in the file; null if there is none.
   const toml::node* given(std::string_view key) const { return source_ == nullptr ? nullptr : source_->get(key); }
   /// Whether a problem with this key has been reported.
   bool is_wrong(std::string_view key) const { return context_.keys_wrong.contains(full(key)); }
   /// 2 or 3; 0 if the file gives an invalid one.
   int dimension() const { return context_.dimension; }
 
-  /// The file that the case names, relative to its own folder. Throws InputError where that is not a name that the case
-  /// a run leaves can have.
+  /// The file that the case names, relative to its own folder. Throws InputError for a name that cannot be written into
+  /// the effective case of a run.
   std::filesystem::path linked(const std::string& file) const;
 
   /// Reports a problem with the value of `key`, or with the part of it at `place`.
   void wrong(std::string_view key, const toml::node& node, const std::string& message, std::string_view place = "");
-  /// The same of what the file has for a key.
+  /// Reports a problem with the node of a key in the file.
   void wrong(std::string_view key, const std::string& message) { wrong(key, *given(key), message); }
   template <class First, class... Rest>
   void wrong(std::string_view key, fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
@@ -108,7 +108,7 @@ class TableReader {
  private:
   std::string full(std::string_view key) const { return table_.with_key(key).text(); }
 
-  /// The value given for a key; null if it was read ahead or is absent. Reports it if it is required.
+  /// The value given for a key; null if it was read ahead or is absent. Reports a missing required key.
   const toml::node* find(std::string_view key, std::string_view doc, std::string_view unit, std::string_view allowed,
                          Presence presence);
 
@@ -116,8 +116,7 @@ class TableReader {
   std::optional<std::size_t> chosen(std::string_view key, std::span<const std::string_view> names, std::string_view doc,
                                     Presence presence);
 
-  /// The list given for a key; null if nothing was given, or if it is no list, which is reported with `wanted` as
-  /// remedy.
+  /// The list given for a key; null if there is none, or if it is no list, which is reported with `wanted` as remedy.
   const toml::array* list_at(std::string_view key, const toml::node* node, const std::string& wanted);
 
   /// The number that a node of `key` represents, if it does.
@@ -128,15 +127,15 @@ class TableReader {
   std::optional<Varying> read_varying(std::string_view key, const std::string& place, const toml::node& node,
                                       Variables variables, std::string_view unit);
 
-  /// The list of `dimension` entries that a node of `key` is; null if it is something else, which is reported.
+  /// A node of `key` as a list of `dimension` entries; null if it is something else, which is reported.
   const toml::array* components(std::string_view key, const std::string& place, const toml::node& node,
                                 std::string_view unit);
 
-  /// The numbers of a list, if all of them are; `place` is the list's in the key, such as `points[2]`.
+  /// The numbers of a list, if all of them are; `place` is the list's place in the key, such as `points[2]`.
   std::optional<std::vector<double>> elements(std::string_view key, const std::string& place, const toml::array& list,
                                               std::string_view unit);
 
-  /// The same for a list of `dimension` numbers.
+  /// The numbers of a list of `dimension` numbers.
   std::optional<Coordinates> point(std::string_view key, const std::string& place, const toml::node& node,
                                    std::string_view unit);
 

@@ -127,7 +127,7 @@ void check(const LiquidTable& liquid, TableReader& reader) {
 
 namespace {
 
-/// A plate is drawn by points or by a mesh.
+/// Checks that a plate is drawn either by points or by a mesh.
 void check_mesh_of_plate(const WallTable& wall, TableReader& reader) {
   if (reader.is_wrong("file")) return;
   if (reader.dimension() == 2) {
@@ -137,7 +137,7 @@ void check_mesh_of_plate(const WallTable& wall, TableReader& reader) {
   }
 }
 
-/// A chain has its points in the case or in a file.
+/// Checks that a chain has its points either in the case or in a file.
 void check_points_given(const WallTable& wall, TableReader& reader) {
   if (wall.shape == WallShape::box || wall.shape == WallShape::mesh) return;
   if (wall.shape == WallShape::plate && !wall.file.empty()) {
@@ -177,7 +177,7 @@ void check_fluid_side(const WallTable& wall, TableReader& reader) {
                is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\"");
 }
 
-/// How a wall moves is said by expressions or by a file, and in 3D it turns about an axis.
+/// Checks that the motion of a wall is given either by expressions or by a file, and that in 3D it turns about an axis.
 void check_wall_motion(const WallTable& wall, TableReader& reader) {
   const auto is_zero = [](const Varying& value) { return value == Varying(0.0); };
   const auto refuse = [&](std::string_view key) {
@@ -227,7 +227,7 @@ void check(const WallTable& wall, TableReader& reader) {
 
 namespace {
 
-/// An opening has one section, drawn in one way.
+/// Checks that an opening has one section, drawn in one way.
 void check_section(const Section& section, TableReader& reader) {
   check_direction(section.direction, reader);
   check_ends(section.from, section.to, reader);
@@ -281,7 +281,7 @@ void check(const OutletTable& outlet, TableReader& reader) {
 
 namespace {
 
-/// The region that limits a probe to a part of the walls: a box, which may be flat.
+/// Checks the region that limits a probe to a part of the walls: a box, which may be flat.
 void check_region(const ProbeTable& probe, TableReader& reader) {
   const toml::node* min = reader.given("region_min");
   const toml::node* max = reader.given("region_max");

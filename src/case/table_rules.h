@@ -1,6 +1,6 @@
 // Rules of single tables beyond the type and range of each key: defaults that depend on other keys, and checks that
-// involve several of them. Problems are reported to the reader; keys whose own value is wrong were reported before and
-// are left out.
+// involve several keys. Problems are reported to the reader; keys with a wrong value of their own were reported before
+// and are left out.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace tailwater {
 
-/// Sets the defaults that depend on the dimension or on other keys of the table, which are read ahead for that.
+/// Sets the defaults that depend on the dimension or on other keys of the table, which are read ahead for this.
 template <class Table>
 void set_defaults(Table&, TableReader&) {}
 void set_defaults(FluidTable& fluid, TableReader& reader);
@@ -28,7 +28,7 @@ void set_defaults(PorousTable& porous, TableReader& reader);
 void set_defaults(LiquidTable& liquid, TableReader& reader);
 
 /// Reads the files that a sound table names. Points from a file become the table's own, and the name of a mesh file
-/// becomes absolute, so that the case does not depend on its folder any more.
+/// becomes absolute, so that the case no longer depends on its folder.
 template <class Table>
 void read_linked_files(Table&, TableReader&) {}
 void read_linked_files(FluidTable& fluid, TableReader& reader);
@@ -37,7 +37,7 @@ void read_linked_files(GateTable& gate, TableReader& reader);
 void read_linked_files(PorousTable& porous, TableReader& reader);
 void read_linked_files(InletTable& inlet, TableReader& reader);
 void read_linked_files(OutletTable& outlet, TableReader& reader);
-/// The file's columns depend on the probe, so the values are read when all tables have been (measurements.h).
+/// The columns of the file depend on the probe, so its values are read after all tables (measurements.h).
 void read_linked_files(MeasurementTable& measurement, TableReader& reader);
 
 /// Checks a table that has been read.
@@ -59,7 +59,7 @@ void check(const InletTable& inlet, TableReader& reader);
 void check(const OutletTable& outlet, TableReader& reader);
 void check(const ProbeTable& probe, TableReader& reader);
 
-/// Checks that the keys needed by the chosen shape or type are there, and no others (key_use.h). `rows` are the keys of
+/// Checks that the keys needed by the chosen shape or type are given, and no others (key_use.h). `rows` are the keys of
 /// the table as read, `table` its name without index.
 void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, TableReader& reader);
 

@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// Slope at a point between two intervals of lengths h and rises d per time: 0 at a peak, else between the two.
+/// Slope at a point between two intervals of lengths h and rises d per time: 0 at a peak, else between the two rises.
 double slope_between(double h_left, double d_left, double h_right, double d_right) {
   if (d_left * d_right <= 0.0) return 0.0;
   const double share = (h_left + 2.0 * h_right) / (3.0 * (h_left + h_right));

@@ -7,10 +7,10 @@
 namespace tailwater {
 namespace {
 
-/// The parser limits how deep lists and tables in braces may be nested, but not the dots of keys.
+/// The parser limits the nesting of lists and tables in braces, but not the dots of keys.
 constexpr int most_dots = 8;
 
-/// The position behind the string that begins at `start`; where it has no end, that of the line or of the text.
+/// The position behind the string that begins at `start`; for a string without end, the end of the line or of the text.
 std::size_t end_of_string(std::string_view toml, std::size_t start) {
   const char quote = toml[start];
   const std::string three(3, quote);

@@ -1,4 +1,4 @@
-// Values as TOML text. What is written reads back as the same value, bit for bit, in every locale.
+// Values as TOML text. The text reads back as the same value, bit for bit, in every locale.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ std::string toml_string(std::string_view text);
 /// not an integer. `value` is finite.
 std::string toml_float(double value);
 
-/// The line (from 1) of the first key with so many dots that trees made from it could not be walked; none in a sound
-/// file, whose keys have one dot or two.
+/// The line (from 1) of the first key with too many dots: recursion over its tree would overflow. None in a sound file,
+/// whose keys have one dot or two.
 std::optional<std::size_t> line_of_deep_key(std::string_view toml);
 
 }  // namespace tailwater

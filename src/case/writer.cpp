@@ -39,7 +39,7 @@ class CaseWriter {
   void write(std::string_view name, const std::vector<KeyInfo>& rows) {
     for (const KeyInfo& row : rows) {
       if (name == "study" && !has_study(scheme_, row.key)) continue;
-      // Places that are not given have no default; the reader takes a key without numbers for a mistake.
+      // Vectors that are not given have no default; the reader rejects a key without numbers.
       const bool has_value = row.value != "[]" || (row.type != "vector" && row.type != "points");
       if (has_value && key_verdict(name, row.key, rows).need != KeyNeed::unused) {
         const std::string unit = row.unit.empty() ? "" : fmt::format("{}: ", row.unit);

@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// Whether a text is no more than what someone may have meant as a number, "1,5" or "0.3m".
+/// Whether a text is short and probably meant as a number, as "1,5" or "0.3m".
 bool is_like_a_number(std::string_view field) {
   constexpr std::size_t longest = 20;
   return field.size() <= longest && std::ranges::all_of(field, [](unsigned char letter) {

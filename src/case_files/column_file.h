@@ -1,5 +1,6 @@
-// A text file of columns, line by line: separators, headings with units, numbers, and the place of what is wrong. What
-// stands in it is quoted only where it looks like a number or a heading: a case may name any file of its reader.
+// A text file of columns, read line by line: separators, headings with units, numbers, and the places of errors.
+// Messages quote its content only if it looks like a number or a heading, because a case may name any file that its
+// user can read.
 #pragma once
 
 #include <array>
@@ -24,20 +25,20 @@ inline constexpr std::array<Unit, 5> length_units{
     {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}}};
 
 /// The fields of a line, without blanks and quotes around them; with a blank as separator any number of blanks is one.
-/// Empty ones at the end, which spreadsheets leave, do not count.
+/// Empty fields at the end, which spreadsheets leave, do not count.
 std::vector<std::string_view> fields_of(std::string_view line, char separator);
 
-/// The first of ; tab , that is in the line; else a blank.
+/// The first of ; tab , in the line; else a blank.
 char separator_of(std::string_view line);
 
-/// The number that a field is, if it is one.
+/// The number in a field, if it is one.
 std::optional<double> number_in_field(std::string_view field);
 
-/// What the header says about a column: "Station [mm]" is "station" in "mm".
+/// The name and unit of a column from the header: "Station [mm]" is "station" in "mm".
 struct Heading {
   std::string name;
   std::string unit;
-  bool has_brackets = false;  ///< otherwise what follows an underscore may be part of the name
+  bool has_brackets = false;  ///< otherwise the text after an underscore may be part of the name
 
   explicit Heading(std::string_view field);
 };
@@ -65,17 +66,17 @@ class ColumnFile {
     wrong(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
   }
 
-  /// The fields of a line of numbers, of which there are no more than columns: a decimal comma would make two of one.
+  /// The fields of a line of numbers; it must not have more than columns, since a decimal comma would make two of one.
   std::vector<std::string_view> numbers_of(std::string_view line) const;
 
   double number_at(const std::vector<std::string_view>& fields, std::size_t column, std::string_view quantity) const;
 
-  /// The unit of a heading in SI units; nothing if it names none.
+  /// The unit of a heading in SI units; empty if it names none.
   std::optional<double> unit_of(const Heading& heading, std::string_view field, std::span<const Unit> units) const;
 
   std::string path_;
   std::size_t line_ = 0;
-  char separator_ = '\0';  ///< not known yet
+  char separator_ = '\0';  ///< unknown before the first line
   std::size_t width_ = 0;  ///< columns of the first line that counts
 
  private:

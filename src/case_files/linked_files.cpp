@@ -16,7 +16,7 @@
 namespace tailwater {
 namespace {
 
-/// bytes; 1600 for each of the points that a file may have, and read in a moment
+/// bytes; 1600 for each of the points that a file may have, and read in an instant
 constexpr std::uintmax_t largest_points_file = std::uintmax_t{1} << 24;
 /// bytes; 64 for each of the samples
 constexpr std::uintmax_t largest_series_file = std::uintmax_t{1} << 26;

@@ -1,5 +1,5 @@
-// The readers are our own: the library that Debian has for these formats hangs on files that are cut off, and rounds
-// coordinates to seven digits.
+// This module has its own readers: Debian's library for these formats hangs on truncated files, and rounds coordinates
+// to seven digits.
 #include "case_files/mesh_file.h"
 
 #include <fmt/format.h>
@@ -95,12 +95,12 @@ class Source {
 
  private:
   std::string bytes_;
-  std::string start_;  ///< of messages
+  std::string start_;  ///< begin of messages
   std::size_t at_ = 0;
   std::size_t line_ = 0;
 };
 
-/// Adds a polygon as triangles that share its first corner; `corner(k)` counts points from 0.
+/// Adds a polygon as triangles with its first corner in common; `corner(k)` counts points from 0.
 template <class Corner>
 void add_polygon(const Source& source, std::size_t corners, Corner&& corner, MeshTriangles& mesh) {
   std::vector<int> points;

@@ -10,12 +10,12 @@
 
 namespace tailwater {
 
-/// bytes; five million triangles of binary STL, which is far more than walls can be sampled from
+/// bytes; five million triangles of binary STL, far more than the sampling of walls can handle
 inline constexpr std::uintmax_t largest_mesh_file = std::uintmax_t{1} << 28;
 
 struct MeshTriangles {
   std::vector<Vec<3>> points;                 ///< m
-  std::vector<std::array<int, 3>> triangles;  ///< indices into `points`, counter-clockwise as their front sees them
+  std::vector<std::array<int, 3>> triangles;  ///< indices into `points`, counter-clockwise as seen from the front
 };
 
 /// The triangles of a file, in its order. Throws InputError, which names the file and the remedy, for a file of another

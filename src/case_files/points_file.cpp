@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-constexpr std::size_t most_points = 10000;  // as many as a list of points in the case may have
+constexpr std::size_t most_points = 10000;  // the maximum of a list of points in the case
 
 constexpr std::array<std::string_view, 4> names_along{"x", "station", "chainage", "distance"};
 constexpr std::array<std::string_view, 5> names_up{"y", "z", "elevation", "height", "level"};

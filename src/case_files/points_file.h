@@ -1,4 +1,4 @@
-// A CSV file of points, as linked_files.h describes it.
+// A CSV file of points, as described in linked_files.h.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace tailwater {
 
-/// The points of `file`, whose name messages tell, in m. Throws InputError with file, line and remedy.
+/// The points of `file`, whose name is used in messages, in m. Throws InputError with file, line and remedy.
 std::vector<Coordinates> parse_points(const std::filesystem::path& path, std::istream& file);
 
 }  // namespace tailwater

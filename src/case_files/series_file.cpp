@@ -17,7 +17,7 @@ constexpr std::size_t most_samples = 1000000;
 constexpr std::array<Unit, 4> time_units{{{"s", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"h", 3600.0}}};
 constexpr std::array<Unit, 2> angle_units{{{"rad", 1.0}, {"deg", std::numbers::pi / 180.0}}};
 constexpr std::array<Unit, 3> speed_units{{{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}}};
-// What 2D gives per metre of width may be written so, or not.
+// Quantities per metre of width in 2D may have the unit with or without "/m".
 constexpr std::array<Unit, 9> discharge_units{{{"m^3/s", 1.0},
                                                {"m3/s", 1.0},
                                                {"m^3/s/m", 1.0},
@@ -46,7 +46,7 @@ class SeriesFile : ColumnFile {
     series_.columns.resize(columns.size());
   }
 
-  /// Of a file of measured values, whose first column that is wanted has one of `names`.
+  /// For a file of measured values, whose first requested column has one of `names`.
   SeriesFile(const std::filesystem::path& path, std::span<const SeriesColumn> columns,
              std::span<const std::string_view> names)
       : SeriesFile(path, columns) {
@@ -68,7 +68,7 @@ class SeriesFile : ColumnFile {
   static constexpr std::size_t time_column = static_cast<std::size_t>(-1);
   static constexpr std::size_t no_column = static_cast<std::size_t>(-2);
 
-  /// One column of the file: which of those wanted it is, and its unit.
+  /// One column of the file: the index among the requested columns, and its unit.
   struct Found {
     std::size_t wanted;
     double unit;
@@ -79,7 +79,7 @@ class SeriesFile : ColumnFile {
     return units_in_files[static_cast<std::size_t>(column.measure)];
   }
 
-  /// A header as it could be.
+  /// An example of a valid header.
   std::string example() const {
     std::string text = "t [s]";
     for (const SeriesColumn& column : wanted_)
@@ -119,7 +119,7 @@ class SeriesFile : ColumnFile {
     if (std::ranges::any_of(fields, [](auto field) { return number_in_field(field).has_value(); })) {
       wrong("has numbers where the columns must be named; begin the file with a line as \"{}\"", example());
     }
-    // First of all, because nothing is quoted from a file that is no such series.
+    // This test comes first, because messages must not quote a file that is no such series.
     if (std::ranges::none_of(fields, [](auto field) { return is_time(Heading(field)); })) {
       wrong("does not name the column t; name t and at least one other column, as in \"{}\"", example());
     }
@@ -138,7 +138,7 @@ class SeriesFile : ColumnFile {
     }
   }
 
-  /// The column of time, the one that is measured, and that of the places, if it is wanted.
+  /// Selects the column of time, the measured one, and that of the places, if it is needed.
   void choose_measured(const std::vector<std::string_view>& fields) {
     std::vector<std::string> headings;
     for (const std::string_view field : fields) headings.push_back(Heading(field).name);
@@ -200,7 +200,7 @@ class SeriesFile : ColumnFile {
   }
 
   std::span<const SeriesColumn> wanted_;
-  std::span<const std::string_view> names_;  ///< none: all columns are wanted ones
+  std::span<const std::string_view> names_;  ///< empty: all columns are requested
   std::vector<Found> found_;
   TimeSeries series_;
 };
@@ -219,7 +219,7 @@ TimeSeries by_time(const TimeSeries& measured) {
   return sorted;
 }
 
-/// Those of one time become their mean.
+/// Averages the values of one time.
 TimeSeries one_of_each_time(const TimeSeries& sorted) {
   TimeSeries means{.file = sorted.file, .line = {}, .time = {}, .columns = {{}}};
   for (std::size_t begin = 0, end = 0; begin < sorted.time.size(); begin = end) {

@@ -1,4 +1,4 @@
-// A CSV file of quantities over time, as linked_files.h describes it.
+// A CSV file of quantities over time, as described in linked_files.h.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace tailwater {
 
-/// What the lines of a file of measured values are.
+/// The type of the lines of a file of measured values.
 enum class Samples { of_one_place, of_profiles };
 
-/// The columns of `file`, whose name messages tell, in SI units. Throws InputError with file, line and remedy.
+/// The columns of `file`, whose name is used in messages, in SI units. Throws InputError with file, line and remedy.
 TimeSeries parse_series(const std::filesystem::path& path, std::istream& file, std::span<const SeriesColumn> columns);
 
-/// What was measured, likewise, as read_measured_series has it.
+/// The measured values of `file`, as read_measured_series returns them.
 TimeSeries parse_measured_series(const std::filesystem::path& path, std::istream& file,
                                  std::span<const std::string_view> names, Measure measure, Samples samples);
 

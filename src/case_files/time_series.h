@@ -32,9 +32,9 @@ struct SeriesColumn {
 
 struct TimeSeries {
   std::string file;                          ///< for messages
-  std::vector<int> line;                     ///< of the file, by sample
+  std::vector<int> line;                     ///< line of the file, by sample
   std::vector<double> time;                  ///< s, ascending
-  std::vector<std::vector<double>> columns;  ///< by column that was asked for, in SI units; empty if it is not there
+  std::vector<std::vector<double>> columns;  ///< by requested column, in SI units; empty if it is absent
 
   bool empty() const { return time.empty(); }
   bool operator==(const TimeSeries&) const = default;

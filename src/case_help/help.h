@@ -1,4 +1,4 @@
-// The documentation of the case file, made from the keys themselves.
+// The documentation of the case file, generated from the keys themselves.
 #pragma once
 
 #include <string>
@@ -8,18 +8,17 @@ namespace tailwater {
 /// For `tailwater run --help-case`: every key with default, unit, range and meaning, as plain text.
 std::string case_help();
 
-/// For `tailwater run --help-case=markdown`: the same as a page, docs/reference/case-file.md.
+/// For `tailwater run --help-case=markdown`: the help as a page, docs/reference/case-file.md.
 std::string case_reference_markdown();
 
-/// For `tailwater run --help-case=json`: the same for programs, such as an editor or a maker of cases: {format: 1,
+/// For `tailwater run --help-case=json`: the help for programs, such as an editor or a generator of cases: {format: 1,
 /// functions, tables: [{name, is_list, has_free_keys, documentation, keys: [{name, type, unit, required, default,
 /// documentation}]}]}. A key may also have minimum, minimum_is_excluded, maximum, maximum_is_excluded, choices,
-/// variables (of which its expressions may be) and goes_with {key, choices, needed_by}: the choices of another key of
-/// its table.
+/// variables (of its expressions) and goes_with {key, choices, needed_by}: the choices of another key of its table.
 std::string case_reference_json();
 
 /// For `tailwater run --help-case=schema`: a JSON schema of case files, with which an editor completes, explains and
-/// marks. It sees one key at a time, and which keys go together; it knows no expressions, shapes or files.
+/// marks keys. It covers single keys and combinations of keys, but no expressions, shapes or files.
 std::string case_schema();
 
 /// For `tailwater run --help-case=study`: the keys that no case needs,

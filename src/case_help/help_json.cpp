@@ -47,7 +47,7 @@ void add_range(const Range& range, Json& key) {
   }
 }
 
-/// With which choices of another key of its table it goes; null if with all.
+/// The choices of another key of its table with which a key is allowed; null if all.
 Json uses_of(std::string_view table, std::string_view key) {
   Json uses;
   for (const KeyUse& use : key_uses()) {

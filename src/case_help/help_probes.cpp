@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// A cell that says what differs between 2D and 3D.
+/// A cell with the difference between 2D and 3D.
 std::string by_dimension(const std::string& in_2d, const std::string& in_3d) {
   if (in_2d == in_3d) return in_2d;
   if (in_2d.empty()) return "3D: " + in_3d;

@@ -15,7 +15,7 @@
 namespace tailwater {
 namespace {
 
-/// The lines of a case file, which are changed by their numbers in the old one; what is added stands after one of them.
+/// The lines of a case file. Changes use the line numbers of the old file; added text stands after one of its lines.
 class Lines {
  public:
   explicit Lines(std::string_view text) {
@@ -51,7 +51,7 @@ class Lines {
   std::vector<Line> lines_;
 };
 
-/// The number of the line [name]; none if the table is written in another way, or not at all.
+/// The number of the line [name]; none if the table is written in another way, or absent.
 std::optional<std::size_t> header_of(const toml::table& root, std::string_view name, Lines& lines) {
   const toml::table* table = root[name].as_table();
   if (table == nullptr) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<std::size_t> header_of(const toml::table& root, std::string_view n
   return text[text.find_first_not_of(" \t")] == '[' ? std::optional(line) : std::nullopt;
 }
 
-/// A key of the file with its value, as it stands there.
+/// A key of the file with its value as written.
 struct Entry {
   const RemovedKey& key;
   const toml::node& value;
@@ -140,7 +140,7 @@ class Migrator {
                                                       entry.key.key, value_text(entry.value), entry.key.fate)});
   }
 
-  /// With its comment, and with `value` in place of its own if there is one.
+  /// Moves a key with its comment; `value`, if there is one, replaces its own value.
   void move(const Entry& entry, const std::string& value) {
     std::string moved;
     for (std::size_t line = entry.first_line; line <= entry.last_line; ++line) {
@@ -174,7 +174,7 @@ class Migrator {
     changes_.push_back({header.value_or(1), fmt::format("case.format = {} is written down", case_format)});
   }
 
-  /// Outlets that say nothing of what is beyond them: whether one is a hole is for its owner to see.
+  /// Reports outlets without a definition of the far side; their owner must decide whether one is a hole.
   void look_at_outlets() {
     const toml::array* outlets = root_["outlet"].as_array();
     for (std::size_t k = 0; outlets != nullptr && k < outlets->size(); ++k) {

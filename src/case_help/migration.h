@@ -1,4 +1,4 @@
-// Case files of formats before this program's, brought up to date.
+// Updates case files of earlier formats.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@ namespace tailwater {
 
 struct Migration {
   std::string text;
-  std::vector<std::string> changes;  ///< one line each, with the line of the old file; none: the text is as it was
+  std::vector<std::string> changes;  ///< one line each, with the line of the old file; empty: the text is unchanged
 };
 
-/// The text of a case file in the format of this program: a key that has another place or name today is moved there,
-/// one that has no successor becomes a comment, and the format is written down. All else stays as it is, comments too.
-/// Throws InputError, with `file`, where the text is not TOML, is of a newer format, or has such keys in an inline
+/// Converts the text of a case file to the format of this program. A key that has another place or name today is moved
+/// there, a key without successor becomes a comment, and the format is added. Everything else stays unchanged, comments
+/// too. Throws InputError, with `file`, where the text is not TOML, is of a newer format, or has such keys in an inline
 /// table.
 Migration migrate_case(std::string_view text, const std::string& file);
 

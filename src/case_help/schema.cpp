@@ -1,4 +1,4 @@
-// The description of the case file as a JSON schema (draft 7), which editors know how to use.
+// The description of the case file as a JSON schema (draft 7), which editors can use.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,9 +19,9 @@
 namespace tailwater {
 namespace {
 
-/// What no expression is: a number with a unit ("0.6 m"), and a number with a decimal comma.
+/// Excludes texts that are no expression: a number with a unit ("0.6 m"), and a number with a decimal comma.
 constexpr const char* expression = R"(^(?!\s*[0-9.]+\s*(?![eE][-+]?[0-9])[A-Za-z])(?![^(]*,))";
-/// The same, and not empty.
+/// Also excludes an empty text.
 constexpr const char* expression_with_a_value = R"(^(?=.*\S)(?!\s*[0-9.]+\s*(?![eE][-+]?[0-9])[A-Za-z])(?![^(]*,))";
 constexpr const char* one_line = R"(^[^\u0000-\u001f\u007f]*$)";
 
@@ -44,7 +44,7 @@ Json number_of(const char* type, const Range& range) {
 
 Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
-/// In 2 or 3 dimensions; which of them is asked for is said once for the whole file.
+/// A vector of 2 or 3 dimensions; one rule for the whole file sets which.
 Json vector_of(Json component) {
   Json vector = list_of(std::move(component));
   vector["minItems"] = 2;
@@ -83,7 +83,7 @@ std::string tooltip(std::string_view table, const KeyInfo& key) {
   return use.empty() ? text : fmt::format("{}. Goes with {}", text, use);
 }
 
-/// What one choice asks for, and the keys that it leaves to the others of its selector.
+/// The rule of one choice: the keys that it needs, and those that belong to other choices of its selector.
 Json rule_of(const KeyUse& use, const TableInfo& table) {
   const auto info = std::ranges::find(table.keys, use.selector, &KeyInfo::key);
   Json rule{{"if", {{"properties", {{use.selector, {{"const", use.choice}}}}}}}};
@@ -123,7 +123,7 @@ Json schema_of(const TableInfo& table) {
   return list;
 }
 
-/// What holds in a file of that dimension: also, that all vectors have so many components.
+/// The rules for a file of that dimension, including the number of components of all vectors.
 Json in_dimension(int count) {
   const Json length{{"minItems", count}, {"maxItems", count}};
   Json tables = dimension_rules_of_schema(count);
@@ -139,7 +139,7 @@ Json in_dimension(int count) {
   return {{"properties", std::move(tables)}};
 }
 
-/// No coordinate, no time, no number and no function has the name.
+/// Excludes the names of coordinates, the time, numbers and functions.
 std::string parameter_name() {
   return fmt::format("^(?!(x|y|z|t|dx|g|pi|{})$)[A-Za-z_][A-Za-z0-9_]*$", fmt::join(function_names(), "|"));
 }

@@ -8,14 +8,14 @@
 namespace tailwater {
 namespace {
 
-/// The key has one of these values, written out or, where `is_default`, left out.
+/// Rule: the key has one of these values, given or, where `is_default`, left out.
 Json is(const char* key, std::initializer_list<const char*> values, bool is_default = false) {
   Json rule{{"properties", {{key, {{"enum", Json(std::vector<const char*>(values))}}}}}};
   if (!is_default) rule["required"] = Json::array({key});
   return rule;
 }
 
-/// The case that a run leaves has "", 0 or [] for what is not given.
+/// Rule: the key is given. The effective case of a run has "", 0 or [] for absent keys.
 Json is_given(const char* key) {
   return {{"required", Json::array({key})}, {"properties", {{key, {{"not", {{"enum", {"", 0, Json::array()}}}}}}}}};
 }
@@ -42,7 +42,7 @@ Json none_of(std::initializer_list<const char*> values) { return {{"not", one_of
 
 Json at_least(int count) { return {{"minItems", count}}; }
 
-/// Not a vector of zeros.
+/// Rule: no vector of zeros.
 Json has_length() { return rule_for("direction", {{"not", {{"items", {{"const", 0}}}}}}); }
 
 Json rules_of_walls() {
@@ -116,7 +116,7 @@ Json rules_of_damping() {
   });
 }
 
-/// A body that is free to turn, as it is when nothing is said, needs its inertia.
+/// A body that is free to turn, as by default, needs its inertia.
 Json rules_of_bodies() {
   const Json turn{{"pattern", "^rotation"}};
   const Json no_turn =
@@ -140,7 +140,7 @@ Json rules_of_probes() {
   });
 }
 
-/// Two numbers, or none.
+/// Rule: two numbers, or none.
 Json is_range() { return {{"maxItems", 2}, {"not", {{"minItems", 1}, {"maxItems", 1}}}}; }
 
 }  // namespace

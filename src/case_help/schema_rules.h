@@ -1,5 +1,6 @@
-// What the schema of case files says beyond single keys: rules of keys that go together, as table_rules.cpp and its
-// neighbours check them. Only what a JSON schema can see: no arithmetic, no expressions, no names of other tables.
+// Rules of the schema of case files beyond single keys: rules for combinations of keys, as table_rules.cpp and its
+// neighbours check them. Only those that a JSON schema can express: no arithmetic, no expressions, no names of other
+// tables.
 #pragma once
 
 #include <string_view>
@@ -14,7 +15,7 @@ Json table_rules_of_schema(std::string_view table);
 /// Schemas that the whole file must all fulfil.
 Json file_rules_of_schema();
 
-/// What the file must fulfil in 2 or in 3 dimensions, besides the length of its vectors.
+/// Rules for a file in 2 or in 3 dimensions, besides the length of its vectors.
 Json dimension_rules_of_schema(int dimension);
 
 }  // namespace tailwater
