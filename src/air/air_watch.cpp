@@ -27,8 +27,8 @@ constexpr double half_cell = 0.5 - 1e-6;
 /// [dx]; edge of the pieces of walls that move. Their fraction of a pocket falls from 1 to 0 in two pieces.
 constexpr double longest_piece = 0.75;
 
-/// [dx]; distance in front of a wall at which its air is evaluated: where the pairs of water and wall have the mean of
-/// a field that changes linearly away from the wall.
+/// [dx]; distance in front of a wall at which its air is evaluated. At this distance the pairs of water and wall have
+/// the mean of a field that changes linearly away from the wall.
 constexpr double sight_of_walls = 0.6;
 
 /// Limit of some 2 GB: one bit per cell in six kinds of marks, and the data of each row of cells.
@@ -328,7 +328,7 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vent
   exchange_gas<Dim>(*grid_, spaces_, volumes, begun_before, pace, law_, found, state);
   find_references(found);
   take_over(std::move(found), volumes, pace, law_, state);
-  // a pocket that begins or ends changes the air beside others
+  // A pocket that begins or ends changes the air beside others.
   if (numbers_of(state.pockets) != before) forget_responses();
   find_openings(vents, state.pockets.size());
   if (is_first) set_start_pressures(state);

@@ -93,7 +93,7 @@ AirMeasures EnclosedAir<Dim>::measures() const {
 }
 
 /// Throws InputError where the case gives air a pressure and there is no enclosed air, before a run writes anything.
-/// Warns of air that would pull water down, when other air presses on the water.
+/// Warns of air at a pressure too far below 0 for water that is also open to other air.
 template <int Dim>
 void EnclosedAir<Dim>::begin(Flow<Dim>& flow) {
   if (!starts_at_pressure_) return;
@@ -201,8 +201,8 @@ void EnclosedAir<Dim>::correct(Flow<Dim>& flow, double dt) {
 }
 
 /// Counts how far water and walls go in a step of dt with their present velocity. Water and walls beside pockets count
-/// in full, all others by a quarter, since a search for new pockets is needed only when they may have gone four times
-/// as far.
+/// in full, all others by a quarter: a search for new pockets is needed only when these may have gone four times as
+/// far.
 template <int Dim>
 void EnclosedAir<Dim>::count_displacement(const Flow<Dim>& flow, double dt) {
   const double time = flow.state.time;
@@ -232,7 +232,7 @@ void EnclosedAir<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>
   const std::vector<double> growth = growth_at_walls(flow, *this, dt);
   for (std::size_t k = 0; k < step.pressure.size(); ++k) {
     works.walls -= dt * step.pressure[k] * growth[k];
-    // the work of the pairs is counted already
+    // The work of the pairs is counted already.
     works.ends -= dt * step.pressure[k] * (step.inflow[k] - step.inflow_of_pairs[k]);
   }
 }

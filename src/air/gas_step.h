@@ -12,9 +12,9 @@ namespace tailwater {
 
 class GasStep {
  public:
-  /// The growth of the pockets depends linearly on the pressures: through water [m^Dim/s per Pa] with `answers` of each
-  /// (row) to each, and through floating bodies with `mobility` of each to its own, empty without bodies. All are kept
-  /// by reference.
+  /// The growth of the pockets depends linearly on the pressures. `answers` [m^Dim/s per Pa] is the growth of each
+  /// (row) through water by the pressure of each; `mobility` is that through floating bodies by the own pressure, empty
+  /// without bodies. All are kept by reference.
   GasStep(const GasLaw& law, const std::vector<AirPocket>& pockets, const std::vector<double>& openings,
           const std::vector<double>& mobility, const Eigen::MatrixXd& answers, double dt);
 

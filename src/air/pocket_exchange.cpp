@@ -6,11 +6,11 @@
 namespace tailwater {
 namespace {
 
-/// A pocket that begins and is larger than this fraction of its neighbour was not separated from it: the space has been
+/// A pocket that begins and is larger than this fraction of its neighbour was not separated from it. The space has been
 /// closed since the last search, and the air is new.
 constexpr double max_taken_fraction = 0.5;
 
-/// Fraction of its volume that a pocket gives away in a correction, at most.
+/// Maximum fraction of its volume that a pocket loses in a correction.
 constexpr double max_corrected_fraction = 0.5;
 
 /// Square of the distance between two runs of cells, in cells. Periodic borders are ignored.

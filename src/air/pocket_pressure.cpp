@@ -67,8 +67,8 @@ std::vector<std::pair<std::size_t, PocketShare>> find_air_fractions(const Flow<D
   return fractions;
 }
 
-/// The difference between the pressure that the pockets alone make, with their state at the start of the step, and that
-/// of the air; on walls that of the water beside them. Collective.
+/// The difference between the pressure that the pockets alone make and that of the air, with the state of the pockets
+/// at the start of the step. Walls have the value of the water beside them. Collective.
 template <int Dim>
 std::vector<double> find_response_deficit(const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
                                           std::span<const PocketSide<Dim>> sides) {

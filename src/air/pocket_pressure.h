@@ -14,8 +14,8 @@
 //   pocket k:    dV_k/dt = sum_i w_i F_k,i . u_i + the power of its force on walls that move
 //
 // so the gas loses the energy that the water and the walls gain, for any q_k. Dummies have the mean chi of the water
-// beside them. Tension is computed from p_w. Its limit is the pressure that the air alone makes, less the deficit of
-// that pressure itself.
+// beside them. Tension is a negative p_w: a pressure below the one that the air alone makes. It is allowed up to the
+// deficit of the latter (pressure/tension.h).
 #pragma once
 
 #include "air/enclosed_air.h"

@@ -1,6 +1,6 @@
 // Walls that move beside pockets. The volume that a wall leaves to a pocket is computed from the force of the pocket on
-// the wall. The force has two parts: that of the air itself, on the pieces of the faces according to their fractions,
-// and that of the pairs of water and wall, in which the pressure is relative to that of the air.
+// the wall. The first part of the force is that of the air itself, on the pieces of the faces according to their
+// fractions. The second is that of the pairs of water and wall, in which the pressure is relative to that of the air.
 #include "air/pocket_pressure.h"
 #include "base/for_each.h"
 #include "open_ends/open_ends.h"

@@ -36,7 +36,7 @@ namespace {
 AwaitedSignals::AwaitedSignals() {
   sigemptyset(&awaited_);
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGCHLD}) sigaddset(&awaited_, signal);
-  // a parent that ignores it passes that on, and would not be notified of the end of a process
+  // A parent that ignores it passes that on, and this process would not be notified of the end of a child.
   std::signal(SIGCHLD, SIG_DFL);
   sigprocmask(SIG_BLOCK, &awaited_, &before_);
 }

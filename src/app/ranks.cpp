@@ -127,7 +127,7 @@ int ranks_by_default(const CaseSpec& spec) {
   if (ranks_in_environment() > 0 || is_in_batch_job()) return 1;
   const int cores = cores_of(usable_processors());
   if (cores == 1 || !find_mpirun()) return 1;
-  // docs/scaling.md has the gain by a second rank for so many particles per rank.
+  // docs/scaling.md has the gain by a second rank with this number of particles per rank.
   const bool is_2d = spec.general.dimension == 2;
   const double of_a_rank = is_2d ? 50e3 : 20e3;
   const double water =

@@ -246,8 +246,8 @@ class Sweep {
   std::optional<int> first_failure_;
 };
 
-/// Throws InputError unless the folder can be that of this sweep: it is empty, or it has a sweep all of whose members
-/// are in this one, with the same cases.
+/// Throws InputError unless the folder can be that of this sweep. It must be empty, or contain a sweep all of whose
+/// members are in this one, with the same cases.
 void require_same_sweep(const fs::path& out, const SweepPlan& plan, const std::vector<CaseSpec>& cases) {
   std::error_code error;
   if (!is_sweep(out)) {

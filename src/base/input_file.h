@@ -1,5 +1,5 @@
-// The common guard of files that are read: a folder, a device or a pipe may never end or never give a byte, and a file
-// may be larger than any valid file of its kind.
+// The common guard of files that are read. A folder, a device or a pipe may never end or never give a byte. A file may
+// be larger than any valid file of its kind.
 #pragma once
 
 #include <algorithm>

@@ -35,7 +35,7 @@ using IntegerLanes = std::uint32_t __attribute__((vector_size(4 * lane_count)));
 inline constexpr int double_lane_count = lane_count / 2;
 using DoubleLanes = double __attribute__((vector_size(8 * double_lane_count)));
 
-/// a b + c. In a sum of two products the compiler may round either product, and may choose differently wherever a loop
+/// a b + c. In a sum of two products the compiler may round either product. It may choose differently wherever a loop
 /// is compiled, as for whole groups and for the rest of a row. Where both particles of a pair must have the same value,
 /// the code chooses with this function.
 inline Lanes fused(Lanes a, Lanes b, Lanes c) {

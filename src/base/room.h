@@ -11,8 +11,8 @@
 namespace tailwater {
 
 /// Capacity for `count` values: at least a thirty-second more, because the number varies from step to step. There are
-/// only eight sizes between a power of two and the next, so that an array finds the memory of an earlier array of
-/// similar size. Memory that is never written to costs nothing.
+/// only eight sizes between a power of two and the next, so that an array can reuse the memory of an earlier array of
+/// similar size. Memory that is never written to is free of cost.
 constexpr std::size_t with_room(std::size_t count) {
   const std::size_t wanted = count + count / 32;
   const std::size_t step = std::max<std::size_t>(1, std::bit_floor(wanted) / 8);

@@ -1,5 +1,5 @@
-// Numbers background cells along a Z curve (Morton 1966), which interleaves the bits of their coordinates: cells with
-// consecutive numbers are near each other, and the 2^Dim that make up one twice as large follow each other.
+// Numbers background cells along a Z curve (Morton 1966), which interleaves the bits of their coordinates. Cells with
+// consecutive numbers are near each other, and the 2^Dim cells that make up one twice as large follow each other.
 #pragma once
 
 #include <cmath>

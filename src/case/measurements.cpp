@@ -17,7 +17,7 @@
 namespace tailwater {
 namespace {
 
-/// Times whose relative difference is no larger are equal, because files are written with so many digits.
+/// Times whose relative difference is no larger are equal, because files contain a limited number of digits.
 constexpr double same_time = 1e-4;
 
 /// Reports problems with `key` of measurement k; if the key is not given, at its table.

@@ -12,8 +12,8 @@ namespace tailwater {
 /// distance). Upper and lower case count as equal.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The valid name nearest to `given`, if it is near enough for a typing error: at most one edit per three letters of
-/// `given`, one in shorter names, none in single letters (except upper for lower case).
+/// The valid name nearest to `given`, if it is near enough for a typing error. That is at most one edit per three
+/// letters of `given`, one in shorter names, and none in single letters (except upper for lower case).
 std::optional<std::string_view> nearest_name(std::string_view given, std::span<const std::string_view> valid);
 
 /// The names in quotes, separated by commas.

@@ -19,8 +19,8 @@ struct MeshTriangles {
 };
 
 /// The triangles of a file, in its order. Throws InputError, which names the file and the remedy, for a file of another
-/// kind, one that is empty, cut off, damaged or too large, and for a coordinate that is not a number; IoError for a
-/// folder, a device or a pipe.
+/// kind, and for one that is empty, truncated, damaged or too large. A coordinate that is not a number is an InputError
+/// too. Throws IoError for a folder, a device or a pipe.
 MeshTriangles read_mesh(const std::filesystem::path& path);
 
 }  // namespace tailwater

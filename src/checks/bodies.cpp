@@ -18,8 +18,8 @@ Eigen::AlignedBox<double, Dim> box_of_body(const FloatingBody<Dim>& body, const 
   return box;
 }
 
-/// dx. With a smaller draught the pressure of a single row of particles is larger than the weight of the body, and its
-/// motion and the pressure are inconsistent (0.04 dx failed, 0.08 dx did not).
+/// dx. With a smaller draught the pressure of a single row of particles is larger than the weight of the body. Its
+/// motion and the pressure are then inconsistent (0.04 dx failed, 0.08 dx did not).
 constexpr double least_draught = 0.05;
 
 /// An error for a body that floats on the surface like a film; empty if it does not.

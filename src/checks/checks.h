@@ -24,9 +24,9 @@ Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary);
 /// Error: a bed with a crest as high as its own ends. Water that reaches the crest has already run over the ends.
 Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary);
 
-/// Errors: a mesh much longer than the water or shorter than dx, which is drawn in another unit; one that crosses
-/// itself; one that is a plate thinner than its layers of wall particles. Warnings: one at rest beside all water and
-/// other walls; a body longer than twice all these.
+/// Errors: a mesh much longer than the water or shorter than dx, which is drawn in another unit; a mesh that crosses
+/// itself; a mesh that is a plate thinner than its layers of wall particles. Warnings: a mesh at rest beside all water
+/// and other walls; a body longer than twice all these.
 Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid);
 
 /// Error: a wave maker whose depth is not that of the water in front of it. Warning: waves lower than two spacings.
@@ -60,15 +60,17 @@ Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, cons
 template <int Dim>
 Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: an inlet or an outlet that lies across a periodic direction, has a rim that is not on the walls, overlaps a
-/// wall, has walls or water in the space of its duct or its jet, shares that space with another, cuts through water, is
-/// a hole without a definition of the far side, or faces the wrong way.
+/// Errors: an inlet or an outlet
+/// - that lies across a periodic direction, overlaps a wall, cuts through water, or faces the wrong way;
+/// - that has a rim that is not on the walls;
+/// - that has walls or water in the space of its duct or its jet, or shares that space with another;
+/// - that is a hole without a definition of the far side.
 template <int Dim>
 Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Errors: the prescribed values of an inlet or outlet do not cover the run, are not finite, jump, are a level outside
-/// the opening, more water than it can pass, a level with a subcritical flow, or an implausible speed. Warning: a flow
-/// shallower than a spacing.
+/// Errors: the prescribed values of an inlet or outlet do not cover the run, are not finite, or jump; a level outside
+/// the opening; more water than the opening can pass; a level with a subcritical flow; an implausible speed. Warning: a
+/// flow shallower than a spacing.
 template <int Dim>
 Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -147,9 +149,9 @@ Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);
 template <int Dim>
 Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn);
 
-/// Errors, each with time and place: a wall whose place is not finite, that is too fast for incompressible water,
-/// crosses a wall, approaches one to less than dx, or leaves enclosed water less space than it needs. Follows the
-/// `moving` walls in steps of dx/4 from the start to the end of the run.
+/// Errors, each with time and place: a wall whose place is not finite; a wall that is too fast for incompressible
+/// water, crosses a wall, approaches one to less than dx, or leaves enclosed water less space than it needs. Follows
+/// the `moving` walls in steps of dx/4 from the start to the end of the run.
 template <int Dim>
 Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid,
                      const std::vector<int>& moving);

@@ -166,7 +166,7 @@ bool meet_somewhere(const WallFace<Dim>& face, const WallFace<Dim>& other, doubl
   return has_corner_on(face, other) || has_corner_on(other, face);
 }
 
-/// The place of the gap where a face looks straight at another that is near.
+/// The place of the gap where a face directly faces another that is near.
 template <int Dim>
 std::optional<Gap<Dim>> gap_between(const WallFace<Dim>& face, const WallFace<Dim>& other, double dx) {
   const double facing = -face.normal.dot(other.normal);

@@ -178,7 +178,7 @@ void draw_axes(Svg& svg, const View& view) {
 }
 
 /// Rows of probe names above the plot. From right to left each name takes the lowest row with space, starting at its
-/// marker, so that the line down to the marker passes only names that begin further right.
+/// marker. The line down to the marker then passes only names that begin further right.
 std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std::string>& names) {
   std::vector<std::size_t> order(x.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -18,8 +18,8 @@ inline constexpr std::string_view temporary_ending = ".part";
 /// IoError for a link, a device, a pipe or a folder, and where it cannot be opened.
 int open_regular_file(const std::filesystem::path& path, int flags);
 
-/// The common test before files are written: describes an object in the place of `path` that is not replaced, as "a
-/// link", "a folder", "a device or a pipe", or "another user's file"; empty if there is none.
+/// The common test before files are written. Describes an object in the place of `path` that is not replaced, as "a
+/// link", "a folder", "a device or a pipe", or "another user's file". Empty if there is no such object.
 std::string_view obstacle_at(const std::filesystem::path& path);
 
 /// Throws IoError if there is a link, a device, a pipe or a folder in the place of the file `path`. A folder may be

@@ -1,5 +1,5 @@
 // A multigrid for matrices of particles. The unknowns of a background cell, two particles wide, move as one on the next
-// level; those of 2^Dim cells move as one on the level after that, and so on down to a few unknowns, which are solved
+// level. Those of 2^Dim cells move as one on the level after that, and so on down to a few unknowns, which are solved
 // for directly. Each matrix is the Galerkin product of the one before. Corrections that are constant in a cell are too
 // small by about the same factor everywhere, and the matrix compensates for this factor (Braess 1995). W cycles, with
 // one Gauss-Seidel sweep from the first row to the last before the correction and one back after it.

@@ -29,7 +29,7 @@ struct Goal {
 struct MethodOutcome {
   enum class End {
     converged,   ///< according to the residual that the method measures
-    broke_down,  ///< it cannot go on; another method may
+    broke_down,  ///< it cannot continue; another method may
     unfinished,  ///< the iterations are used up, or the method does not suit the system
   };
   End end = End::unfinished;

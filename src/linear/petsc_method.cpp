@@ -105,8 +105,8 @@ void PetscMethod::change_to_gmres(const LinearSystem& system) {
   solver_size_.reset();
 }
 
-/// Prepares the solver for this solve. A new pattern gets a new solver: multigrid would reuse the bounds of the
-/// spectrum of the old pattern, and a run that resumes from a checkpoint has no old pattern.
+/// Prepares the solver for this solve. A new pattern gets a new solver, because multigrid would reuse the bounds of the
+/// spectrum of the old pattern. A run that resumes from a checkpoint has no old pattern.
 void PetscMethod::set_up(const LinearSystem& system) {
   need_petsc();
   const bool pattern_is_new = take_matrix(system);

@@ -23,9 +23,9 @@ namespace tailwater {
 namespace {
 
 /// Without this, Open MPI would start a daemon for processes that this one might spawn. It would make folders in one
-/// that all its programs use and remove when they end; of two programs, one may lose its folder while making it, and
-/// then does not start. It would also query networks that take a quarter of a second to report that they are absent. A
-/// single process needs none of this. Processes that it starts itself do not inherit the settings.
+/// that all its programs use, and remove when they end. Of two programs, one may lose its folder while making it, and
+/// then does not start. Open MPI would also query networks that take a quarter of a second to report that they are
+/// absent. A single process needs none of this. Processes that it starts itself do not inherit the settings.
 class StartAlone {
  public:
   StartAlone() {

@@ -29,10 +29,10 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
                        const WallDrive<Dim>& drive, double dt);
 
 /// Solves for the pressure, starting from the last one, together with the unknowns of parts, which `drive` may follow.
-/// Near the surface nothing holds the particles together, so p_i >= 0 there is part of the equation. Where a rough
-/// solution has tension, the diagonal of row i is divided by `interior` (0 in the outermost rows, 1 inside; for a wall
-/// by 0), and the system is solved again. With an M-matrix this can only raise pressures, so no new row gets tension
-/// (docs/theory/robustness.md). The matrix is discarded.
+/// Near the surface no force holds the particles together, so p_i >= 0 there is part of the equation. Where a rough
+/// solution has tension, the diagonal of row i is divided by `interior` (0 in the outermost rows, 1 inside), or by 0
+/// for a wall. The system is then solved again. With an M-matrix this can only raise pressures, so no new row gets
+/// tension (docs/theory/robustness.md). The matrix is discarded.
 template <int Dim>
 PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<Dim>& drive);
 

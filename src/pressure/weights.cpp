@@ -1,5 +1,5 @@
-// The matrix of the pressure equation: rows of walls by their model (walls/wall_model.h), of claimed water by the parts
-// that claim it, and of other water by the formulation (robust/rows.cpp, published).
+// The matrix of the pressure equation. Rows of walls come from their model (walls/wall_model.h), rows of claimed water
+// from the parts that claim it, and rows of other water from the formulation (robust/rows.cpp, published).
 #include "base/for_each.h"
 #include "linear/find_cells.h"
 #include "pressure/stages.h"

@@ -64,7 +64,7 @@ struct ProbeContext {
   std::span<const int> felt_through = {};
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
-  const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe asks for them
+  const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe needs them
   std::span<const BodyState<Dim>> bodies = {};   ///< floating bodies
   /// Pa; pressure of the air at a place, above the atmosphere's. The same on all ranks; empty without pockets.
   std::function<double(const Vec<Dim>&)> air_pressure = {};

@@ -1,11 +1,11 @@
-// The discharge through a section, a flat opening drawn in the water: the volume that passes it per time, and the
-// volume that has passed it since the start, both positive in the probe's direction.
+// The discharge through a section, a flat opening drawn in the water: the volume that passes it per time, positive in
+// the probe's direction. The probe also has the volume that has passed since the start.
 //
 // The volume is a count: particles that have passed (parts/section_counters.cpp) times their volumes, so it agrees with
 // the water balance to the last particle. The discharge is its rate Q, smoothed by T D' = Q - D over a time T that the
 // summary contains, so its mean is that of the count. It begins with the flux of the water within two spacings of the
-// section. That flux is no good measure later where the flow changes over such a distance: behind a sharp crest water
-// falls below the section.
+// section. That flux alone would be wrong where the flow changes over such a distance: behind a sharp crest water falls
+// below the section.
 #pragma once
 
 #include "case/spec.h"

@@ -23,7 +23,7 @@ namespace tailwater {
 namespace {
 
 /// e: the fraction of a force that a patch takes whatever its normal. Without it, nearly parallel normals would enlarge
-/// forces along both of them by one over their angle; ten times as much would mix the walls of a corner of 30 degrees.
+/// forces along both of them by one over their angle. Ten times as much would mix the walls of a corner of 30 degrees.
 constexpr double indifference = 1e-3;
 
 /// Relative weight of patches that take no part in a force. It counts where there are no others.
@@ -256,8 +256,8 @@ class WallForceProbe {
 
   /// Calls body(k, weights, normal) for each patch k near a particle at x. The particle's own patches are those whose
   /// side it is on: behind the plane for a wall particle, in front of it for water. The pressure's force counts for all
-  /// patches except those that face the nearest of the own ones, so that no force is transferred across a gap or
-  /// through a thin body. Friction counts for the own patches.
+  /// patches except those that face the nearest own patch. So no force is transferred across a gap or through a thin
+  /// body. Friction counts for the own patches.
   template <class Body>
   void for_each_share_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, bool is_water, Body&& body) const {
     const auto normal_of = [&](std::int32_t k) -> const Vec<Dim>& { return boundary.faces[patches_[k].face].normal; };
@@ -290,7 +290,7 @@ class WallForceProbe {
   bool has_power_ = false;
   std::vector<Vec<Dim>> centres_;  ///< centres of the patches at their present places
   CellGrid<Dim> grid_;             ///< grid of the centres
-  /// contains all particles in whose loads selected patches have a part
+  /// Contains all particles in whose loads selected patches have a part.
   Eigen::AlignedBox<double, Dim> around_chosen_;
 };
 

@@ -72,8 +72,8 @@ Vec<Dim> normal_at(const Vec<Dim>& x, const Boundary<Dim>& boundary) {
   return nearest.face < 0 ? Vec<Dim>(Vec<Dim>::Unit(0)) : boundary.faces[nearest.face].normal;
 }
 
-/// Places over a disc in the wall, all with the same weight: the centres of those squares, at most dx/2 long, of a
-/// square around the disc that are in the disc.
+/// Places over a disc in the wall, all with the same weight. A square around the disc is divided into squares at most
+/// dx/2 long; the places are the centres of those in the disc.
 template <int Dim>
 std::vector<Vec<Dim>> places_on_disc(const ProbeTable& probe, const Vec<Dim>& centre, const CaseSpec& spec,
                                      const Boundary<Dim>& boundary) {

@@ -40,7 +40,7 @@ struct UprightLine {
 };
 
 /// A line against gravity, as drawn. If its bed is a wall that moves on a path, as in a shaken tank, the line moves and
-/// turns with the bed, and heights are relative to the tank. Other moving walls count at their present place.
+/// turns with the bed. Heights are then relative to the tank. Other moving walls count at their present place.
 template <int Dim>
 class UprightGauge {
  public:

@@ -1,8 +1,8 @@
 // Farzin, Hassanzadeh, Aalami & Fatehi (2014) as published: consistent operators (F9), (F12) by the tensors of (F10)
 // and (F13), p = 0 on marked surface particles, one layer of particles with the wall's pressure condition on the walls
-// (F36-F39), artificial viscosity (F3), sub-particle stress (F4-F6), shifting (F28-F32). The module `robust` has the
-// formulation that is stable. docs/theory/schemes.md explains why this one is unstable in long runs, and its
-// differences from the paper.
+// (F36-F39), artificial viscosity (F3), sub-particle stress (F4-F6), shifting (F28-F32). Runs with it fail after some
+// time; the module `robust` has the formulation that works. docs/theory/schemes.md has the reasons, and the differences
+// from the paper.
 #pragma once
 
 #include "flow/formulation.h"

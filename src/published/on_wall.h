@@ -24,7 +24,7 @@ class OnWall : public WallModel<Dim> {
   /// weights.
   void set_sources(const WallScene<Dim>&, const WallForce<Dim>&, LinearSystem&) const final {}
 
-  /// Nothing to set: the particles keep the pressure of their rows.
+  /// No pressure is set: the particles keep the pressure of their rows.
   bool follow_pressure(const WallScene<Dim>&, const WallForce<Dim>&, std::span<double>) const final { return false; }
 };
 

@@ -10,7 +10,7 @@ namespace tailwater {
 namespace {
 
 /// The iteration ends when the pressure changes by less than this fraction of its rms value, or after a maximum number
-/// of passes: with the smallest factor below, 0.7^30 = 2e-5 of the initial difference remains.
+/// of passes. With the smallest factor below, 0.7^30 = 2e-5 of the initial difference remains by then.
 constexpr double pass_tolerance = 1e-3;
 constexpr int most_passes = 30;
 

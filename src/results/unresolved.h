@@ -9,8 +9,8 @@
 
 namespace tailwater {
 
-/// One line for all gauges whose surface moved by less than the lowest resolved wave in a case with wave makers, and
-/// one for all gauges at which the water was never deeper than that. Both cover probes of depth; the line about waves
+/// One line for all gauges at which the water was never deeper than the lowest resolved wave. One line, in a case with
+/// wave makers, for all gauges whose surface moved by less than that. Both cover probes of depth; the line about waves
 /// also covers those of run-up. Throws IoError if a table cannot be read. Call on the root.
 std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder);
 

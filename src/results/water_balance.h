@@ -18,9 +18,9 @@ template <int Dim>
 WaterAmount water_in(const Flow<Dim>& flow);
 
 /// The water that has left the walls for good, over all ranks. Such water is beyond the box around walls and open ends,
-/// and no wall straight below it, along gravity, would catch it; or it has fallen below all walls already and is no
-/// longer computed. Spray above an open tank is not lost, and neither is water on its way out through an open end.
-/// Collective.
+/// and no wall straight below it, along gravity, would catch it. Water that has fallen below all walls counts too,
+/// although it is no longer computed. Spray above an open tank is not lost, and neither is water on its way out through
+/// an open end. Collective.
 template <int Dim>
 WaterAmount water_outside(const Flow<Dim>& flow);
 

@@ -100,9 +100,10 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
   // Rows of dummies contain only the fluid half of their neighbourhood.
   const double pairs = (count.fluid + 0.5 * count.wall) * neighbours;
   // The solver has vectors of its own, and memory is fragmented. The peak in summary.json after some steps, less that
-  // of a run of 200 particles (51 MB), is 1.20 times the arrays for cases/zhou1999 at dx = 0.003 m with the implicit
-  // integrator (130 MB; explicit 127). Walls that stay dry take less: the peak is 0.95 times the arrays for
-  // benchmarks/dam_break_3d.toml at 0.00969 m, where a third of the particles are of walls (1.59 GB).
+  // of a run of 200 particles (51 MB), was compared with the size of the arrays. It is 1.20 times the arrays for
+  // cases/zhou1999 at dx = 0.003 m with the implicit integrator (130 MB; explicit 127). Walls that stay dry take less:
+  // it is 0.95 times the arrays for benchmarks/dam_break_3d.toml at 0.00969 m, where a third of the particles are of
+  // walls (1.59 GB).
   constexpr double slack = 1.2;
   return program_memory + slack * ((count.fluid + count.wall) * fields + pairs * pair);
 }

@@ -42,9 +42,9 @@ inline constexpr double pairs_in_a_second = 4e6;
 /// Throws InputError if no run can reach the end time, however quiet its flow.
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule);
 
-/// Runs a few trial steps of `flow`, which was made from `spec`. If the flow has more than `most_pairs` pairs, or few
-/// compared with its later number (inflow_estimate.h), steps of a tank by the same scheme replace them; their time is
-/// scaled by the number of particles. The mean number of particles over the run counts.
+/// Runs a few trial steps of `flow`, which was made from `spec`. They are replaced by steps of a tank by the same
+/// scheme if the flow has more than `most_pairs` pairs, or few compared with its later number (inflow_estimate.h). The
+/// time of these steps is scaled by the number of particles. The mean number of particles over the run counts.
 template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs = pairs_in_a_second);
 

@@ -24,8 +24,8 @@ struct WallTime {
   std::optional<std::chrono::duration<double>> limit;
 };
 
-/// During the lifetime of this object the first SIGINT, SIGTERM or SIGUSR1 (batch systems) requests a stop of the run;
-/// a second one of the same kind ends the program at once. SIGHUP, sent when the terminal closes, requests a
+/// During the lifetime of this object the first SIGINT, SIGTERM or SIGUSR1 (batch systems) requests a stop of the run.
+/// A second one of the same kind ends the program at once. SIGHUP, sent when the terminal closes, requests a
 /// checkpoint. The files STOP and CHECKPOINT in the run's folder make the same requests. The wall time requests a stop
 /// in time.
 class Requests {

@@ -31,9 +31,8 @@ class StepGuard {
 
   /// Calls `work`, a part of the solution that starts from the present state. Fails the run if `work` throws a
   /// SolverError or leaves a value that is not finite. If both happen, the report names the particle with that value,
-  /// because the error follows from it. `start` has the positions and velocities of the present state, and is borrowed,
-  /// as a copy of them would be large; `work` may fill it, as long as no particle has moved. Particles must keep their
-  /// indices.
+  /// because the error follows from it. `start` has the positions and velocities of the present state; it is borrowed,
+  /// as a copy would be large. `work` may fill it, as long as no particle has moved. Particles must keep their indices.
   void attempt(const StepStart<Dim>& start, const std::function<void()>& work);
 
  private:

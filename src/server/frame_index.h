@@ -1,5 +1,5 @@
-// The list of the frames of a run, updated while the run writes and when it is resumed: the frames of its stream or,
-// without a stream, those of its field files.
+// The list of the frames of a run, updated while the run writes and when it is resumed. The frames are those of its
+// stream or, without a stream, those of its field files.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,7 @@ struct WaterNow {
   std::span<const std::int64_t> id;
   std::span<const Vec<Dim>> position;            ///< m; finite
   std::vector<std::span<const double>> scalars;  ///< finite
-  /// of all moving objects, from where they are drawn; the same on all ranks
+  /// Poses of all moving objects, from where they are drawn; the same on all ranks.
   std::span<const AffineMap<Dim>> poses;
 };
 
