@@ -46,7 +46,7 @@ struct PocketPairs {
   Vec<Dim> force;   ///< m^(Dim-1); on the wall
   Mat<Dim> moment;  ///< m^Dim; the sum of force x^T over the wall's particles
 
-  /// m^Dim/s; growth of the pocket by a wall of such a velocity: the power of the force on it.
+  /// m^Dim/s; growth of the pocket by a wall with this velocity: the power of the force on it.
   double growth(const AffineMap<Dim>& velocity) const {
     return force.dot(velocity.constant) + moment.cwiseProduct(velocity.linear).sum();
   }

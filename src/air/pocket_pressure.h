@@ -36,8 +36,8 @@ std::vector<double> find_air_pressures(const Flow<Dim>& flow, const EnclosedAir<
 template <int Dim>
 Eigen::MatrixXd stiffness_of_air(const EnclosedAir<Dim>& air, double dt);
 
-/// Adds to `field` [Pa] of all particles the pressure made by such pressures of the pockets; needs responses that are
-/// up to date on walls and ghosts.
+/// Adds to `field` [Pa] of all particles the pressure that these pressures of the pockets make; needs responses that
+/// are up to date on walls and ghosts.
 template <int Dim>
 void add_air_of(const EnclosedAir<Dim>& air, std::span<const double> pressures, std::vector<double>& field);
 

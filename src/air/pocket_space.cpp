@@ -220,7 +220,8 @@ double PocketSpace<Dim>::weight_of(std::int64_t place) const {
   return place >= 0 && owner_[place] > 0 ? weight_of_layer(layer_[place]) : 0.0;
 }
 
-/// Subtracts the water of one particle from the volumes. The part of its cube behind walls really is in front of them.
+/// Subtracts the water of one particle from the volumes. The part of its cube that is behind walls belongs in front of
+/// them.
 template <int Dim>
 void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<double>& volumes) const {
   const Vec<Dim> at = grid_->in_cells(x);

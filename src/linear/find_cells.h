@@ -9,8 +9,8 @@
 
 namespace tailwater {
 
-/// The cell of the given edge that holds each of the positions; `none` where is_in_a_cell(i) is false. All ranks share
-/// the cells.
+/// The cell of the given edge that contains each of the positions; `none` where is_in_a_cell(i) is false. All ranks use
+/// the same cells.
 template <int Dim, class Predicate>
 Cells find_cells(std::span<const Vec<Dim>> position, double edge, Predicate&& is_in_a_cell) {
   Cells cells{.dimension = Dim, .number = std::vector<std::uint64_t>(position.size(), Cells::none)};

@@ -56,7 +56,7 @@ class RunStatistics {
   double brought_by_air_ = 0.0;
   double brought_by_slope_ = 0.0;  ///< J; by gravity along periodic directions
   double viscous_work_ = 0.0;
-  double energy_least_;  ///< J; least energy so far, inside plus out minus in, without what walls and open ends brought
+  double energy_least_;  ///< J; least energy so far, inside plus out minus in, without the work of walls and open ends
   double energy_rise_ = 0.0;
   double density_work_ = 0.0;
   double density_share_sum_ = 0.0;
