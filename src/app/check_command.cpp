@@ -129,13 +129,15 @@ void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, double water)
   const SpacingField<Dim>& field = flow.setup.graded->field();
   for (std::size_t n = 0; n < spec.refinement.size(); ++n) {
     const auto& zone = field.zones()[n];
-    fmt::print("refinement: {}: spacing {:.4g} m behind borders of {:.4g} m, about {:.2g} particles when full\n",
+    fmt::print("refinement: {}: spacing {:.4g} m behind borders of {:.4g} m, about {:.0f} particles when full\n",
                spec.refinement[n].name, spec.particles.spacing * std::exp2(-zone.level), zone.border,
                particles_of_full_zone(field, n, spec.particles.spacing, flow.box()));
   }
   const double finest = spec.particles.spacing * field.finest();
-  fmt::print("            the time step is that of {:.4g} m; with this spacing everywhere {:.2g} fluid particles\n",
-             finest, water / power<Dim>(finest));
+  fmt::print(
+      "            the time step is that of {:.4g} m; with this spacing everywhere {:.0f} fluid particles\n"
+      "            calm water beside a border that lies deep keeps moving at 0.01 sqrt(g depth)\n",
+      finest, water / power<Dim>(finest));
 }
 
 template <int Dim>
