@@ -7,7 +7,7 @@ __all__ = ["features_of", "limits_of", "nearest_flow"]
 FRICTION_KEYS = ("friction", "roughness", "manning")
 # Tables whose presence is a feature of a case.
 TABLES = {"inlet": "inlet", "outlet": "outlet", "gate": "gate", "wave_maker": "wave maker", "body": "floating body",
-          "porous": "porous layer", "damping": "damping zone"}
+          "porous": "porous layer", "damping": "damping zone", "refinement": "zone of refinement"}
 # Types of probes, by the kind of quantity that they measure.
 KINDS = {"depth": "level", "level-map": "level", "profile": "level", "run-up": "level", "wall-pressure": "pressure",
          "wall-pressure-mean": "pressure", "pressure": "pressure", "pressure-map": "pressure", "force": "force",

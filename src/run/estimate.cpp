@@ -110,6 +110,18 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
 
 namespace {
 
+/// The most particles that zones of refinement add to so many of the case's spacing: until they are full, or have all
+/// of the water.
+template <int Dim>
+double particles_of_zones(const CaseSpec& spec, const Boundary<Dim>& boundary, double fluid) {
+  const SpacingField<Dim> field(spec, boundary);
+  double most = 0.0;
+  for (std::size_t zone = 0; zone < field.zones().size(); ++zone) {
+    most += particles_of_full_zone(field, zone, spec.particles.spacing, box_around(boundary.faces));
+  }
+  return std::min(most, fluid / power<Dim>(field.finest()));
+}
+
 /// A hint for a case with a mesh, which may be drawn in another unit.
 template <int Dim>
 Clause length_of_longest_mesh(const Boundary<Dim>& boundary) {
@@ -141,7 +153,8 @@ double available_memory() {
 
 template <int Dim>
 Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, double available) {
-  const ParticleCount count = expected_particle_count(spec, boundary);
+  ParticleCount count = expected_particle_count(spec, boundary);
+  count.fluid += particles_of_zones(spec, boundary, count.fluid);
   const double needed = memory_estimate<Dim>(count, neighbours_in_support<Dim>(traits_of(spec).support));
   if (needed <= available) return {};
   // The particles' memory is proportional to dx^-Dim.

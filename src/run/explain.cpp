@@ -41,6 +41,16 @@ std::string told(const Coordinates& at) { return fmt::format("({:.4g})", fmt::jo
 
 std::string_view per_width(const CaseSpec& spec) { return spec.general.dimension == 2 ? " per metre of width" : ""; }
 
+/// Sentences on zones of refinement, with a space before them; empty if there are none.
+std::string about_refinement(const CaseSpec& spec) {
+  std::string text;
+  for (const RefinementTable& zone : spec.refinement) {
+    text += fmt::format(" In zone '{}' they are {:.4g} m apart.", zone.name,
+                        spec.particles.spacing * std::exp2(-zone.level));
+  }
+  return text;
+}
+
 std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
   const double dx = spec.particles.spacing;
   if (spec.fluid.empty()) return fmt::format("There is no water at the start; particles are {:.4g} m apart.", dx);
@@ -48,9 +58,9 @@ std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
   for (const FluidTable& fluid : spec.fluid) ++shapes[name_of(fluid.shape)];
   std::vector<std::string> kinds;
   for (const auto& [shape, count] : shapes) kinds.push_back(plural(count, shape));
-  return fmt::format("At the start there are {:.4g} m^3 of water{} ({:.4g} kg), in {}: {} particles, {:.4g} m apart.",
+  return fmt::format("At the start there are {:.4g} m^3 of water{} ({:.4g} kg), in {}: {} particles, {:.4g} m apart.{}",
                      estimate.water, per_width(spec), estimate.water * spec.physics.density, listed(kinds),
-                     fmt::format("{:.0f}", estimate.particles.fluid), dx);
+                     fmt::format("{:.0f}", estimate.particles.fluid), dx, about_refinement(spec));
 }
 
 std::string about_physics(const CaseSpec& spec) {

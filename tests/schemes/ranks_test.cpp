@@ -18,6 +18,7 @@
 
 #include "air/pocket_pressure.h"
 #include "bodies/floating_bodies.h"
+#include "parts/refinement.h"
 #include "schemes/force_reader.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
@@ -130,6 +131,44 @@ TYPED_TEST(RanksTest, Tank) {
   expect_same<Dim>(spec, 0.3, as_it_is);
   spec.scheme.integrator = Integrator::implicit_projection;
   expect_same<Dim>(spec, 0.3, as_it_is);
+}
+
+TYPED_TEST(RanksTest, AZoneOfRefinementAcrossTheCuts) {
+  constexpr int Dim = TypeParam::value;
+  CaseSpec spec = jittered_tank<Dim>();
+  RefinementTable zone;
+  zone.min.assign(Dim, -1.0);
+  zone.max.assign(Dim, 2.0);
+  zone.max[Dim - 1] = 0.25;  // a border inside the water, which the cuts cross
+  spec.refinement = {zone};
+  expect_same<Dim>(spec, 0.3, as_it_is);
+}
+
+TEST(RanksTest, ParticlesSplitAndMergeOnAllRanks) {
+  CaseSpec spec = zhou_case(0.05, Integrator::explicit_projection);
+  RefinementTable zone;
+  zone.min = {1.0, -1.0};
+  zone.max = {9.0, 9.0};
+  spec.refinement = {zone};
+  const Communicator world = Communicator::world();
+  Flow<2> flow = make_flow<2>(spec, world);
+  start(flow);
+  const double volume = 1.2 * 0.6;
+  for (int n = 0; n < 80; ++n) {
+    if (flow.state.step % 5 != 0) adapt(flow);
+    pass_and_step(flow);
+  }
+  const Refinement<2>& part = flow.part<Refinement<2>>();
+  EXPECT_GT(part.splits(), 20);
+  EXPECT_EQ(part.splits(), world.least(part.splits()));
+  EXPECT_EQ(part.splits(), world.largest(part.splits()));
+  EXPECT_EQ(part.merges(), world.largest(part.merges()));
+  const auto own_fluid = [&](std::size_t i) { return flow.state.particles.is_fluid(i); };
+  EXPECT_NEAR(world.sum(sum_over(flow.state.particles.owned, 0.0,
+                                 [&](std::size_t i) { return own_fluid(i) ? flow.state.particles.volume[i] : 0.0; })),
+              volume, 1e-12 * volume);
+  const std::vector<Particle<2>> all = fluid_of(flow);  // by id
+  for (std::size_t k = 1; k < all.size(); ++k) ASSERT_NE(all[k].id, all[k - 1].id);
 }
 
 TYPED_TEST(RanksTest, PublishedFormulations) {
