@@ -8,7 +8,7 @@ namespace tailwater {
 namespace {
 
 /// Points of the quadrature along the radius of a support.
-constexpr int points = 8;
+constexpr int points_along_radius = 8;
 
 /// Entries of a face's table per dx.
 constexpr int entries_per_spacing = 16;
@@ -25,14 +25,14 @@ ContinuumSums<Dim> integrate(const Kernel<Dim>& kernel, const Vec<Dim>& x, const
   const double radius = kernel_radius(kernel);
   const double own = spacing(x);
   const double reach = 0.5 * radius * (own + 1.0);
-  const double step = reach / points;
+  const double step = reach / points_along_radius;
   double sum = 0.0;
   double of_uniform = 0.0;
   Vec<Dim> gradient = Vec<Dim>::Zero();
-  const int last_z = Dim == 3 ? points : 0;
+  const int last_z = Dim == 3 ? points_along_radius : 0;
   for (int c = -last_z; c <= last_z; ++c) {
-    for (int b = -points; b <= points; ++b) {
-      for (int a = -points; a <= points; ++a) {
+    for (int b = -points_along_radius; b <= points_along_radius; ++b) {
+      for (int a = -points_along_radius; a <= points_along_radius; ++a) {
         Vec<Dim> s;
         s[0] = step * a;
         s[1] = step * b;

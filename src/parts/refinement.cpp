@@ -1,6 +1,7 @@
 #include "parts/refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -31,7 +32,7 @@ constexpr double distance_to_merge = 1.35;
 
 /// V^(1/Dim); a particle nearer to a wall than the first is split along the wall, and no particle is put nearer than
 /// the second.
-constexpr double beside_wall = 0.8;
+constexpr double split_along_wall = 0.8;
 constexpr double least_distance_from_wall = 0.1;
 
 /// C/C_0 below which a particle is split along the surface.
@@ -55,7 +56,8 @@ std::vector<Vec<Dim>> directions() {
   } else {
     for (int n = 1; n <= 13; ++n) {  // half of the neighbours of a cell
       const int code = 13 + n;
-      all.push_back(Vec<3>(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized());
+      const std::array<int, 3> step{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+      all.push_back(Vec<3>(step[0], step[1], step[2]).normalized());
     }
   }
   return all;
@@ -146,8 +148,8 @@ class Adaptation {
     if (flow_.surroundings.concentration[i] < surface_concentration && crowding.norm() > 0.0) {
       keep_across(crowding.normalized());
     }
-    const NearestWall<Dim> wall =
-        flow_.walls.boundary.nearest_to_water(particles_.position[i], beside_wall * edge_of<Dim>(particles_.volume[i]));
+    const NearestWall<Dim> wall = flow_.walls.boundary.nearest_to_water(
+        particles_.position[i], split_along_wall * edge_of<Dim>(particles_.volume[i]));
     if (wall.face >= 0) keep_across(flow_.walls.boundary.faces[wall.face].normal);
     return all[std::ranges::min_element(filled) - filled.begin()];
   }
@@ -199,15 +201,16 @@ void split_particles(const std::vector<Split<Dim>>& splits, std::int64_t first_i
   particles.owned += splits.size();
   particles.resize(particles.owned);
   for (std::size_t n = 0; n < splits.size(); ++n) {
-    const auto& [i, offset, velocity] = splits[n];
+    const Split<Dim>& split = splits[n];
+    const std::size_t i = split.particle;
     const std::size_t part = before + n;
     particles.volume[i] *= 0.5;
     particles.apply_to_fields([&](auto&... field) { ((field[part] = field[i]), ...); });
     particles.id[part] = first_id + static_cast<std::int64_t>(n);
-    particles.position[i] += offset;
-    particles.position[part] -= offset;
-    particles.velocity[i] += velocity;
-    particles.velocity[part] -= velocity;
+    particles.position[i] += split.offset;
+    particles.position[part] -= split.offset;
+    particles.velocity[i] += split.velocity;
+    particles.velocity[part] -= split.velocity;
   }
 }
 

@@ -57,15 +57,15 @@ Vec<Dim> SpacingField<Dim>::wrapped(Vec<Dim> x) const {
 }
 
 template <int Dim>
-double SpacingField<Dim>::at(const Vec<Dim>& place) const {
-  const Vec<Dim> x = wrapped(place);
+double SpacingField<Dim>::at(const Vec<Dim>& x) const {
+  const Vec<Dim> inside = wrapped(x);
   double least = 1.0;
   for (const Zone& zone : zones_) {
-    if (!zone.box.contains(x)) continue;
+    if (!zone.box.contains(inside)) continue;
     double steps = 1.0;
     for (int axis = 0; axis < Dim; ++axis) {
-      steps *= smooth_step((x[axis] - zone.box.min()[axis]) / zone.border);
-      steps *= smooth_step((zone.box.max()[axis] - x[axis]) / zone.border);
+      steps *= smooth_step((inside[axis] - zone.box.min()[axis]) / zone.border);
+      steps *= smooth_step((zone.box.max()[axis] - inside[axis]) / zone.border);
     }
     least = std::min(least, std::exp2(-zone.level * steps));
   }
@@ -80,9 +80,9 @@ double SpacingField<Dim>::finest() const {
 }
 
 template <int Dim>
-SpacingNearby<Dim> SpacingField<Dim>::nearby(const Vec<Dim>& place, double reach) const {
+SpacingNearby<Dim> SpacingField<Dim>::nearby(const Vec<Dim>& x, double reach) const {
   using Kind = typename SpacingNearby<Dim>::Kind;
-  const Vec<Dim> x = wrapped(place);
+  const Vec<Dim> inside = wrapped(x);
   SpacingNearby<Dim> nearby;
   const Vec<Dim> period = periodic_.sizes();
   bool is_inside_another = false;  // where a zone has its finest spacing
@@ -94,10 +94,10 @@ SpacingNearby<Dim> SpacingField<Dim>::nearby(const Vec<Dim>& place, double reach
       const double low = zone.box.min()[axis];
       const double high = zone.box.max()[axis];
       // Beside the end of a period a zone at the other end is near.
-      const double from_end = std::min(x[axis] - periodic_.min()[axis], periodic_.max()[axis] - x[axis]);
+      const double from_end = std::min(inside[axis] - periodic_.min()[axis], periodic_.max()[axis] - inside[axis]);
       is_near_image = is_near_image || (period[axis] > 0.0 && std::isfinite(low) && from_end < reach);
       for (const double sign : {1.0, -1.0}) {
-        const double depth = sign > 0.0 ? x[axis] - low : high - x[axis];
+        const double depth = sign > 0.0 ? inside[axis] - low : high - inside[axis];
         is_outside = is_outside || depth <= -reach;
         if (depth >= zone.border + reach) continue;
         own.kind = own.kind == Kind::uniform ? Kind::one_face : Kind::any;
