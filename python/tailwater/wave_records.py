@@ -147,20 +147,31 @@ class RegularWaves:
     wave_number: float
 
 
-def separate_regular(position, amplitude, wave_number):
-    """RegularWaves of the complex amplitudes at two or more gauges. With three or more the wave number has the least misfit
-    near that of linear theory, because high waves are longer than linear waves; with two it is the one given."""
+def least_misfit(position, amplitude, wave_numbers_tried):
+    """(misfit, RegularWaves) of the wave number with the least misfit; None if the gauges cannot separate any."""
     best = None
-    for factor in WAVE_NUMBER_FACTORS if position.size > 2 else (1.0,):
-        shape = wave_shapes(position, factor * wave_number)
+    for k in wave_numbers_tried:
+        shape = wave_shapes(position, k)
         if determined(shape) < MIN_DETERMINED:
             continue
         found = np.linalg.lstsq(shape, amplitude, rcond=None)[0]
         misfit = np.linalg.norm(shape @ found - amplitude)
         if best is None or misfit < best[0]:
-            best = misfit, RegularWaves(complex(found[0]), complex(found[1]), float(factor * wave_number))
+            best = misfit, RegularWaves(complex(found[0]), complex(found[1]), float(k))
+    return best
+
+
+def separate_regular(position, amplitude, wave_number):
+    """RegularWaves of the complex amplitudes at two or more gauges. With three or more the wave number has the least misfit
+    near that of linear theory, because high waves are longer than linear waves; with two it is the one given."""
+    tried = wave_number * WAVE_NUMBER_FACTORS if position.size > 2 else np.array([wave_number])
+    best = least_misfit(position, amplitude, tried)
     if best is None:
         refuse_gauges()
+    if position.size > 2:
+        step = tried[1] - tried[0]
+        finer = least_misfit(position, amplitude, best[1].wave_number + step * np.linspace(-1, 1, 41))
+        best = min(best, finer, key=lambda one: one[0]) if finer else best
     return best[1]
 
 

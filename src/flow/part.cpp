@@ -60,7 +60,7 @@ void Part<Dim>::follow_friction(Flow<Dim>& /*flow*/, std::span<const FrictionWal
                                 std::span<const Mat<Dim>> /*velocity_gradient*/, double /*dt*/) {}
 
 template <int Dim>
-void Part<Dim>::add_relaxation(const Flow<Dim>& /*flow*/, const StepStart<Dim>& /*start*/, double /*dt*/,
+void Part<Dim>::add_relaxation(const Flow<Dim>& /*flow*/, const StepStart<Dim>& /*start*/,
                                std::vector<Vec<Dim>>& /*drive*/) const {}
 
 template <int Dim>

@@ -129,10 +129,10 @@ class Part {
   /// Adds to the rate [1/s] at which owned particles lose the velocity with which the step starts. `rate` is empty
   /// until a part adds to it. The step ends with (u + dt a)/(1 + rate dt), which is stable for any rate.
   virtual void add_damping_rate(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<double>& rate) const;
-  /// Adds rate times target [m/s^2] where a damping rate approaches a target velocity instead of rest. `drive` is empty
-  /// until a part adds to it. The step ends with (u + dt a + dt drive)/(1 + rate dt).
-  virtual void add_relaxation(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
-                              std::vector<Vec<Dim>>& drive) const;
+  /// Adds rate times target [m/s^2] where a damping rate approaches a target velocity instead of rest: that of the time
+  /// at which the step starts, so that a flow that is the target stays so. `drive` is empty until a part adds to it.
+  /// The step ends with (u + dt a + dt drive)/(1 + rate dt).
+  virtual void add_relaxation(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<Vec<Dim>>& drive) const;
   /// Adds to the acceleration [m/s^2] of owned particles.
   virtual void add_acceleration(const Flow<Dim>& flow, std::span<Vec<Dim>> acceleration) const;
 

@@ -43,7 +43,7 @@ void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::ve
   std::vector<Vec<Dim>> drive;
   for (const auto& part : flow.parts) {
     part->add_damping_rate(flow, start, rate);
-    part->add_relaxation(flow, start, dt, drive);
+    part->add_relaxation(flow, start, drive);
   }
   for_each(drive.size(), [&](std::size_t i) { acceleration[i] += drive[i]; });
   for_each(rate.size(), [&](std::size_t i) {

@@ -23,6 +23,9 @@ constexpr double weakest = 0.5;
 constexpr double strongest = 16.0;
 constexpr int strengths = 41;
 
+/// A zone that makes waves may reflect this much for a higher strength, which also replaces what its waves lose.
+constexpr double allowed_reflection = 0.02;
+
 /// The wave number of waves that lose their velocity at `rate`: omega (omega + i rate) = g k tanh kh, continued from
 /// the nearby solution `k`.
 Complex damped_wave_number(double omega, double rate, double gravity, double depth, Complex k) {
@@ -81,15 +84,17 @@ ZoneEstimate estimate_zone(double omega, double gravity, double depth, double le
 double best_strength(double omega, double gravity, double depth, double length, bool makes_waves) {
   double best = weakest * omega;
   double least = std::numeric_limits<double>::infinity();
+  double strongest_allowed = 0.0;
   for (int n = 0; n < strengths; ++n) {
     const double strength = omega * weakest * std::pow(strongest / weakest, n / (strengths - 1.0));
     const ZoneEstimate estimate = estimate_zone(omega, gravity, depth, length, strength);
+    if (makes_waves && estimate.worse() < allowed_reflection) strongest_allowed = strength;
     const double error = makes_waves ? estimate.worse() : estimate.reflection;
     if (error >= least) continue;
     least = error;
     best = strength;
   }
-  return best;
+  return std::max(best, strongest_allowed);
 }
 
 std::optional<ZoneWaves> waves_at(const CaseSpec& spec, const DampingTable& zone) {

@@ -22,7 +22,8 @@ struct ZoneEstimate {
 /// velocity at the local rate, and a wall behind the zone.
 ZoneEstimate estimate_zone(double omega, double gravity, double depth, double length, double strength);
 
-/// The strength [1/s] of the least reflection and, for a zone that makes waves, the least leak.
+/// The strength [1/s] of the least reflection. For a zone that makes waves: the largest with 2 % of reflection and
+/// leak, or the one with the least of both.
 double best_strength(double omega, double gravity, double depth, double length, bool makes_waves);
 
 /// Waves that meet a zone of a case: its own, or those of the only period of its makers. None if the case does not have

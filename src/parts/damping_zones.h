@@ -16,8 +16,7 @@ class DampingZones final : public Part<Dim> {
 
   std::string_view name() const override { return "damping_zones"; }
   void add_damping_rate(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<double>& rate) const override;
-  void add_relaxation(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
-                      std::vector<Vec<Dim>>& drive) const override;
+  void add_relaxation(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<Vec<Dim>>& drive) const override;
 
  private:
   std::vector<WaveZone<Dim>> zones_;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "case/driven_walls.h"
+#include "parts/damping_zones.h"
 #include "parts/wave_makers.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
@@ -346,6 +347,41 @@ TEST(WaveMaker, MovesAsItWasSteered) {
   }
   EXPECT_LT(expected, -1e-3);
   expect_all_in_front(flow);
+}
+
+// Water that moves as the zone's waves at the time at which a step starts feels no force; water at rest is driven.
+TEST(DampingZones, LeaveAFlowThatIsTheirTarget) {
+  CaseSpec spec = case_with({"", Integrator::explicit_projection}, 0.05);
+  spec.fluid = {water_box({0.0, 0.0}, {2.0, 0.4})};
+  spec.walls = {chain({{0.0, 0.8}, {0.0, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
+  DampingTable zone;
+  zone.min = {0.0, 0.0};
+  zone.max = {2.0, 0.8};
+  zone.strength = 5.0;
+  zone.waves = WaveKind::regular;
+  zone.height = 0.05;
+  zone.period = 1.2;
+  zone.depth = zone.level = 0.4;
+  spec.damping = {zone};
+  Flow<2> flow = make_flow<2>(spec);
+  flow.state.time = 3.1;
+  const WaveZone<2> waves(spec, zone);
+  StepStart<2> start;
+  start.position = flow.state.particles.position;
+  start.velocity.assign(flow.state.particles.owned, Vec<2>::Zero());
+  const auto& part = flow.part<DampingZones<2>>();
+  std::vector<double> rate;
+  part.add_damping_rate(flow, start, rate);
+  std::vector<Vec<2>> drive;
+  part.add_relaxation(flow, start, drive);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    if (!flow.state.particles.is_fluid(i)) continue;
+    const Vec<2> target = waves.target(start.position[i], 3.1);
+    EXPECT_LT((drive[i] - rate[i] * target).norm(), 1e-12);
+    largest = std::max(largest, drive[i].norm());
+  }
+  EXPECT_GT(largest, 0.1);
 }
 
 }  // namespace
