@@ -204,6 +204,7 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
     add_air_of<Dim>(enclosed_air_, air, flow_.state.particles.pressure);
   }
   const std::vector<Twist<Dim>> pressures = forces_of(flow_.state.particles.pressure, air);
+  last_forces_ = pressures;
   flow_.state.particles.pressure = solved;
   Eigen::VectorXd g(scale_.size());
   Eigen::VectorXd forces(scale_.size());
@@ -333,12 +334,27 @@ void BodyCoupling<Dim>::go_back_to(const Iterate& iterate) {
   flow_.state.particles.pressure = iterate.pressure;
 }
 
+/// Keeps the forces on bodies beside walls for probes, which divide those of pairs between walls.
+template <int Dim>
+void BodyCoupling<Dim>::report_forces(const std::vector<Twist<Dim>>& forces) {
+  for (std::size_t b = 0; b < forces.size(); ++b) {
+    const int beside = gaps_.wall_beside(static_cast<int>(b));
+    if (beside < 0) continue;
+    flow_.wall_forces.beside_walls.push_back({.body = static_cast<int>(b),
+                                              .beside = beside,
+                                              .centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time),
+                                              .force = forces[b].template head<Dim>(),
+                                              .moment = forces[b].template tail<turns<Dim>>()});
+  }
+}
+
 template <int Dim>
 void BodyCoupling<Dim>::finish() {
   Particles<Dim>& particles = flow_.state.particles;
   const std::vector<double> pressure = particles.pressure;
   enclosed_air_.subtract_pressure(std::span(particles.pressure).first(particles.owned));
   const Eigen::VectorXd g = residual();
+  if (enclosed_air_.state.pockets.empty()) report_forces(last_forces_);
   flow_.state.particles.pressure = pressure;
   std::vector<BodyState<Dim>>& bodies = flow_.state.motion.bodies.each;
   for (BodyState<Dim>& body : bodies) body.carried_over.setZero();

@@ -61,6 +61,7 @@ class BodyCoupling final : public CoupledUnknowns {
   Eigen::Map<Eigen::MatrixXd> inertia();
   Eigen::VectorXd on_freedoms(const std::vector<Twist<Dim>>& forces) const;
   std::vector<Twist<Dim>> forces_of(std::vector<double> pressure, const std::vector<double>& air) const;
+  void report_forces(const std::vector<Twist<Dim>>& forces);
   void add_air_stiffness();
   void remove_net_air_force();
 
@@ -73,8 +74,9 @@ class BodyCoupling final : public CoupledUnknowns {
   ForcesOnBodies<Dim> forces_;
   NarrowGaps<Dim> gaps_;
   std::vector<Freedom> freedoms_;
-  Eigen::VectorXd scale_;          ///< mass or moment of inertia of each degree of freedom
-  std::vector<Twist<Dim>> loads_;  ///< on each body: all but pressure, contacts and lines; the same in all passes
+  Eigen::VectorXd scale_;                ///< mass or moment of inertia of each degree of freedom
+  std::vector<Twist<Dim>> loads_;        ///< on each body: all but pressure, contacts and lines; the same in all passes
+  std::vector<Twist<Dim>> last_forces_;  ///< of the pressure on each body, in the last residual
   std::vector<OneSidedForce> one_sided_;  ///< contacts and lines
   std::vector<double> allowed_tension_;   ///< Pa; of all particles (pressure/tension.h)
   Eigen::VectorXd push_;                  ///< their sum, on each degree of freedom

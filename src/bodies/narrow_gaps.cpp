@@ -19,9 +19,6 @@ constexpr double closed_gap = 0.75;
 constexpr double open_gap = 1.0;
 /// [dx]; where no water is in a gap, its film counts less and less from there to here.
 constexpr double widest_film = 1.5;
-/// [dx]; from here on rows of particles press on a body by themselves. With what their pairs miss as well they would
-/// press by up to a fifth of the buoyancy too much.
-constexpr double resolved_gap = 1.75;
 
 /// [dx]; pieces up to here from another wall belong to a gap.
 constexpr double widest_gap = 3.0;
@@ -72,6 +69,7 @@ void NarrowGaps<Dim>::find_pieces(double time) {
     if (wall.distance >= widest) continue;
     const double gap = std::max(0.0, wall.distance);
     pieces_.push_back({.body = body,
+                       .other_wall = wall.wall,
                        .x = x,
                        .towards_body = wall.normal,
                        .gap = gap,
@@ -273,13 +271,14 @@ std::int32_t NarrowGaps<Dim>::nearest_piece(int body, const Vec<Dim>& x) const {
 template <int Dim>
 typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int body, const Vec<Dim>& x, double reach) const {
   const double dx = flow_.setup.scale.spacing;
-  OtherWall nearest{reach, Vec<Dim>::Zero()};
+  OtherWall nearest{-1, reach, Vec<Dim>::Zero()};
   for (std::size_t s = 0; s < bodies_.contact.each.size(); ++s) {
     const ContactSurface<Dim>& surface = bodies_.contact.each[s];
     if (surface.body == body) continue;
     const Vec<Dim> drawn = placements_[s].inverse(x);
     const NearestWall<Dim> wall = surface.boundary.nearest(drawn, reach);
     if (wall.face < 0 || wall.signed_distance >= nearest.distance) continue;
+    nearest.wall = surface.boundary.faces[wall.face].wall;
     nearest.distance = wall.signed_distance;
     nearest.normal = placements_[s].linear * (std::abs(wall.signed_distance) > corner_tolerance * dx
                                                   ? Vec<Dim>((drawn - wall.point) / wall.signed_distance)

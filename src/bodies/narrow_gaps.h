@@ -66,9 +66,26 @@ class NarrowGaps {
     }
   }
 
+  /// The nearest other wall of a body that has a force here, else -1.
+  int wall_beside(int body) const {
+    int wall = -1;
+    double least = resolved_gap * flow_.setup.scale.spacing;
+    for (const Piece& piece : pieces_) {
+      if (piece.body != body || piece.gap >= least) continue;
+      least = piece.gap;
+      wall = piece.other_wall;
+    }
+    return wall;
+  }
+
  private:
+  /// [dx]; from here on rows of particles press on a body by themselves. With what their pairs miss as well they would
+  /// press by up to a fifth of the buoyancy too much.
+  static constexpr double resolved_gap = 1.75;
+
   struct Piece {
     int body;
+    int other_wall;                    ///< index into Boundary::walls
     Vec<Dim> x;                        ///< on the body
     Vec<Dim> towards_body;             ///< from the wall
     double gap;                        ///< m
@@ -86,6 +103,7 @@ class NarrowGaps {
 
   /// What is nearest of all other walls.
   struct OtherWall {
+    int wall;         ///< index into Boundary::walls, or -1
     double distance;  ///< m; negative behind it
     Vec<Dim> normal;
   };

@@ -11,10 +11,12 @@
 #include "base/assert.h"
 #include "base/for_each.h"
 #include "case/formulation.h"
+#include "geometry/face.h"
 #include "geometry/facing.h"
 #include "geometry/from_spec.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
+#include "probes/force_shares.h"
 #include "probes/places.h"
 #include "probes/wall_pressure.h"
 #include "sampling/wall_particles.h"
@@ -22,81 +24,14 @@
 namespace tailwater {
 namespace {
 
-/// e: the fraction of a force that a patch takes whatever its normal. Without it, nearly parallel normals would enlarge
-/// forces along both of them by one over their angle. Ten times as much would mix the walls of a corner of 30 degrees.
-constexpr double indifference = 1e-3;
-
-/// Relative weight of patches that take no part in a force. It counts where there are no others.
+/// Weight of patches that take no part in a force, over that of the others. It counts where there are no others.
 constexpr double weight_of_others = 1e-6;
 
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
 constexpr double patch_margin = 1.0;
 
-template <int Dim>
-using Moment = Turn<Dim>;
-
-template <int Dim>
-struct WallLoads {
-  Vec<Dim> pressure = Vec<Dim>::Zero();
-  Vec<Dim> friction = Vec<Dim>::Zero();
-  Moment<Dim> moment = Moment<Dim>::Zero();
-  double power = 0.0;  ///< power of the walls on the water
-
-  WallLoads& operator+=(const WallLoads& other) {
-    pressure += other.pressure;
-    friction += other.friction;
-    moment += other.moment;
-    power += other.power;
-    return *this;
-  }
-  friend WallLoads operator+(WallLoads a, const WallLoads& b) { return a += b; }
-  Vec<Dim> force() const { return pressure + friction; }
-
-  /// Sums the loads of all ranks. Collective.
-  void gather(const Communicator& ranks) {
-    Eigen::Vector<double, 2 * Dim + turns<Dim> + 1> sums;
-    sums << pressure, friction, moment, power;
-    ranks.sum_of_each(std::span(sums.data(), sums.size()));
-    pressure = sums.template head<Dim>();
-    friction = sums.template segment<Dim>(Dim);
-    moment = sums.template segment<turns<Dim>>(2 * Dim);
-    power = sums[2 * Dim + turns<Dim>];
-  }
-};
-
-/// The sums of the A_k over patches near a particle, from which the fraction of some patches follows.
-template <int Dim>
-struct Shares {
-  double weight = 0.0;
-  Mat<Dim> normals = Mat<Dim>::Zero();  ///< sum of weight n n^T
-
-  void add(double weight_of_patch, const Vec<Dim>& n) {
-    weight += weight_of_patch;
-    normals += (weight_of_patch * n) * n.transpose();
-  }
-  /// The sum for pressure.
-  Mat<Dim> across() const { return normals + indifference * weight * Mat<Dim>::Identity(); }
-  /// The sum for friction.
-  Mat<Dim> along() const { return (1.0 + indifference) * weight * Mat<Dim>::Identity() - normals; }
-  Vec<Dim> across_inverse(const Vec<Dim>& force) const { return (across() / weight).inverse() * (force / weight); }
-  Vec<Dim> along_inverse(const Vec<Dim>& force) const { return (along() / weight).inverse() * (force / weight); }
-};
-
-struct PatchWeights {
-  double of_pressure;
-  double of_friction;
-};
-
-template <int Dim>
-struct Sharing {
-  Shares<Dim> of_pressure;
-  Shares<Dim> of_friction;
-
-  void add(double share, const PatchWeights& weights, const Vec<Dim>& n) {
-    of_pressure.add(share * weights.of_pressure, n);
-    of_friction.add(share * weights.of_friction, n);
-  }
-};
+/// dx; a patch that is so near to a wall that faces it is covered: water has no access to it.
+constexpr double reach_of_cover = 0.05;
 
 template <int Dim>
 class WallForceProbe {
@@ -107,7 +42,8 @@ class WallForceProbe {
         takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
         about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
                                           : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
-        reach_((1.5 * dummy_layers(spec) + patch_margin) * spec.particles.spacing),
+        spacing_(spec.particles.spacing),
+        reach_((1.5 * dummy_layers(spec) + patch_margin) * spacing_),
         paths_(boundary.walls.size()),
         body_of_(boundary.walls.size(), -1) {
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
@@ -133,10 +69,10 @@ class WallForceProbe {
     const std::vector<AffineMap<Dim>> velocity = find_velocities(context);
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       const WallLoads<Dim> whole = loads_at(context, i);
-      return whole.force().isZero(0.0) || takes_all_and_rests() ? whole : part_of(whole, context, i, velocity);
+      return whole.force().isZero(0.0) || takes_all_and_rests() ? whole : part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
-    return loads + loads_of_air(context, velocity);
+    return loads + loads_beside_walls(context, velocity) + loads_of_air(context, velocity);
   }
 
  private:
@@ -150,6 +86,8 @@ class WallForceProbe {
     centres_.resize(patches_.size());
     for_each(patches_.size(), [&](std::size_t k) { centres_[k] = patches_[k].centre(boundary); });
     grid_ = CellGrid<Dim>(centres_, reach_);
+    is_covered_.assign(patches_.size(), 0);
+    for_each(patches_.size(), [&](std::size_t k) { is_covered_[k] = is_under_wall(boundary, k) ? 1 : 0; });
     around_chosen_.setEmpty();
     for (std::size_t k = 0; k < patches_.size(); ++k) {
       if (chosen_[k] > 0.0) around_chosen_.extend(centres_[k]);
@@ -158,7 +96,68 @@ class WallForceProbe {
     around_chosen_.max().array() += reach_;
   }
 
-  /// For each wall the map from a place on it to its mean velocity there during the step.
+  /// Whether another wall lies on the patch, as a bed does below a block that stands on it.
+  bool is_under_wall(const Boundary<Dim>& boundary, std::size_t k) const {
+    const WallFace<Dim>& own = boundary.faces[patches_[k].face];
+    bool found = false;
+    grid_.for_each_near(centres_[k], [&](std::int32_t m) {
+      const WallFace<Dim>& other = boundary.faces[patches_[m].face];
+      if (found || other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) return;
+      found = (closest_point(other, centres_[k]) - centres_[k]).norm() < reach_of_cover * spacing_;
+    });
+    return found;
+  }
+
+  /// Beside another wall the pressure's force on a body is not that of its pairs alone. The rest has its reaction on
+  /// that wall, so the sum of all walls stays. Collective.
+  WallLoads<Dim> loads_beside_walls(const ProbeContext<Dim>& context,
+                                    const std::vector<AffineMap<Dim>>& velocity) const {
+    WallLoads<Dim> sum;
+    for (const ForceBesideWall<Dim>& one : context.wall_forces->beside_walls) {
+      const auto is_of_body = [&](int wall) { return body_of_[wall] == one.body; };
+      const bool has_body = takes_all_of(context.boundary, is_of_body);
+      const bool has_wall = takes_all_of(context.boundary, [&](int wall) { return wall == one.beside; });
+      if (has_body == has_wall) continue;
+      const WallLoads<Dim> of_pairs = pressure_of_pairs(context, velocity, is_of_body);
+      const double sign = has_body ? 1.0 : -1.0;
+      const Vec<Dim> force = one.force - of_pairs.pressure;
+      const Moment<Dim> about = moment(one.centre, one.force) + one.moment - of_pairs.moment;
+      const Moment<Dim> about_centre = about - moment(one.centre, force);
+      const BodyState<Dim>& body = context.bodies[one.body];
+      sum.pressure += sign * force;
+      sum.moment += sign * about;
+      if (has_body) sum.power -= force.dot(body.linear_velocity()) + about_centre.dot(body.angular_velocity());
+    }
+    return sum;
+  }
+
+  /// Whether the probe is for all of the walls for which is_part(wall).
+  template <class IsPart>
+  bool takes_all_of(const Boundary<Dim>& boundary, IsPart&& is_part) const {
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      if (chosen_[k] < 1.0 && is_part(boundary.faces[patches_[k].face].wall)) return false;
+    }
+    return true;
+  }
+
+  /// What pairs do to all of the walls for which is_part(wall), without friction. Collective.
+  template <class IsPart>
+  WallLoads<Dim> pressure_of_pairs(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
+                                   IsPart&& is_part) const {
+    std::vector<double> share(patches_.size());
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      share[k] = is_part(context.boundary.faces[patches_[k].face].wall) ? 1.0 : 0.0;
+    }
+    WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
+      WallLoads<Dim> whole = loads_at(context, i);
+      whole.friction.setZero();
+      return whole.pressure.isZero(0.0) ? WallLoads<Dim>() : part_of(whole, context, i, velocity, share);
+    });
+    loads.gather(context.ranks);
+    return loads;
+  }
+
+  /// Of each wall: from a place on it to its mean velocity there during the step.
   std::vector<AffineMap<Dim>> find_velocities(const ProbeContext<Dim>& context) const {
     std::vector<AffineMap<Dim>> maps(paths_.size(), {Mat<Dim>::Zero(), Vec<Dim>::Zero()});
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
@@ -208,20 +207,21 @@ class WallForceProbe {
     return wall.face < 0 ? x : wall.point;
   }
 
-  /// The part of the loads through particle i that belongs to this probe.
+  /// The part of the loads through particle i that patches with these shares take.
   WallLoads<Dim> part_of(const WallLoads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
-                         const std::vector<AffineMap<Dim>>& velocity) const {
+                         const std::vector<AffineMap<Dim>>& velocity, std::span<const double> taken) const {
     const Vec<Dim>& x = context.particles.position[i];
-    if (!takes_all_ && !around_chosen_.contains(x)) return {};
+    const bool is_own = taken.data() == chosen_.data();
+    if (is_own && !takes_all_ && !around_chosen_.contains(x)) return {};
     const bool is_water = context.particles.is_fluid(i);
     Sharing<Dim> all;
     Sharing<Dim> chosen;
     for_each_share_near(context.boundary, x, is_water, [&](std::int32_t k, const PatchWeights& weight, const auto& n) {
       all.add(1.0, weight, n);
-      if (chosen_[k] > 0.0) chosen.add(chosen_[k], weight, n);
+      if (taken[k] > 0.0) chosen.add(taken[k], weight, n);
     });
     WallLoads<Dim> loads;
-    if (all.of_pressure.weight == 0.0) return takes_all_ ? whole : loads;
+    if (all.of_pressure.weight == 0.0) return is_own && takes_all_ ? whole : loads;
     const Vec<Dim> pressure = all.of_pressure.across_inverse(whole.pressure);
     const Vec<Dim> friction = all.of_friction.along_inverse(whole.friction);
     loads.pressure = chosen.of_pressure.across() * pressure;
@@ -230,9 +230,9 @@ class WallForceProbe {
       for_each_share_near(
           context.boundary, x, is_water, [&](std::int32_t k, const PatchWeights& weight, const auto& n) {
             const int wall = context.boundary.faces[patches_[k].face].wall;
-            if (chosen_[k] == 0.0 || !moves(wall)) return;
+            if (taken[k] == 0.0 || !moves(wall)) return;
             Sharing<Dim> share;
-            share.add(chosen_[k], weight, n);
+            share.add(taken[k], weight, n);
             const Vec<Dim> force = share.of_pressure.across() * pressure + share.of_friction.along() * friction;
             loads.power -= force.dot(velocity[wall](x));
           });
@@ -246,6 +246,7 @@ class WallForceProbe {
   template <class Visit>
   void for_each_patch_near(const Vec<Dim>& x, Visit&& visit) const {
     grid_.for_each_near(x, [&](std::int32_t k) {
+      if (is_covered_[k] != 0) return;
       const Vec<Dim> offset = x - centres_[k];
       const double squared = offset.squaredNorm();
       if (squared >= reach_ * reach_) return;
@@ -284,14 +285,15 @@ class WallForceProbe {
   std::vector<double> chosen_;  ///< selected fraction of each patch
   bool takes_all_;
   Vec<Dim> about_;
+  double spacing_;                                   ///< m; dx
   double reach_;                                     ///< m; R
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
-  std::vector<Vec<Dim>> centres_;  ///< centres of the patches at their present places
-  CellGrid<Dim> grid_;             ///< grid of the centres
-  /// Contains all particles in whose loads selected patches have a part.
-  Eigen::AlignedBox<double, Dim> around_chosen_;
+  std::vector<Vec<Dim>> centres_;                 ///< of the patches, where they are
+  std::vector<std::uint8_t> is_covered_;          ///< whether no water reaches the patch
+  CellGrid<Dim> grid_;                            ///< of these
+  Eigen::AlignedBox<double, Dim> around_chosen_;  ///< all that chosen patches take a share of is in it
 };
 
 /// Largest and mean force so far, as numbers that a checkpoint saves.

@@ -11,6 +11,7 @@
 #include "geometry/meshes.h"
 #include "pressure/stages.h"
 #include "schemes/force_reader.h"
+#include "support/circle.h"
 
 namespace tailwater {
 namespace {
@@ -121,6 +122,75 @@ TEST(Sill, EachFaceHasTheForceOfWaterAtRest) {
     EXPECT_NEAR(means[k][0], expected[0], 0.01 * scale) << k;
     EXPECT_NEAR(means[k][1], expected[1], 0.01 * scale) << k;
   }
+}
+
+/// A block on the bed has no water below, so the pressure on its top presses it down. A pile that pierces the surface
+/// has no force. Neither takes what acts on the bed beside it: 1 % at 10 spacings across, of first order.
+TEST(BlockOnTheBed, HasTheForceOfTheWaterThatTouchesIt) {
+  for (const double dx : {0.04, 0.02}) {
+    for (const double top : {0.2, 0.6}) {
+      CaseSpec spec = chain_of_walls(dx, 0.4, {{-0.6, 0.6}, {-0.6, 0.0}, {0.6, 0.0}, {0.6, 0.6}});
+      spec.fluid[0].seed = {-0.5, 0.1};
+      if (top > 0.4) {
+        spec.fluid.push_back(spec.fluid[0]);
+        spec.fluid[1].seed = {0.5, 0.1};
+      }
+      WallTable block;
+      block.name = "block";
+      block.shape = WallShape::box;
+      block.min = {-0.1, 0.0};
+      block.max = {0.1, top};
+      block.fluid_side = FluidSide::outside;
+      spec.walls.push_back(block);
+      spec.probes = {force_probe({}, {"block"})};
+      const double scale = spec.physics.density * g * 0.2 * 0.2;
+      const double tolerance = 0.1 * dx / 0.2 * scale;
+      const std::vector<Row> means = mean_forces<2>(spec, 60);
+      EXPECT_NEAR(means[0][0], 0.0, tolerance) << dx << " " << top;
+      EXPECT_NEAR(means[0][1], top > 0.4 ? 0.0 : -scale, tolerance) << dx << " " << top;
+    }
+  }
+}
+
+/// A light cylinder comes off the bed. Its probe has what moves it: the impulse is the change of its momentum. Whatever
+/// the gap, tank and cylinder together have what the probe of all walls has.
+TEST(BodyOnTheBed, HasTheForceThatMovesIt) {
+  constexpr double R = 0.125;
+  CaseSpec spec = tank_case<2>(R / 6.0, 1.0, 0.6);
+  spec.walls[0].name = "tank";
+  WallTable hull;
+  hull.name = "hull";
+  hull.shape = WallShape::polygon;
+  hull.fluid_side = FluidSide::outside;
+  hull.points = circle(24, R, {0.5, R});
+  hull.drive = {Drive::By::body, 0};
+  spec.walls.push_back(hull);
+  BodyTable body;
+  body.name = "hull";
+  body.walls = {"hull"};
+  body.mass = 500.0 * std::numbers::pi * R * R;
+  body.centre = {0.5, R};
+  body.free = {"x", "y"};
+  body.velocity = {0.0, 0.0};
+  spec.bodies = {body};
+  spec.probes = {force_probe({}, {"hull"}), force_probe({}, {"tank"}), force_probe({})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const Reader<2> on_hull(spec, flow, 0);
+  const Reader<2> on_tank(spec, flow, 1);
+  const Reader<2> on_both(spec, flow, 2);
+  const BodyState<2>& hull_now = flow.state.motion.bodies.each[0];
+  double impulse = 0.0;
+  double duration = 0.0;
+  while (hull_now.centre[1] < 1.5 * R) {
+    const double dt = step(flow).dt;
+    duration += dt;
+    impulse += dt * on_hull.force(dt)[1];
+    const Vec<2> both = on_both.force(dt);
+    EXPECT_LT((on_hull.force(dt) + on_tank.force(dt) - both).norm(), 1e-9 * both.norm());
+  }
+  const double expected = body.mass * (hull_now.velocity[1] + g * duration);
+  EXPECT_NEAR(impulse, expected, 0.02 * expected);
 }
 
 /// Across a gap of three rows of water each wall has its own force. The forces must not act through the water between

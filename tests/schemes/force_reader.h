@@ -41,6 +41,7 @@ class Reader {
                .domain = flow_.setup.domain,
                .dt = dt,
                .wall_forces = &flow_.wall_forces,
+               .bodies = flow_.state.motion.bodies.each,
                .air_pressure = air_of(flow_).pressure_field()})
         .at(0);
   }
