@@ -123,10 +123,11 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
 
 /// Checks that no walls or water of the case are in the space of the duct that the program adds, or of a free jet.
 template <int Dim>
-void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end,
+void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& channel_end,
                         Findings& findings) {
   const double dx = spec.particles.spacing;
-  const double depth = end.meets_air ? lead_over_spacing * dx : duct_length(spec);
+  const Opening<Dim>& end = channel_end.mouth;
+  const double depth = end.meets_air ? lead_over_spacing * dx : channel_end.duct;
   for (const Vec<Dim>& x : places_beyond(end, depth, dx)) {
     const NearestWall<Dim> wall = boundary.nearest(x, wall_clearance * dx);
     if (wall.face < 0) continue;
@@ -191,18 +192,19 @@ void check_ducts_apart(const CaseSpec& spec, const std::vector<ChannelEnd<Dim>>&
 
 /// Returns whether the opening is sound.
 template <int Dim>
-bool check_fluid_beyond(const CaseSpec& spec, const Opening<Dim>& end, const FluidParticles<Dim>& fluid,
+bool check_fluid_beyond(const CaseSpec& spec, const ChannelEnd<Dim>& channel_end, const FluidParticles<Dim>& fluid,
                         Findings& findings) {
   struct Particle {
     Vec<Dim> place;
     int block;
   };
+  const Opening<Dim>& end = channel_end.mouth;
   const double layers = dummy_layers(spec) * spec.particles.spacing;  // of the walls of the duct
   std::vector<Particle> first;                                        // on each rank
   std::int64_t own = 0;
   for (std::size_t i = 0; i < fluid.position.size(); ++i) {
     const Vec<Dim>& x = fluid.position[i];
-    const bool is_beside_duct = !end.meets_air && end.beyond(x) < duct_length(spec) && end.aside(x) < layers;
+    const bool is_beside_duct = !end.meets_air && end.beyond(x) < channel_end.duct && end.aside(x) < layers;
     if (end.beyond(x) <= corner_tolerance * spec.particles.spacing || !(is_beside_duct || end.spans(x))) continue;
     if (own++ == 0) first.push_back({x, fluid.block[i]});
   }
@@ -238,13 +240,14 @@ void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Ope
 template <int Dim>
 Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Findings findings;
-  const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
+  const std::vector<Duct<Dim>> ducts = find_ducts(spec, boundary);
+  const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec, std::span<const Duct<Dim>>(ducts));
   for (const ChannelEnd<Dim>& end : ends) {
     check_direction(spec, end.mouth, findings);
     check_rim(spec, boundary, end.mouth, findings);
-    check_space_beyond(spec, boundary, end.mouth, findings);
+    check_space_beyond(spec, boundary, end, findings);
     check_beyond(spec, boundary, end, findings);
-    if (check_fluid_beyond(spec, end.mouth, fluid, findings)) check_facing(spec, boundary, end.mouth, findings);
+    if (check_fluid_beyond(spec, end, fluid, findings)) check_facing(spec, boundary, end.mouth, findings);
   }
   if (findings.empty()) check_ducts_apart(spec, ends, findings);
   return findings;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 
@@ -34,18 +35,14 @@ double text_width(std::string_view text) { return letter_width * font_size * sta
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else {
+      out += c;
     }
   }
   return out;
@@ -195,6 +192,19 @@ std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std:
   return rows;
 }
 
+/// Draws the ducts that the program adds beyond openings, in which the conditions of an opening hold.
+template <int Dim>
+void draw_ducts(Svg& svg, const std::vector<Duct<Dim>>& ducts, const View& view) {
+  for (const Duct<Dim>& duct : ducts) {
+    const std::vector<Vec<Dim>> rim = duct.mouth.rim();
+    const std::vector<Vec<Dim>> outer = duct.mouth.moved_out(duct.length).rim();
+    for (std::size_t c = 0; c < rim.size(); ++c) {
+      svg.line(view(project(rim[c])), view(project(outer[c])), opening_colour, 1.0);
+      svg.line(view(project(outer[c])), view(project(outer[(c + 1) % outer.size()])), opening_colour, 1.0);
+    }
+  }
+}
+
 /// Draws inlets and outlets, each with its name and an arrow in the direction of the flow.
 template <int Dim>
 void draw_open_ends(Svg& svg, const std::vector<Opening<Dim>>& ends, const View& view) {
@@ -228,8 +238,8 @@ bool is_drawn(const Boundary<Dim>& boundary, const WallParticles<Dim>& walls, st
 /// The extent of everything that the picture must show.
 template <int Dim>
 Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
-                 const std::vector<Opening<Dim>>& ends, const std::vector<Marker>& markers,
-                 std::span<const Vec<Dim>> bad_places) {
+                 const std::vector<Opening<Dim>>& ends, const std::vector<Duct<Dim>>& ducts,
+                 const std::vector<Marker>& markers, std::span<const Vec<Dim>> bad_places) {
   Extent extent;
   const auto include_faces = [&](const std::vector<WallFace<Dim>>& faces) {
     for (const WallFace<Dim>& face : faces) {
@@ -242,6 +252,7 @@ Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid
   }
   include_faces(boundary.faces);
   for (const Opening<Dim>& end : ends) include_faces(end.as_faces());
+  for (const Duct<Dim>& duct : ducts) include_faces(duct.mouth.moved_out(duct.length).as_faces());
   for (const Marker& marker : markers) {
     for (const Vec<2>& x : marker.points) {
       if (!marker.is_vertical) extent.include(x);
@@ -352,7 +363,8 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   const double dx = spec.particles.spacing;
   const std::vector<Marker> markers = markers_of(spec);
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
-  View view = fitted_view(extent_of(boundary, fluid, walls, ends, markers, bad_places), dx);
+  const std::vector<Duct<Dim>> ducts = find_ducts(spec, boundary);
+  View view = fitted_view(extent_of(boundary, fluid, walls, ends, ducts, markers, bad_places), dx);
 
   std::vector<double> label_x;
   std::vector<std::string> names;
@@ -385,6 +397,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   draw_fluid(svg, spec, fluid, view, diameter);
   draw_walls(svg, boundary, view);
   draw_refinement<Dim>(svg, spec, view);
+  draw_ducts(svg, ducts, view);
   draw_open_ends(svg, ends, view);
   draw_axes(svg, view);
   svg.text(0.5 * (view.left + view.right()), view.bottom() + 42.0, "middle", "x (m)");

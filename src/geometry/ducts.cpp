@@ -197,6 +197,15 @@ bool is_in_periodic_plane(const CaseSpec& spec, const Vec<Dim>& x) {
 }
 
 template <int Dim>
+std::vector<Duct<Dim>> find_ducts(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  std::vector<Duct<Dim>> ducts;
+  for (const Opening<Dim>& mouth : make_open_ends<Dim>(spec)) {
+    if (!mouth.meets_air) ducts.push_back({mouth, Rim<Dim>(spec, boundary, mouth).length()});
+  }
+  return ducts;
+}
+
+template <int Dim>
 void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary) {
   const std::vector<Opening<Dim>> mouths = make_open_ends<Dim>(spec);
   for (const Opening<Dim>& mouth : mouths) {
@@ -212,6 +221,7 @@ void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary) {
 
 TAILWATER_IN_2D_AND_3D(rim_tolerance);
 TAILWATER_IN_2D_AND_3D(is_in_periodic_plane);
+TAILWATER_IN_2D_AND_3D(find_ducts);
 TAILWATER_IN_2D_AND_3D(append_ducts);
 
 }  // namespace tailwater

@@ -23,6 +23,10 @@ double rim_tolerance(const Opening<Dim>& opening);
 template <int Dim>
 bool is_in_periodic_plane(const CaseSpec& spec, const Vec<Dim>& x);
 
+/// The ducts of a case whose walls are in `boundary`, without walls of their own.
+template <int Dim>
+std::vector<Duct<Dim>> find_ducts(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
 /// Adds the ducts and their walls, one wall for each opening that has some: without friction, facing the inside, joined
 /// to the walls on which the rim of the opening lies. Parts of the rim that are on no wall, or in a periodic plane,
 /// stay open. Where walls of the case lead on along the normal, those of the duct begin at their end.

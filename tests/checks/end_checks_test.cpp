@@ -84,14 +84,27 @@ TEST(EndChecks, TheSpaceBeyondIsFree) {
   EXPECT_EQ(errors_of(spec), "");
 }
 
+/// Where the walls lead straight to an opening, its duct has no lead: 4 spacings, 0.08 m, must be free.
+TEST(EndChecks, TheSpaceBeyondIsShortWhereWallsLeadToTheOpening) {
+  CaseSpec spec = tank_over_slot();
+  spec.walls[0].points.push_back({0.4, -0.2});
+  spec.walls[1].points.insert(spec.walls[1].points.begin(), {0.6, -0.2});
+  spec.outlets[0].from = {0.4, -0.2};
+  spec.outlets[0].to = {0.6, -0.2};
+  spec.walls.push_back(polyline({{0.3, -0.3}, {0.7, -0.3}}));
+  EXPECT_EQ(errors_of(spec), "");
+  spec.walls.back() = polyline({{0.3, -0.27}, {0.7, -0.27}});
+  EXPECT_NE(errors_of(spec).find("up to 0.08 m outside of it must be free"), std::string::npos) << errors_of(spec);
+}
+
 TEST(EndChecks, DuctsDoNotMeet) {
   CaseSpec spec = empty_case(0.02);
-  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.3, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
-  spec.outlets = {outlet({1.0, 0.0}, {1.0, 0.5}), outlet({1.3, 0.0}, {1.3, 0.5})};
+  spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.125, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
+  spec.outlets = {outlet({1.0, 0.0}, {1.0, 0.5}), outlet({1.125, 0.0}, {1.125, 0.5})};  // ducts of 4 spacings
   spec.outlets[1].direction = {-1.0, 0.0};
   spec.outlets[0].level = spec.outlets[1].level = Varying{0.3};
   const std::string refused = errors_of(spec);
-  EXPECT_NE(refused.find("outlet 'outlet1' and outlet 'outlet2' share the space at (1.1, "), std::string::npos)
+  EXPECT_NE(refused.find("outlet 'outlet1' and outlet 'outlet2' share the space at (1.05"), std::string::npos)
       << refused;
 }
 

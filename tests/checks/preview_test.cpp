@@ -61,7 +61,10 @@ TEST(Preview, Projects3DOnXAndZ) {
 TEST(Preview, ShowsOutlets) {
   CaseSpec spec = open_channel();
   spec.outlets[0].name = "weir & end";
-  EXPECT_NE(preview<2>(spec).find(">weir &amp; end</text>"), std::string::npos);
+  const std::string svg = preview<2>(spec);
+  EXPECT_NE(svg.find(">weir &amp; end</text>"), std::string::npos);
+  EXPECT_EQ(occurrences(svg, R"(stroke="#1e8449" stroke-width="1"/>)"), 4 * (spec.inlets.size() + spec.outlets.size()))
+      << "the ducts beyond the ends";
   spec.outlets.clear();
   EXPECT_EQ(preview<2>(spec).find("weir"), std::string::npos);
 }
