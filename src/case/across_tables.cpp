@@ -211,7 +211,7 @@ void check_porous(const CaseSpec& spec, const toml::table& root, Problems& probl
   }
 }
 
-/// What a thick liquid is not computed with, and the two numbers of [physics] that it replaces.
+/// Refuses features that are not computed with a thick liquid, and the two numbers of [physics] that it replaces.
 void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root, const LiquidTable& liquid,
                                   Problems& problems) {
   const auto check_number = [&](const char* key, double of_liquid) {
@@ -252,7 +252,7 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
   }
 }
 
-/// All water of a case is of one liquid, whose solve of viscous forces knows walls, but not what else acts on water.
+/// All water of a case is one liquid. Its solve of viscous forces includes walls, but no other feature that acts on water.
 void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const LiquidTable* const liquid = liquid_of(spec);
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {

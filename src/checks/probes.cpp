@@ -91,7 +91,7 @@ Eigen::AlignedBox<double, Dim> swept_box(const CaseSpec& spec, const Boundary<Di
   const WallPath<Dim> path(spec, spec.walls[wall], wall_label(drawn, wall));
   for (int k = 0; k <= looks_at_walls; ++k) {
     const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_walls);
-    if (!map.linear.allFinite() || !map.constant.allFinite()) continue;  // told by check_paths
+    if (!map.linear.allFinite() || !map.constant.allFinite()) continue;  // check_paths reports this
     for (const WallFace<Dim>& face : drawn.faces) {
       if (face.wall == wall) box.extend(moved(map, face).box());
     }

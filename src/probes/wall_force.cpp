@@ -140,7 +140,7 @@ class WallForceProbe {
     return true;
   }
 
-  /// What pairs do to all of the walls for which is_part(wall), without friction. Collective.
+  /// The forces of pairs on all walls for which is_part(wall), without friction. Collective.
   template <class IsPart>
   WallLoads<Dim> pressure_of_pairs(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
                                    IsPart&& is_part) const {
@@ -157,7 +157,7 @@ class WallForceProbe {
     return loads;
   }
 
-  /// Of each wall: from a place on it to its mean velocity there during the step.
+  /// For each wall, the map from a place on it to its mean velocity there during the step.
   std::vector<AffineMap<Dim>> find_velocities(const ProbeContext<Dim>& context) const {
     std::vector<AffineMap<Dim>> maps(paths_.size(), {Mat<Dim>::Zero(), Vec<Dim>::Zero()});
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
@@ -293,7 +293,7 @@ class WallForceProbe {
   std::vector<Vec<Dim>> centres_;                 ///< of the patches, where they are
   std::vector<std::uint8_t> is_covered_;          ///< whether no water reaches the patch
   CellGrid<Dim> grid_;                            ///< of these
-  Eigen::AlignedBox<double, Dim> around_chosen_;  ///< all that chosen patches take a share of is in it
+  Eigen::AlignedBox<double, Dim> around_chosen_;  ///< contains all forces of which chosen patches take a fraction
 };
 
 /// Largest and mean force so far, as numbers that a checkpoint saves.

@@ -192,7 +192,7 @@ class OnWalls(PackageTest):
         return share * (first * np.sin(omega * time) + (second * np.exp(2j * omega * time)).real)
 
     def wave_numbers(self, omega, depth, count=60):
-        """Of the travelling mode, and -i times those of the modes that decay from the plate, 1/m."""
+        """Wave numbers of the travelling mode, and -i times those of the modes that decay from the plate, 1/m."""
         deep = omega**2 * depth / 9.81
         found = [brentq(lambda y: y * np.tanh(y) - deep, 1e-3, 99)]
         for j in range(1, count + 1):

@@ -152,8 +152,8 @@ TEST(BlockOnTheBed, HasTheForceOfTheWaterThatTouchesIt) {
   }
 }
 
-/// A light cylinder comes off the bed. Its probe has what moves it: the impulse is the change of its momentum. Whatever
-/// the gap, tank and cylinder together have what the probe of all walls has.
+/// A light cylinder leaves the bed. The impulse of its probe is the change of its momentum. For any gap, the forces on
+/// tank and cylinder add up to that of the probe of all walls.
 TEST(BodyOnTheBed, HasTheForceThatMovesIt) {
   constexpr double R = 0.125;
   CaseSpec spec = tank_case<2>(R / 6.0, 1.0, 0.6);
