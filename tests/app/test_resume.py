@@ -23,7 +23,8 @@ OUTLET = ("--set", "wall[0].points=[[0, 2], [0, 0], [1.3, 0]]", "--set",
 WAVES = ("--set", "wall[0].points=[[-0.5, 2], [-0.5, 0], [3, 0], [3, 2]]", "--set",
          "wave_maker=[{from=[0, 0], to=[0, 1.5], depth=0.5, waves='regular', height=0.05, period=0.8, ramp=0.1, "
          "absorption='active'}]",
-         "--set", "damping=[{min=[0.5, 0], max=[1, 1], strength=5}]")
+         "--set", "damping=[{min=[0.5, 0], max=[1, 1], strength=5, waves='regular', height=0.05, period=0.8, depth=0.5, "
+         "level=0.5}]")
 ROLL = ("--set", "wall[0].motion='roll.csv'")
 FLUME = ("--set", "wall[0].points=[[0, 0], [1.3, 0]]", "--set", "fluid[0].velocity=[1, 0]", "--set",
          "fluid[0].max=[1.3, 0.5]", "--set", "inlet=[{name='in', from=[0, 0], to=[0, 2], discharge='0.5+0.1*sin(30*t)', "
@@ -57,7 +58,7 @@ CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "
 # Every feature whose state a run carries from step to step; all runs have warned before their first checkpoint.
 FEATURES = {
     "implicit integrator and a gate": ("--set", "scheme.integrator=implicit", *GATE),
-    "a wave maker that absorbs, and a damping zone": WAVES,
+    "a wave maker that absorbs, and a zone of waves": WAVES,
     "a tank that a file rolls": ROLL,
     "water that enters a porous layer": ROCK,
     "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),
