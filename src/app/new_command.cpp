@@ -35,6 +35,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"run-up", templates::run_up},
     {"wave-flume", templates::wave_flume},
     {"rubble-mound", templates::rubble_mound},
+    {"tailings", templates::tailings},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
     {"floating-box", templates::floating_box},
@@ -115,6 +116,7 @@ void add_new_command(CLI::App& app, ExitCode&) {
       "  pier            3D dam break against a pier from a mesh file\n"
       "  wave-flume      regular waves, wave gauges and a damping zone\n"
       "  rubble-mound    regular waves on a porous breakwater of two layers\n"
+      "  tailings        tailings run out over a slope until they stop\n"
       "  solitary-wave   solitary wave from a piston\n"
       "  sloshing        water in a rolling tank\n"
       "  floating-box    floating body on two mooring lines");

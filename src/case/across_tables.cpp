@@ -234,6 +234,16 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
                  fmt::format("{}[0]: {} not computed with liquid \"{}\"; remove the table, or the liquid", table, what,
                              liquid.name));
   };
+  for (std::size_t k = 0; k < spec.walls.size(); ++k) {
+    for (const char* key : {"roughness", "manning"}) {
+      const toml::node* node = root["wall"][k][key].node();
+      if (node == nullptr || (spec.walls[k].roughness == 0.0 && spec.walls[k].manning == 0.0)) continue;
+      problems.wrong(CaseLabel("wall", k).with_key(key), *node,
+                     fmt::format("rough walls are not computed with liquid \"{}\", whose friction is that of a smooth "
+                                 "wall; remove the key",
+                                 liquid.name));
+    }
+  }
   refuse("porous", !spec.porous.empty(), "porous layers are");
   refuse("body", !spec.bodies.empty(), "floating bodies are");
   refuse("inlet", !spec.inlets.empty(), "inlets are");

@@ -31,6 +31,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   if (!has_error(findings)) append(findings, check_closed_space(spec, boundary, fluid));
   append(findings, check_wave_makers(spec, fluid));
   if (!has_error(flows)) append(findings, check_speeds<Dim>(spec));
+  append(findings, check_creep(spec, fluid));
   append(findings, check_late_starts(spec));
   append(findings, check_bodies(spec, boundary));
   append(findings, check_body_gaps(spec, boundary));

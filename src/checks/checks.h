@@ -109,6 +109,11 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
+/// Warning: a liquid that creeps below its yield stress by more than a spacing until the end of the run, or faster than
+/// the speed at which the run ends at rest. Collective.
+template <int Dim>
+Findings check_creep(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
+
 /// Warning: a gate or a wave maker that starts after the end of the run.
 Findings check_late_starts(const CaseSpec& spec);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
+#include "rheology/thick_liquid.h"
 
 namespace tailwater {
 
@@ -15,8 +16,10 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
   // Before the first step there are no work fields: the start is a lattice without marks.
   const bool has_work_fields = !flow.surroundings.concentration.empty();
+  const auto& thick = flow.template part<ThickLiquid<Dim>>();
   const auto make_room = [&](auto&... field) { (field.reserve(fluid.size()), ...); };
-  make_room(position_, velocity_, pressure_, density_error_, is_surface_, eddy_viscosity_, id_);
+  make_room(position_, velocity_, pressure_, density_error_, is_surface_, eddy_viscosity_, shear_rate_, viscosity_,
+            id_);
   for (const std::size_t i : fluid) {
     position_.push_back(particles.position[i]);
     velocity_.push_back(particles.velocity[i]);
@@ -25,6 +28,8 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
     is_surface_.push_back(has_work_fields ? flow.surroundings.is_surface[i] : 0);
     eddy_viscosity_.push_back(
         spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], flow.setup.liquid.viscosity.molecular));
+    shear_rate_.push_back(thick.shear_rate(i));
+    viscosity_.push_back(thick.viscosity(i));
     id_.push_back(particles.id[i]);
   }
 }
@@ -38,6 +43,8 @@ ParticleFields<Dim> FluidFields<Dim>::view() const {
     if (name == "density_error") result.fields.push_back({name, density_error_});
     if (name == "is_free_surface") result.fields.push_back({name, is_surface_});
     if (name == "eddy_viscosity") result.fields.push_back({name, eddy_viscosity_});
+    if (name == "shear_rate") result.fields.push_back({name, shear_rate_});
+    if (name == "viscosity") result.fields.push_back({name, viscosity_});
     if (name == "id") result.fields.push_back({name, id_});
   }
   return result;

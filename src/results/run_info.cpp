@@ -224,6 +224,13 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
   if (const auto air = summary.find("pockets"); air != summary.end()) {
     lines.push_back({"air", air_line(*air, per_metre(summary))});
   }
+  if (const auto liquid = summary.find("liquid"); liquid != summary.end()) {
+    lines.push_back(
+        {"liquid", fmt::format("{} ({}), viscous forces solved for in {:.0f} iterations in the last step; "
+                               "{:.3g} of the volume flowed",
+                               text_of_key(*liquid, "name"), text_of_key(*liquid, "rheology"),
+                               number_of(*liquid, "viscous_iterations"), number_of(*liquid, "yielded_fraction"))});
+  }
   const Json& energy = summary.at("energy");
   lines.push_back({"energy", fmt::format("{:.6g} J{} at the start, {:.6g} at the end, largest rise {:.2g}",
                                          number_of(energy, "start_J"), per_metre(summary), number_of(energy, "end_J"),

@@ -1,17 +1,18 @@
 #include "rheology/thick_liquid.h"
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "base/for_each.h"
 #include "case/rheology.h"
 #include "flow/flow.h"
 #include "flow/stages.h"
+#include "io/messages.h"
 #include "rheology/viscous_solve.h"
 
 namespace tailwater {
 namespace {
 
-constexpr double tolerance = 1e-5;
+constexpr double tolerance = 1e-4;
 constexpr int most_iterations = 2000;
 
 /// Passes in which the law follows the velocity of the same step, at most, and the change of the velocity at which they
@@ -32,6 +33,21 @@ void ThickLiquid<Dim>::find_viscosity(const Flow<Dim>& flow, std::span<const Vec
     if (particles.is_fluid(i)) viscosity[i] = viscosity_at(liquid_, shear_rate_[i]);
   });
   forces_.set_viscosity(flow, viscosity);
+}
+
+/// The fraction of the volume that is sheared faster than it creeps at the yield stress. Collective.
+template <int Dim>
+double ThickLiquid<Dim>::find_yielded_fraction(const Flow<Dim>& flow) const {
+  const Particles<Dim>& particles = flow.state.particles;
+  double yielded = 0.0;
+  double all = 0.0;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return;
+    all += particles.volume[i];
+    if (shear_rate_[i] * liquid_.rest_viscosity >= liquid_.yield_stress) yielded += particles.volume[i];
+  });
+  flow.setup.ranks.sum_each(yielded, all);
+  return all > 0.0 ? yielded / all : 0.0;
 }
 
 /// Finds v. `force` [m/s^2] is that of gravity and the last pressure.
@@ -89,6 +105,8 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
     if (particles.is_fluid(i)) predicted[i] = velocity_[i] - dt * force[i];
   });
 
+  yielded_fraction_ = find_yielded_fraction(flow);
+
   std::vector<Vec<Dim>> viscous(particles.owned);
   forces_.find_forces(flow, velocity_, viscous);
   work_ = dt * sum_over(particles.owned, 0.0, [&](std::size_t i) {
@@ -120,11 +138,26 @@ void ThickLiquid<Dim>::add_work(const Flow<Dim>& /*flow*/, const std::vector<dou
 
 template <int Dim>
 std::vector<StepColumn> ThickLiquid<Dim>::step_columns() const {
-  return {{"viscous_iterations", static_cast<double>(iterations_)}};
+  return {{"viscous_iterations", static_cast<double>(iterations_)}, {"yielded_fraction", yielded_fraction_}};
 }
 
 template <int Dim>
-void ThickLiquid<Dim>::warn(const Flow<Dim>& /*flow*/) {}
+void ThickLiquid<Dim>::add_to_summary(const Flow<Dim>& /*flow*/, Json& summary) const {
+  summary["liquid"] = {{"name", liquid_.name},
+                       {"rheology", name_of(liquid_.rheology)},
+                       {"viscous_iterations", iterations_},
+                       {"yielded_fraction", yielded_fraction_}};
+}
+
+template <int Dim>
+void ThickLiquid<Dim>::warn(const Flow<Dim>& flow) {
+  if (has_converged_ || has_warned_) return;
+  has_warned_ = true;
+  tailwater::warn(
+      "the viscous forces at {:.6g} s did not converge within {} iterations; remedy: give liquid '{}' a smaller "
+      "rest_viscosity",
+      flow.state.time, most_iterations, liquid_.name);
+}
 
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_thick_liquid(const CaseSpec& spec, const Setup<Dim>& setup,

@@ -27,21 +27,28 @@ class ThickLiquid final : public Part<Dim> {
   ThickLiquid() = default;
   explicit ThickLiquid(const LiquidTable& liquid) : liquid_(liquid) {}
 
+  /// Shear rate [1/s] and dynamic viscosity [Pa s] of owned particle i in the last step; 0 before the first one.
+  double shear_rate(std::size_t i) const { return i < shear_rate_.size() ? shear_rate_[i] : 0.0; }
+  double viscosity(std::size_t i) const { return i < forces_.viscosity().size() ? forces_.viscosity()[i] : 0.0; }
+
   std::string_view name() const override { return "thick_liquid"; }
   void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
                          std::span<Vec<Dim>> predicted) override;
   void correct(Flow<Dim>& flow, double dt) override;
   void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
   std::vector<StepColumn> step_columns() const override;
+  void add_to_summary(const Flow<Dim>& flow, Json& summary) const override;
   void warn(const Flow<Dim>& flow) override;
 
  private:
   void solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt, std::span<const Vec<Dim>> predicted);
+  double find_yielded_fraction(const Flow<Dim>& flow) const;
   void find_viscosity(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity);
 
   LiquidTable liquid_;
   ViscousOperator<Dim> forces_;
-  int iterations_ = 0;  ///< of the last step
+  int iterations_ = 0;             ///< of the last step
+  double yielded_fraction_ = 0.0;  ///< of the volume of the fluid, on all ranks, in the last step
   bool has_converged_ = true;
   bool has_warned_ = false;
 

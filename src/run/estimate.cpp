@@ -62,10 +62,12 @@ CaseSpec tank_instead_of(const CaseSpec& spec, double fluid) {
   tank.scheme = spec.scheme;
   tank.pressure_solver = spec.pressure_solver;
   tank.time = spec.time;
+  tank.liquids = spec.liquids;
   FluidTable water;
   water.min.assign(Dim, 0.0);
   water.max.assign(Dim, side);
   water.velocity.assign(Dim, 0.0);
+  if (!spec.fluid.empty()) water.liquid = spec.fluid[0].liquid;
   tank.fluid.push_back(water);
   WallTable wall;
   wall.shape = WallShape::box;
@@ -183,6 +185,7 @@ template <int Dim>
 RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs) {
   RunEstimate estimate;
   estimate.particles.wall = static_cast<double>(flow.walls.all);
+  estimate.has_implicit_viscosity = flow.setup.has_implicit_viscosity;
   const Particles<Dim>& particles = flow.state.particles;
   estimate.particles.fluid =
       static_cast<double>(count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); }));

@@ -25,14 +25,15 @@ template <int Dim>
 Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, double available);
 
 struct RunEstimate {
-  ParticleCount particles;     ///< at the start
-  double water = 0.0;          ///< m^Dim; at the start
-  double largest_fluid = 0.0;  ///< maximum number of fluid particles, including inflow
-  double memory = 0.0;         ///< bytes
-  double steps = 0.0;          ///< steps to the end, if speeds stay near those of free fall through the fluid's height
-  double seconds = 0.0;        ///< of CPU time on this machine, from trial steps
-  bool is_from_tank = false;   ///< the trial steps were those of a tank, and `seconds` is only a first guess
-  bool grows_much = false;     ///< because far more water comes in than there is at the start
+  bool has_implicit_viscosity = false;  ///< viscous forces do not limit the step
+  ParticleCount particles;              ///< at the start
+  double water = 0.0;                   ///< m^Dim; at the start
+  double largest_fluid = 0.0;           ///< maximum number of fluid particles, including inflow
+  double memory = 0.0;                  ///< bytes
+  double steps = 0.0;         ///< steps to the end, if speeds stay near those of free fall through the fluid's height
+  double seconds = 0.0;       ///< of CPU time on this machine, from trial steps
+  bool is_from_tank = false;  ///< the trial steps were those of a tank, and `seconds` is only a first guess
+  bool grows_much = false;    ///< because far more water comes in than there is at the start
 };
 
 /// Pairs of neighbours with which a step takes about a second. Measured: a step of 190 000 particles in 2D, which is

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "case/named_numbers.h"
+#include "case/rheology.h"
 #include "motion/wave_theory.h"
 #include "motion/wave_zone.h"
 #include "results/progress.h"
@@ -63,7 +64,39 @@ std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
                      fmt::format("{:.0f}", estimate.particles.fluid), dx, about_refinement(spec));
 }
 
-std::string about_physics(const CaseSpec& spec) {
+/// The law of a liquid with its numbers.
+std::string law_of(const LiquidTable& liquid) {
+  switch (liquid.rheology) {
+    case Rheology::newtonian:
+      return fmt::format("a viscosity of {:.4g} Pa s", liquid.viscosity);
+    case Rheology::power_law:
+      return fmt::format("a consistency of {:.4g} Pa s^n with the index {:.3g}", liquid.consistency, liquid.index);
+    case Rheology::bingham:
+      return fmt::format("a yield stress of {:.4g} Pa and a plastic viscosity of {:.4g} Pa s", liquid.yield_stress,
+                         liquid.viscosity);
+    case Rheology::herschel_bulkley:
+      return fmt::format("a yield stress of {:.4g} Pa and a consistency of {:.4g} Pa s^n with the index {:.3g}",
+                         liquid.yield_stress, liquid.consistency, liquid.index);
+    case Rheology::carreau:
+      break;
+  }
+  return fmt::format("a viscosity of {:.4g} Pa s at rest and {:.4g} Pa s at high shear rates", liquid.viscosity,
+                     liquid.high_shear_viscosity);
+}
+
+std::string about_liquid(const CaseSpec& spec, const LiquidTable& liquid, bool is_implicit) {
+  std::string text = fmt::format(
+      "Gravity is {:.4g} m/s^2. The liquid '{}' ({}) has a density of {:.4g} kg/m^3, and {}.",
+      gravity_magnitude(spec.physics), liquid.name, name_of(liquid.rheology), liquid.density, law_of(liquid));
+  if (liquid.yield_stress > 0.0) {
+    text += fmt::format(" Below its yield stress it creeps, with {:.3g} Pa s.", viscosity_at_rest(liquid));
+  }
+  return text + (is_implicit ? " Its viscous forces are solved for implicitly and do not shorten the time step."
+                             : " Its viscous forces are explicit, as those of water.");
+}
+
+std::string about_physics(const CaseSpec& spec, bool is_implicit) {
+  if (const LiquidTable* const liquid = liquid_of(spec)) return about_liquid(spec, *liquid, is_implicit);
   const PhysicsTable& physics = spec.physics;
   std::string text = fmt::format("Gravity is {:.4g} m/s^2, the density {:.4g} kg/m^3, the viscosity {:.3g} m^2/s",
                                  gravity_magnitude(physics), physics.density, physics.viscosity);
@@ -233,7 +266,7 @@ std::vector<std::string> explain_case(const CaseSpec& spec, const RunEstimate& e
   add_bodies(spec, sentences);
   add_open_ends(spec, sentences);
   add_air(spec, sentences);
-  sentences.push_back(about_physics(spec));
+  sentences.push_back(about_physics(spec, estimate.has_implicit_viscosity));
   sentences.push_back(about_probes(spec));
   sentences.push_back(about_method(spec));
   sentences.push_back(about_cost(spec, estimate));

@@ -746,6 +746,25 @@ TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
   EXPECT_NE(listed(check(spec)).find("do not work with walls that move"), std::string::npos) << listed(check(spec));
 }
 
+// A yield stress of 20 Pa, a depth of 1 m or less and 100 Pa s make a creep of at most 0.1 m/s.
+TEST(Check, ALiquidThatCreepsFarIsReported) {
+  CaseSpec spec = tank();
+  spec.time.end = 10.0;
+  LiquidTable mud;
+  mud.name = "mud";
+  mud.rheology = Rheology::bingham;
+  mud.viscosity = 1.0;
+  mud.yield_stress = 20.0;
+  mud.rest_viscosity = 1e6;
+  spec.liquids = {mud};
+  spec.fluid[0].liquid = "mud";
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.liquids[0].rest_viscosity = 100.0;
+  expect_only(check(spec), Severity::warning, {"liquid 'mud'", "rest_viscosity", "creeps at up to", "until the end"});
+  spec.time.end_at_rest = 1e-3;
+  expect_only(check(spec), Severity::warning, {"liquid 'mud'", "may not end at rest", "time.end_at_rest"});
+}
+
 TEST(Check, AStartAfterTheEndIsTold) {
   CaseSpec spec = tank();
   spec.time.end = 1.0;
