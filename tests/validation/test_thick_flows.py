@@ -1,0 +1,76 @@
+"""Solutions for thick liquids, by the equations that they must satisfy, and the scores of made-up runs."""
+
+import unittest
+
+import numpy as np
+
+from test_exact_flows import RunTest, lattice
+from tailwater_validation import thick_flows
+
+SLUMP = """\
+[parameters]
+L = 0.2
+H = 0.1
+[case]
+dimension = 2
+[physics]
+density = 1000.0
+gravity = [0.0, -9.81]
+[particles]
+spacing = 0.005
+[[liquid]]
+density = 1000.0
+viscosity = 100.0
+yield_stress = 30.0
+"""
+
+
+class Film(unittest.TestCase):
+    def test_profile_has_the_stress_of_its_law(self):
+        depth, force, consistency, index, yield_stress, h = 1.0, 1000.0, 50.0, 0.6, 300.0, 1e-5
+        y = np.array([0.1, 0.4, 0.6])
+        rate = (thick_flows.film_velocity(y + h, depth, force, consistency, index, yield_stress)
+                - thick_flows.film_velocity(y - h, depth, force, consistency, index, yield_stress)) / (2 * h)
+        np.testing.assert_allclose(yield_stress + consistency * rate**index, force * (depth - y), rtol=1e-6)
+
+    def test_plug_has_one_speed_and_the_bed_none(self):
+        speeds = thick_flows.film_velocity(np.array([0.0, 0.7, 1.0]), 1.0, 1000.0, 50.0, 1.0, 300.0)
+        self.assertEqual(speeds[0], 0.0)
+        self.assertEqual(speeds[1], speeds[2])
+
+
+class Slump(RunTest):
+    def test_surface_holds_the_area(self):
+        area, density, yield_stress, g = 0.02, 1000.0, 30.0, 9.81
+        reach = thick_flows.slump_reach(area, density, yield_stress, g)
+        x = (np.arange(20000) + 0.5) / 20000 * reach
+        self.assertAlmostEqual(np.sqrt(2 * yield_stress * (reach - x) / (density * g)).mean() * reach / area, 1.0, places=5)
+
+    def test_known_errors_come_back(self):
+        reach = thick_flows.slump_reach(0.02, 1000.0, 30.0, 9.81)
+        position = lattice((0, 0), (reach, 0.1), 0.005)
+        height = np.sqrt(2 * 30.0 * np.maximum(reach - position[:, 0], 0) / 9810)
+        run = self.write_run(SLUMP, [(1.0, position[position[:, 1] < 1.1 * height], {})],
+                             {"probes/front.csv": {"time_s": np.array([0.0, 1.0]), "front_m": np.array([0.2, 1.05 * reach])}})
+        numbers = thick_flows.yielding_slump(run)
+        self.assertAlmostEqual(numbers["reach_error"], 0.05, places=6)
+        self.assertAlmostEqual(numbers["surface_error"], 0.08, delta=0.04)  # rows of dx, a tenth of the height, make steps
+
+
+class Current(RunTest):
+    def test_known_error_comes_back(self):
+        exact = thick_flows.viscous_front(10.0, 0.02, 0.1, 9.81)
+        run = self.write_run(SLUMP, [(10.0, lattice((0, 0), (0.2, 0.1), 0.005), {})],
+                             {"probes/front.csv": {"time_s": np.array([0.0, 10.0]), "front_m": np.array([0.2, 0.97 * exact])}})
+        self.assertAlmostEqual(thick_flows.viscous_dam_break(run)["front_error"], -0.03, places=6)
+
+    def test_front_keeps_the_similarity(self):
+        # The front of h = t^-1/5 f(x t^-1/5) goes with t^1/5.
+        one = thick_flows.viscous_front(1.0, 0.02, 0.1, 9.81)
+        self.assertAlmostEqual(thick_flows.viscous_front(32.0, 0.02, 0.1, 9.81), 2 * one)
+        # With twice the lengths, in the same time, it is twice as far.
+        self.assertAlmostEqual(thick_flows.viscous_front(1.0, 4 * 0.02, 4 * 0.1, 2 * 9.81), 2 * one)
+
+
+if __name__ == "__main__":
+    unittest.main()
