@@ -13,11 +13,11 @@ namespace tailwater {
 namespace {
 
 constexpr double tolerance = 1e-4;
-constexpr int most_iterations = 2000;
+constexpr int max_iterations = 2000;
 
 /// Passes in which the law follows the velocity of the same step, at most, and the change of the velocity at which they
 /// end.
-constexpr int most_passes = 3;
+constexpr int max_passes = 3;
 constexpr double settled_change = 0.01;
 
 }  // namespace
@@ -66,12 +66,12 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
   velocity_ = particles.velocity;
   iterations_ = 0;
   std::vector<Vec<Dim>> rhs(particles.owned);
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < max_passes; ++pass) {
     find_viscosity(flow, velocity_);
     for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
     const std::vector<Vec<Dim>> before = velocity_;
     const ViscousReport report =
-        solve_viscous_step<Dim>(flow, forces_, inertia, rhs, tolerance, most_iterations, velocity_);
+        solve_viscous_step<Dim>(flow, forces_, inertia, rhs, tolerance, max_iterations, velocity_);
     iterations_ += report.iterations;
     has_converged_ = report.has_converged;
     if (!varies_with_shear(liquid_)) return;
@@ -156,7 +156,7 @@ void ThickLiquid<Dim>::warn(const Flow<Dim>& flow) {
   tailwater::warn(
       "the viscous forces at {:.6g} s did not converge within {} iterations; remedy: give liquid '{}' a smaller "
       "rest_viscosity",
-      flow.state.time, most_iterations, liquid_.name);
+      flow.state.time, max_iterations, liquid_.name);
 }
 
 template <int Dim>
