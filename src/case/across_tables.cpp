@@ -262,7 +262,8 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
   }
 }
 
-/// All water of a case is one liquid. Its solve of viscous forces includes walls, but no other feature that acts on water.
+/// All water of a case is one liquid. Its solve of viscous forces includes walls, but no other feature that acts on
+/// water.
 void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const LiquidTable* const liquid = liquid_of(spec);
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {

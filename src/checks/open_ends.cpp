@@ -11,8 +11,9 @@
 namespace tailwater {
 namespace {
 
-constexpr double wall_clearance = 0.25;  // dx, between walls and the path of the water
-constexpr double least_flush = 0.9;      // cosine between an opening's normal and that of the wall that it is cut into
+constexpr double wall_clearance = 0.25;   // dx, between walls and the path of the water
+constexpr double least_flush = 0.9;       // cosine between an opening's normal and that of the wall that it is cut into
+constexpr double largest_opening = 10.0;  // over the size of all walls and water
 
 /// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
 template <int Dim>
@@ -87,6 +88,19 @@ std::vector<Vec<Dim>> places_beyond(const Opening<Dim>& end, double depth, doubl
     for (const Vec<Dim>& x : places) beyond.push_back(x + out);
   }
   return beyond;
+}
+
+/// Checks that the opening is not far larger than the case: it has an array of the places across it. Collective.
+template <int Dim>
+void check_opening_size(const Boundary<Dim>& boundary, const Opening<Dim>& end, const FluidParticles<Dim>& fluid,
+                        Findings& findings) {
+  Eigen::AlignedBox<double, Dim> mouth;
+  for (const Vec<Dim>& corner : end.rim()) mouth.extend(corner);
+  const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces).merged(fluid.box());
+  if (box.isEmpty() || mouth.diagonal().norm() <= largest_opening * box.diagonal().norm()) return;
+  findings.push_back(Finding::error({"{} at {} is {:.6g} m wide, more than {:g} times the size of all walls and water",
+                                     end.label(), place(end.corner), mouth.diagonal().norm(), largest_opening},
+                                    {"end it where the walls of the channel end"}));
 }
 
 template <int Dim>
@@ -240,6 +254,8 @@ void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Ope
 template <int Dim>
 Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Findings findings;
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) check_opening_size(boundary, end, fluid, findings);
+  if (!findings.empty()) return findings;
   const std::vector<Duct<Dim>> ducts = find_ducts(spec, boundary);
   const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec, std::span<const Duct<Dim>>(ducts));
   for (const ChannelEnd<Dim>& end : ends) {

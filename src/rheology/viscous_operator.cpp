@@ -11,7 +11,7 @@ namespace tailwater {
 namespace {
 
 /// [dx]; nearer to a wall water counts as this far, as its friction does (walls/wall_friction.cpp).
-constexpr double least_distance = 0.25;
+constexpr double least_distance_to_wall = 0.25;
 
 /// Least eigenvalues of the moment below which there is no gradient, and above which it counts in full. Across a
 /// surface it is 0.45, of a single row 0.
@@ -24,7 +24,7 @@ double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, d
   const Walls<Dim>& walls = flow.walls;
   const double depth = walls.depth[row];
   const double distance =
-      std::max(d.dot(walls.particles.normal[row]) - depth, least_distance * flow.setup.scale.spacing);
+      std::max(d.dot(walls.particles.normal[row]) - depth, least_distance_to_wall * flow.setup.scale.spacing);
   return 2.0 * walls.friction[row] * (1.0 + depth / distance) * F;
 }
 

@@ -73,6 +73,16 @@ TEST(EndChecks, AShaftIsNoHole) {
   EXPECT_EQ(errors_of(spec), "");
 }
 
+/// The program has an array of places across each opening: 1e15 m of them would fill the memory.
+TEST(EndChecks, AnOpeningIsNotFarLargerThanTheCase) {
+  CaseSpec spec = tank_with_slot();
+  spec.outlets[0].beyond = Beyond::air;
+  spec.walls.pop_back();
+  spec.outlets[0].to = {1.0, 1e15};
+  const std::string refused = errors_of(spec);
+  EXPECT_NE(refused.find("more than 10 times the size of all walls and water"), std::string::npos) << refused;
+}
+
 TEST(EndChecks, TheSpaceBeyondIsFree) {
   CaseSpec spec = tank_with_slot();
   spec.outlets[0].level = Varying{0.3};
