@@ -123,7 +123,7 @@ template <int Dim>
 void ThickLiquid<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
   Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) particles.pressure[i] -= forces_.viscosity()[i] * expansion_[i];
+    if (particles.is_fluid(i)) particles.pressure[i] -= forces_.shared_viscosity()[i] * expansion_[i];
   });
   flow.halo().exchange(particles.pressure);
   if (!flow.wall_forces.are_requested) return;

@@ -44,6 +44,8 @@ class ViscousOperator {
   void set_viscosity(const Flow<Dim>& flow, std::span<const double> viscosity);
   /// That of all particles, ghosts too.
   const std::vector<double>& viscosity() const { return viscosity_; }
+  /// Viscosity of all particles, reduced to 0 for those with so few neighbours that they have no gradient.
+  const std::vector<double>& shared_viscosity() const { return shared_viscosity_; }
 
   /// The forces [N] of fluid at `velocity` on owned particles, and of walls as if these were at rest. Gets the ghosts
   /// of `velocity`. Collective.
