@@ -10,6 +10,7 @@
 #include "checks/checks.h"
 #include "geometry/cases.h"
 #include "support/circle.h"
+#include "support/liquids.h"
 
 namespace tailwater {
 namespace {
@@ -750,14 +751,10 @@ TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
 TEST(Check, ALiquidThatCreepsFarIsReported) {
   CaseSpec spec = tank();
   spec.time.end = 10.0;
-  LiquidTable mud;
+  LiquidTable mud = bingham(1.0, 20.0);
   mud.name = "mud";
-  mud.rheology = Rheology::bingham;
-  mud.viscosity = 1.0;
-  mud.yield_stress = 20.0;
   mud.rest_viscosity = 1e6;
-  spec.liquids = {mud};
-  spec.fluid[0].liquid = "mud";
+  fill_with(spec, mud);
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec.liquids[0].rest_viscosity = 100.0;
   expect_only(check(spec), Severity::warning, {"liquid 'mud'", "rest_viscosity", "creeps at up to", "until the end"});

@@ -22,6 +22,7 @@
 #include "schemes/force_reader.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
+#include "support/liquids.h"
 #include "support/rounding.h"
 
 namespace tailwater {
@@ -264,14 +265,9 @@ TYPED_TEST(RanksTest, AYieldingLiquid) {
     wall.slip = Slip::no_slip;
     wall.friction = 1.0;
   }
-  LiquidTable liquid;
-  liquid.name = "mud";
-  liquid.rheology = Rheology::bingham;
-  liquid.viscosity = 10.0;
-  liquid.yield_stress = 5.0;
+  LiquidTable liquid = bingham(10.0, 5.0);
   liquid.rest_viscosity = 1e3;
-  spec.liquids = {liquid};
-  for (FluidTable& block : spec.fluid) block.liquid = liquid.name;
+  fill_with(spec, liquid);
   expect_same<Dim>(spec, 0.3, [](Flow<Dim>& flow) {
     for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
       if (flow.state.particles.is_fluid(i)) flow.state.particles.velocity[i][0] = flow.state.particles.position[i][1];

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "schemes/open_ends.h"
+#include "support/liquids.h"
 
 namespace tailwater {
 namespace {
@@ -75,14 +76,7 @@ CaseSpec rough_case() {
 
 CaseSpec yielding_case() {
   CaseSpec spec = dam_break(Integrator::explicit_projection);
-  LiquidTable liquid;
-  liquid.name = "mud";
-  liquid.rheology = Rheology::bingham;
-  liquid.viscosity = 10.0;
-  liquid.yield_stress = 50.0;
-  liquid.rest_viscosity = 1e4;
-  spec.liquids = {liquid};
-  for (FluidTable& block : spec.fluid) block.liquid = liquid.name;
+  fill_with(spec, bingham(10.0, 50.0));
   for (WallTable& wall : spec.walls) {
     wall.slip = Slip::no_slip;
     wall.friction = 1.0;
