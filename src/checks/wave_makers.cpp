@@ -83,17 +83,16 @@ Findings check_wave_zones(const CaseSpec& spec) {
     const CaseLabel owner("damping", zone.name);
     append(findings, check_height(zone, owner, spec.particles.spacing));
     const WaveZone<Dim> made(spec, zone);  // throws where the waves break
-    const std::optional<ZoneWaves> waves = waves_at(spec, zone);
-    if (!waves || gravity == 0.0) continue;
-    const ZoneEstimate estimate =
-        estimate_zone(waves->omega, gravity, waves->depth, length_of(zone), strength_of(zone, *waves, gravity));
+    const std::optional<ZoneForecast> forecast = forecast_zone(spec, zone, gravity);
+    if (!forecast) continue;
+    const ZoneEstimate& estimate = forecast->estimate;
     const double error = made.has_waves() ? estimate.worse() : estimate.reflection;
     if (error <= most_zone_reflection) continue;
-    const double k = wave_number(waves->omega, gravity, waves->depth);
+    const double k = forecast->wave_number;
     findings.push_back(Finding::warning(
         {"{} is {:.3g} long, {:.2g} of the wavelength: it reflects {:.0f} % of waves of kh = {:.3g}{}", owner,
          Amount{length_of(zone), "m"}, length_of(zone) * k / (2.0 * std::numbers::pi), 100.0 * estimate.reflection,
-         k * waves->depth,
+         k * forecast->waves.depth,
          made.has_waves() ? fmt::format(", and its own waves are {:.0f} % off", 100.0 * estimate.leak) : ""},
         {"make the zone {:.3g} m long, one and a half wavelengths, and leave out strength",
          3.0 * std::numbers::pi / k}));

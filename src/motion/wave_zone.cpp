@@ -49,6 +49,31 @@ Complex conductance(double omega, double rate, double depth, Complex k) {
   return tanh_y / (2.0 * k) * (1.0 + ratio) / Complex(rate, -omega);
 }
 
+/// None if the case does not have the period or the depth.
+std::optional<ZoneWaves> waves_at(const CaseSpec& spec, const DampingTable& zone) {
+  std::set<double> periods, depths;
+  const auto add = [&](double period, double depth) {
+    if (period > 0.0) periods.insert(period);
+    if (depth > 0.0) depths.insert(depth);
+  };
+  for (const WaveMakerTable& maker : spec.wave_makers) {
+    if (maker.waves != WaveKind::none && maker.waves != WaveKind::solitary) add(maker.period, maker.depth);
+  }
+  for (const DampingTable& other : spec.damping) {
+    if (other.waves != WaveKind::none) add(other.period, other.depth);
+  }
+  const double period = zone.period > 0.0 ? zone.period : periods.size() == 1 ? *periods.begin() : 0.0;
+  const double depth = zone.depth > 0.0 ? zone.depth : depths.size() == 1 ? *depths.begin() : 0.0;
+  if (period == 0.0 || depth == 0.0) return std::nullopt;
+  return ZoneWaves{2.0 * std::numbers::pi / period, depth};
+}
+
+/// The strength [1/s] of a zone: its own, or the best one for its waves.
+double strength_of(const DampingTable& zone, const ZoneWaves& waves, double gravity) {
+  if (zone.strength > 0.0) return zone.strength;
+  return best_strength(waves.omega, gravity, waves.depth, length_of(zone), zone.waves != WaveKind::none);
+}
+
 }  // namespace
 
 ZoneEstimate estimate_zone(double omega, double gravity, double depth, double length, double strength) {
@@ -97,32 +122,17 @@ double best_strength(double omega, double gravity, double depth, double length, 
   return std::max(best, strongest_allowed);
 }
 
-std::optional<ZoneWaves> waves_at(const CaseSpec& spec, const DampingTable& zone) {
-  std::set<double> periods, depths;
-  const auto add = [&](double period, double depth) {
-    if (period > 0.0) periods.insert(period);
-    if (depth > 0.0) depths.insert(depth);
-  };
-  for (const WaveMakerTable& maker : spec.wave_makers) {
-    if (maker.waves != WaveKind::none && maker.waves != WaveKind::solitary) add(maker.period, maker.depth);
-  }
-  for (const DampingTable& other : spec.damping) {
-    if (other.waves != WaveKind::none) add(other.period, other.depth);
-  }
-  const double period = zone.period > 0.0 ? zone.period : periods.size() == 1 ? *periods.begin() : 0.0;
-  const double depth = zone.depth > 0.0 ? zone.depth : depths.size() == 1 ? *depths.begin() : 0.0;
-  if (period == 0.0 || depth == 0.0) return std::nullopt;
-  return ZoneWaves{2.0 * std::numbers::pi / period, depth};
-}
-
 double length_of(const DampingTable& zone) {
   const auto axis = static_cast<std::size_t>(zone.towards) / 2;
   return zone.max[axis] - zone.min[axis];
 }
 
-double strength_of(const DampingTable& zone, const ZoneWaves& waves, double gravity) {
-  if (zone.strength > 0.0) return zone.strength;
-  return best_strength(waves.omega, gravity, waves.depth, length_of(zone), zone.waves != WaveKind::none);
+std::optional<ZoneForecast> forecast_zone(const CaseSpec& spec, const DampingTable& zone, double gravity) {
+  const std::optional<ZoneWaves> waves = waves_at(spec, zone);
+  if (!waves || gravity == 0.0) return std::nullopt;
+  const double strength = strength_of(zone, *waves, gravity);
+  return ZoneForecast{*waves, wave_number(waves->omega, gravity, waves->depth), strength,
+                      estimate_zone(waves->omega, gravity, waves->depth, length_of(zone), strength)};
 }
 
 template <int Dim>

@@ -2,6 +2,7 @@
 // that such a zone reflects (docs/theory/waves.md).
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "base/vec.h"
@@ -15,7 +16,7 @@ namespace tailwater {
 struct ZoneEstimate {
   double reflection;
   double leak;
-  double worse() const { return reflection > leak ? reflection : leak; }
+  double worse() const { return std::max(reflection, leak); }
 };
 
 /// By the mild-slope equation for the deviation from the theory, with the complex wave number of water that loses its
@@ -26,19 +27,24 @@ ZoneEstimate estimate_zone(double omega, double gravity, double depth, double le
 /// leak, or the one with the least of both.
 double best_strength(double omega, double gravity, double depth, double length, bool makes_waves);
 
-/// Waves that meet a zone of a case: its own, or those of the only period of its makers. None if the case does not have
-/// this period, or the depth.
+/// Waves that meet a zone of a case: its own, or those of the only period of its makers.
 struct ZoneWaves {
   double omega;  ///< 1/s
   double depth;  ///< m
 };
-std::optional<ZoneWaves> waves_at(const CaseSpec& spec, const DampingTable& zone);
 
 /// m; of a zone along the direction of its waves.
 double length_of(const DampingTable& zone);
 
-/// The strength [1/s] of a zone: its own, or the best one for its waves.
-double strength_of(const DampingTable& zone, const ZoneWaves& waves, double gravity);
+/// A zone with the waves that meet it.
+struct ZoneForecast {
+  ZoneWaves waves;
+  double wave_number;  ///< 1/m
+  double strength;     ///< 1/s; the zone's own, or the best one for its waves
+  ZoneEstimate estimate;
+};
+/// None without gravity, or if the case does not have the period or the depth of the waves.
+std::optional<ZoneForecast> forecast_zone(const CaseSpec& spec, const DampingTable& zone, double gravity);
 
 template <int Dim>
 class WaveZone {

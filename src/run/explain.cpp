@@ -173,17 +173,15 @@ void add_waves(const CaseSpec& spec, std::vector<std::string>& sentences) {
                                     name_of(maker.type), maker.depth, waves));
   }
   for (const DampingTable& zone : spec.damping) {
-    const std::optional<ZoneWaves> waves = waves_at(spec, zone);
-    if (!waves || gravity == 0.0) continue;
-    const double strength = strength_of(zone, *waves, gravity);
-    const ZoneEstimate estimate = estimate_zone(waves->omega, gravity, waves->depth, length_of(zone), strength);
+    const std::optional<ZoneForecast> forecast = forecast_zone(spec, zone, gravity);
+    if (!forecast) continue;
     const std::string made = zone.waves != WaveKind::none
                                  ? fmt::format("makes {} waves {:.4g} m high, within {:.2g} % of theory, and ",
-                                               name_of(zone.waves), zone.height, 100.0 * estimate.leak)
+                                               name_of(zone.waves), zone.height, 100.0 * forecast->estimate.leak)
                                  : "";
     sentences.push_back(fmt::format(
         "Zone '{}' {}reflects {:.2g} % of waves of kh = {:.3g}; its strength is {:.3g} 1/s.", zone.name, made,
-        100.0 * estimate.reflection, wave_number(waves->omega, gravity, waves->depth) * waves->depth, strength));
+        100.0 * forecast->estimate.reflection, forecast->wave_number * forecast->waves.depth, forecast->strength));
   }
 }
 
