@@ -3,6 +3,8 @@
 
 #include <Eigen/Dense>
 
+#include <cmath>
+
 namespace tailwater {
 
 template <int Dim>
@@ -20,6 +22,12 @@ template <int Dim>
 constexpr double power(double length) {
   static_assert(Dim == 2 || Dim == 3);
   return Dim == 2 ? length * length : length * length * length;
+}
+
+/// The edge of a square of this area (2D) or a cube of this volume (3D).
+template <int Dim>
+double edge_of(double volume) {
+  return Dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
 }
 
 }  // namespace tailwater

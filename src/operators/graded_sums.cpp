@@ -89,8 +89,7 @@ typename GradedSums<Dim>::FaceTable GradedSums<Dim>::tabulate(int level) const {
 
 template <int Dim>
 LatticeSums GradedSums<Dim>::lattice(double relative_spacing, double volume) const {
-  const double edge = Dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
-  const double ratio = edge / (relative_spacing * spacing_);
+  const double ratio = edge_of<Dim>(volume) / (relative_spacing * spacing_);
   const auto [n, share] = interpolate(lattices_, (ratio - least_ratio) / (largest_ratio - least_ratio) * (ratios - 1));
   const LatticeSums& low = lattices_[n];
   const LatticeSums& high = lattices_[n + 1];

@@ -38,14 +38,9 @@ constexpr double least_distance_from_wall = 0.1;
 /// C/C_0 below which a particle is split along the surface.
 constexpr double surface_concentration = 0.9;
 
-template <int Dim>
-double edge_of(double volume) {
-  return Dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
-}
-
 /// Directions along which a particle may be split, of length 1.
 template <int Dim>
-std::vector<Vec<Dim>> directions() {
+std::vector<Vec<Dim>> make_directions() {
   std::vector<Vec<Dim>> all;
   if constexpr (Dim == 2) {
     constexpr int count = 16;
@@ -82,7 +77,10 @@ template <int Dim>
 class Adaptation {
  public:
   explicit Adaptation(const Flow<Dim>& flow)
-      : flow_(flow), particles_(flow.state.particles), velocity_(as_float4<Dim>(particles_.velocity)) {}
+      : flow_(flow),
+        particles_(flow.state.particles),
+        velocity_(as_float4<Dim>(particles_.velocity)),
+        directions_(make_directions<Dim>()) {}
 
   std::vector<Split<Dim>> find_splits() const {
     const std::vector<std::size_t> large = indices_where(particles_.owned, [&](std::size_t i) {
@@ -133,16 +131,18 @@ class Adaptation {
   /// towards a wall beside the particle.
   Vec<Dim> widest_gap(std::size_t i) const {
     const Pairs<Dim>& pairs = flow_.pairs();
-    const std::vector<Vec<Dim>> all = directions<Dim>();
-    std::vector<double> filled(all.size(), 0.0);
+    std::vector<double> filled(directions_.size(), 0.0);
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const double weight = particles_.volume[pairs.j[k]] * pairs.value(i, k);
       const Vec<Dim> e = pairs.e(i, k);
-      for (std::size_t n = 0; n < all.size(); ++n) filled[n] += weight * std::pow(all[n].dot(e), 8);
+      for (std::size_t n = 0; n < filled.size(); ++n) filled[n] += weight * std::pow(directions_[n].dot(e), 8);
     }
     const auto keep_across = [&](const Vec<Dim>& normal) {
       constexpr double closed = 10.0;  // more than any neighbours add up to
-      for (std::size_t n = 0; n < all.size(); ++n) filled[n] += closed * all[n].dot(normal) * all[n].dot(normal);
+      for (std::size_t n = 0; n < filled.size(); ++n) {
+        const double along = directions_[n].dot(normal);
+        filled[n] += closed * along * along;
+      }
     };
     const Vec<Dim>& crowding = flow_.surroundings.crowding[i];
     if (flow_.surroundings.concentration[i] < surface_concentration && crowding.norm() > 0.0) {
@@ -151,7 +151,7 @@ class Adaptation {
     const NearestWall<Dim> wall = flow_.walls.boundary.nearest_to_water(
         particles_.position[i], split_along_wall * edge_of<Dim>(particles_.volume[i]));
     if (wall.face >= 0) keep_across(flow_.walls.boundary.faces[wall.face].normal);
-    return all[std::ranges::min_element(filled) - filled.begin()];
+    return directions_[std::ranges::min_element(filled) - filled.begin()];
   }
 
   Mat<Dim> velocity_gradient(std::size_t i) const {
@@ -192,6 +192,7 @@ class Adaptation {
   const Flow<Dim>& flow_;
   const Particles<Dim>& particles_;
   std::vector<Float4> velocity_;
+  std::vector<Vec<Dim>> directions_;
 };
 
 /// Appends the second parts of split particles, with ids from `first_id` on. There must be no ghosts.

@@ -6,12 +6,10 @@
 #include "closures/fluid_pairs.h"
 #include "neighbours/pair_lanes.h"
 #include "operators/symmetric.h"
+#include "walls/wall_friction.h"
 
 namespace tailwater {
 namespace {
-
-/// [dx]; nearer to a wall water counts as this far, as its friction does (walls/wall_friction.cpp).
-constexpr double least_distance_to_wall = 0.25;
 
 /// Least eigenvalues of the moment below which there is no gradient, and above which it counts in full. Across a
 /// surface it is 0.45, of a single row 0.
@@ -24,7 +22,7 @@ double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, d
   const Walls<Dim>& walls = flow.walls;
   const double depth = walls.depth[row];
   const double distance =
-      std::max(d.dot(walls.particles.normal[row]) - depth, least_distance_to_wall * flow.setup.scale.spacing);
+      std::max(d.dot(walls.particles.normal[row]) - depth, least_friction_distance * flow.setup.scale.spacing);
   return 2.0 * walls.friction[row] * (1.0 + depth / distance) * F;
 }
 
@@ -55,13 +53,14 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, std::span<const Vec<Dim
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       const Vec<Dim> d = pairs.d(i, k);
-      const double weight = particles.volume[j] * pairs.F(i, k);
+      const double F = pairs.F(i, k);
+      const double weight = particles.volume[j] * F;
       if (particles.is_fluid(j)) {
         moment += weight * d * d.transpose();
         continue;
       }
       const auto row = particles.wall_row[j];
-      const double of_wall = particles.volume[j] * wall_factor(flow, row, d, pairs.F(i, k));
+      const double of_wall = particles.volume[j] * wall_factor(flow, row, d, F);
       with_walls += flow.walls.friction[row] * weight * d * d.transpose();
       wall_weight_[i] += of_wall;
       wall_velocity_[i] += of_wall * entry_of<Dim>(V, row);

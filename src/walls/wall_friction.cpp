@@ -9,9 +9,6 @@
 namespace tailwater {
 namespace {
 
-/// dx
-constexpr double least_distance = 0.25;
-
 /// lambda c of pair k in the row of either particle, i, between a wall particle of `row` and one of `volume` [1/m^2].
 template <int Dim>
 double friction_weight(const WallScene<Dim>& scene, std::int32_t row, double volume, std::size_t i, std::size_t k,
@@ -70,7 +67,7 @@ FrictionWall<Dim> find_friction_wall(const WallScene<Dim>& scene, const Friction
   });
   if (wall.weight == 0.0) return {};
   wall.slip_velocity /= wall.weight;
-  wall.distance = std::max(wall.distance / wall.weight, least_distance * law.spacing * relative);
+  wall.distance = std::max(wall.distance / wall.weight, least_friction_distance * law.spacing * relative);
   wall.roughness /= wall.weight;
   apply_wall_law(law, law.spacing * relative, scene.particles.layer_viscosity[i], wall);
   return wall;

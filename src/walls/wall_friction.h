@@ -10,6 +10,9 @@
 
 namespace tailwater {
 
+/// [dx]; water nearer to a wall with friction counts as this far from it: particles keep no nearer.
+inline constexpr double least_friction_distance = 0.25;
+
 struct FrictionLaw {
   double viscosity = 0.0;  ///< m^2/s; molecular
   double spacing = 0.0;    ///< m; dx of the case
@@ -23,7 +26,7 @@ template <int Dim>
 struct FrictionWall {
   double weight = 0.0;                        ///< 1/m^2; sum of lambda c_iw; 0: no such wall
   Vec<Dim> slip_velocity = Vec<Dim>::Zero();  ///< m/s; the water's velocity along the wall, relative to it
-  double distance = 0.0;                      ///< m; at least dx/4, which is as near as particles keep
+  double distance = 0.0;                      ///< m; at least `least_friction_distance`
   double roughness = 0.0;                     ///< m; k_s
   double friction_velocity = 0.0;             ///< m/s; u_tau of the larger of the two laws
   double excess = 0.0;  ///< m^2/s^2; by which the turbulent stress over rho exceeds the laminar one
