@@ -148,20 +148,27 @@ PIMPLE { momentumPredictor no; nOuterCorrectors 1; nCorrectors 3; nNonOrthogonal
 relaxationFactors { equations { ".*" 1; } }
 """)
 
-    def control(self):
+    def control(self, start="0", end=None, interval=None, form="binary"):
+        """From the fields in the folder `start` to the time `end` (s), by default that of the case; fields at each `interval`
+        (s) in a `form`."""
+        end = end or self.end
+
         def probes(name, field, points):
             places = " ".join(f"({x:.6g} {THICKNESS / 2} {z:.6g})" for x, z in points)
             return (f"{name} {{ type probes; libs (sampling); fields ({field}); writeControl adjustableRunTime; "
                     f"writeInterval {self.end / SAMPLES:.6g}; probeLocations ({places}); }}\n")
+
         functions = "".join(probes(name, *gauge) for name, gauge in self.gauges().items())
         self.write("system/controlDict", f"""
 application interFoam;
-startFrom startTime; startTime 0; stopAt endTime; endTime {self.end:.8g};
+startFrom startTime; startTime {start}; stopAt endTime; endTime {end:.8g};
 deltaT 1e-4; adjustTimeStep yes; maxCo 0.4; maxAlphaCo 0.4; maxDeltaT {self.end / SAMPLES:.6g};
-writeControl adjustableRunTime; writeInterval {self.end / 16:.6g};
-writeFormat binary; writePrecision 8; timePrecision 8; runTimeModifiable no;
+writeControl adjustableRunTime; writeInterval {interval or end / 16:.8g};
+writeFormat {form}; writePrecision 8; timePrecision 8; runTimeModifiable no;
 functions {{ {functions} }}
 """)
+
+    def water(self):
         self.write("system/setFieldsDict", f"""
 defaultFieldValues (volScalarFieldValue alpha.water 0);
 regions (boxToCell {{ box (-1 -1 -1) ({self.column[0]} 1 {self.column[1]});
@@ -169,7 +176,7 @@ regions (boxToCell {{ box (-1 -1 -1) ({self.column[0]} 1 {self.column[1]});
 """)
 
     def run(self):
-        for part in (self.mesh, self.fields, self.properties, self.schemes, self.control):
+        for part in (self.mesh, self.fields, self.properties, self.schemes, self.water, self.control):
             part()
         for program in ("blockMesh", "setFields", "interFoam"):
             self.call(program)
@@ -275,7 +282,6 @@ class Janosi(Case):
         super().__init__(options)
         self.in_lock = round(self.lock / self.spacing)
         self.height = self.size[1] / self.cells[1]
-        self.surfaces = {}
 
     def gauges(self):
         return {}
@@ -355,13 +361,7 @@ class Janosi(Case):
         """Runs from the fields `values` {name: cells} at one time, named as its folder, to another; returns those at the end
         and the name of its folder."""
         self.mesh(lip)
-        self.end = end
-        self.control()
-        control = self.folder / "system/controlDict"
-        text = control.read_text().replace("startFrom startTime; startTime 0", f"startFrom startTime; startTime {start}")
-        text = re.sub(r"writeInterval [^;]*; writeFormat|writeInterval [^;]*;\nwriteFormat",
-                      f"writeInterval {min(self.every, end - float(start)):.8g};\nwriteFormat", text).replace("binary", "ascii")
-        control.write_text(text)
+        self.control(start, end, min(self.every, end - float(start)), "ascii")
         if start != "0":  # Fluxes there are those of the mesh before.
             shutil.rmtree(self.folder / start)
         for name, cells in values.items():
@@ -369,12 +369,12 @@ class Janosi(Case):
         self.call("blockMesh")
         self.call("interFoam")
         self.cost += cpu_seconds(self.folder / "log.interFoam")
-        times = sorted((float(path.name), path.name) for path in self.folder.iterdir() if re.fullmatch(r"[\d.]+", path.name))
-        for time, name in times:
-            if float(start) < time <= end + 1e-9 and (self.folder / name / "U").exists():
-                self.surfaces[time] = self.level(self.read_inside("alpha.water", name, lip)[:, :, 0])
-        last = times[-1][1]
+        last = self.times()[-1]
         return {name: self.read_inside(name, last, lip) for name in values}, last
+
+    def times(self):
+        """Names of the folders with fields, in order of their times."""
+        return sorted((path.name for path in self.folder.iterdir() if re.fullmatch(r"[\d.]+", path.name)), key=float)
 
     def level(self, filled):
         """Height of the water that is joined with the bed, by column."""
@@ -389,16 +389,18 @@ class Janosi(Case):
         self.cost = 0.0
         shape = (self.cells[1], self.cells[0])
         values = {"alpha.water": self.start_field()[:, :, None], "U": numpy.zeros((*shape, 3)), "p_rgh": numpy.zeros((*shape, 1))}
-        time, lip, end = "0", 0, self.end
-        while float(time) < end - 1e-6:
+        time, lip = "0", 0
+        while float(time) < self.end - 1e-6:
             is_out = lip * self.height > self.depth + 2 * self.height
-            until = end if is_out else (lip + 0.5) * self.height / self.speed
+            until = self.end if is_out else (lip + 0.5) * self.height / self.speed
             values, time = self.stage(time, until, self.cells[1] if is_out else lip, values)
             lip += 1
 
     def scores(self):
-        times = numpy.array(sorted(self.surfaces))
-        levels = numpy.array([self.surfaces[time] for time in times])
+        begin = min(janosi2004.INSTANTS) + min(janosi2004.SHIFTS) - self.every  # the gate is out of the water
+        names = [name for name in self.times() if float(name) >= begin]
+        times = numpy.array(names, float)
+        levels = numpy.array([self.level(self.read_inside("alpha.water", name, self.cells[1])[:, :, 0]) for name in names])
 
         def distance(instant, shift=0.0):
             level = [numpy.interp(instant + shift, times, column) for column in levels.T]
@@ -460,7 +462,10 @@ def main():
         value = metric.note if metric.value is None else f"{metric.value:.3f} {metric.unit}"
         shifted = "" if metric.shifted_value is None else f" (at the best shift {metric.shifted_value:.3f})"
         print(f"{metric.what}, for {metric.against}: {value}{shifted}")
-    (options.out / "scores.json").write_text(
+    scores = options.out / "scores.json"
+    if options.score and scores.exists():
+        case.cost = json.loads(scores.read_text())["cpu_s"]
+    scores.write_text(
         json.dumps({"cpu_s": case.cost} | {metric.name: metric.value for metric in metrics}, indent=2) + "\n")
     return 0
 
