@@ -3,11 +3,8 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <concepts>
 #include <optional>
 #include <string>
@@ -38,13 +35,7 @@ struct CaseLabel {
   }
 
   /// "wall 'bed'", "wall 'bed': points"; without a name "wall[0].points", "particles.spacing".
-  std::string text() const {
-    const std::string head = !name.empty() ? fmt::format("{} '{}'", table, name)
-                             : index       ? fmt::format("{}[{}]", table, *index)
-                                           : table;
-    if (key.empty()) return head;
-    return fmt::format("{}{}{}", head, name.empty() ? "." : ": ", key);
-  }
+  std::string text() const;
 };
 
 /// A place in space, m.
@@ -53,11 +44,7 @@ struct MarkedPlace {
   int dimension = 0;
 
   /// "(0.5, 1.25)": coordinates below a picometre are 0, so that round-off is not shown.
-  std::string text() const {
-    std::array<double, 3> shown = x;
-    for (double& coordinate : shown) coordinate = std::abs(coordinate) < 1e-12 ? 0.0 : coordinate;
-    return fmt::format("({:.6g})", fmt::join(shown.begin(), shown.begin() + dimension, ", "));
-  }
+  std::string text() const;
 };
 
 /// A number with its unit; the format is that of the number.
@@ -107,11 +94,7 @@ struct FilePosition {
   int end_column = 0;  ///< behind the value
 
   /// "case.toml:12:1", or the known part of it.
-  std::string text() const {
-    return column > 0 ? fmt::format("{}:{}:{}", file, line, column)
-           : line > 0 ? fmt::format("{}:{}", file, line)
-                      : file;
-  }
+  std::string text() const;
 };
 
 enum class Severity { warning, error };
@@ -143,52 +126,17 @@ struct Finding {
   /// The common shape of messages: the problem, why it matters, the remedy.
   std::string message() const { return remedy.empty() ? problem : problem + "; " + remedy; }
   /// The message, behind the position in the case file if that is known.
-  std::string line() const {
-    return position.file.empty() ? message() : fmt::format("{}: {}", position.text(), message());
-  }
+  std::string line() const;
 };
 
 using Findings = std::vector<Finding>;
 
-inline bool has_error(const Findings& findings) {
-  return std::ranges::any_of(findings, [](const Finding& finding) { return finding.severity == Severity::error; });
-}
+bool has_error(const Findings& findings);
 
 inline void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
 
 /// The findings, with equal findings about several tables merged into one that names all tables.
-inline Findings merge_alike(const Findings& findings) {
-  const auto blanked = [](const Finding& finding) {
-    std::string text = fmt::format("{}|{}|{}|{}", finding.severity == Severity::error, finding.about.table,
-                                   finding.problem, finding.remedy);
-    std::vector<std::string> own{finding.about.with_key("").text()};
-    for (const MarkedPlace& place : finding.places) own.push_back(place.text());
-    for (const std::string& part : own) {
-      for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos;) text.erase(at, part.size());
-    }
-    return text;
-  };
-  Findings merged;
-  std::vector<std::string> kept;
-  std::vector<std::vector<std::string>> others;
-  for (const Finding& finding : findings) {
-    const std::string text = blanked(finding);
-    const auto same = std::ranges::find(kept, text);
-    if (same == kept.end() || finding.about.name.empty()) {
-      merged.push_back(finding);
-      kept.push_back(text);
-      others.emplace_back();
-      continue;
-    }
-    const auto first = static_cast<std::size_t>(same - kept.begin());
-    others[first].push_back(finding.about.with_key("").text());
-    merged[first].places.insert(merged[first].places.end(), finding.places.begin(), finding.places.end());
-  }
-  for (std::size_t n = 0; n < merged.size(); ++n) {
-    if (!others[n].empty()) merged[n].problem += fmt::format(" (likewise {})", fmt::join(others[n], ", "));
-  }
-  return merged;
-}
+Findings merge_alike(const Findings& findings);
 
 /// Errors of a case that stop the command. The text has one line per finding, and at most 50.
 class CaseError : public InputError {
@@ -200,17 +148,7 @@ class CaseError : public InputError {
   const Findings& findings() const { return findings_; }
 
  private:
-  static std::string text_of(const Findings& findings) {
-    constexpr std::size_t most_shown = 50;
-    std::vector<std::string> lines;
-    for (const Finding& finding : findings) {
-      if (lines.size() < most_shown) lines.push_back(finding.line());
-    }
-    if (findings.size() > most_shown) {
-      lines.back() += fmt::format(" (and {} more problems)", findings.size() - most_shown);
-    }
-    return fmt::format("{}", fmt::join(lines, "\n"));
-  }
+  static std::string text_of(const Findings& findings);
 
   Findings findings_;
 };
@@ -220,15 +158,11 @@ class CaseError : public InputError {
 template <class Part>
 requires std::same_as<Part, tailwater::CaseLabel> || std::same_as<Part, tailwater::MarkedPlace> ||
     std::same_as<Part, tailwater::Clause>
-struct fmt::formatter<Part> : fmt::formatter<std::string> {
-  auto format(const Part& part, fmt::format_context& context) const {
-    return fmt::formatter<std::string>::format(part.text(), context);
-  }
+struct fmt::formatter<Part> : fmt::formatter<fmt::string_view> {
+  format_context::iterator format(const Part& part, format_context& context) const;
 };
 
 template <>
 struct fmt::formatter<tailwater::Amount> : fmt::formatter<double> {
-  auto format(const tailwater::Amount& amount, fmt::format_context& context) const {
-    return fmt::format_to(fmt::formatter<double>::format(amount.number, context), " {}", amount.unit);
-  }
+  format_context::iterator format(const tailwater::Amount& amount, format_context& context) const;
 };
