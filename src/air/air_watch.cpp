@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "base/error.h"
 #include "geometry/from_spec.h"
 #include "motion/channel_end.h"
@@ -36,7 +37,7 @@ constexpr double most_cells_of_map = 2e9;
 
 /// Number of cells of the grid, with rows that fill words of marks.
 template <int Dim>
-double cells_over(const Eigen::AlignedBox<double, Dim>& box, double spacing, const PeriodicDomain<Dim>& domain) {
+double cells_over(const Box<Dim>& box, double spacing, const PeriodicDomain<Dim>& domain) {
   double cells = 1.0;
   for (int d = 0; d < Dim; ++d) {
     const double size = domain[d] ? domain[d]->second - domain[d]->first : box.sizes()[d];
@@ -54,8 +55,8 @@ std::vector<std::int64_t> numbers_of(const std::vector<AirPocket>& pockets) {
 }  // namespace
 
 template <int Dim>
-AirWatch<Dim>::AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts,
-                        const Eigen::AlignedBox<double, Dim>& box, const PeriodicDomain<Dim>& domain)
+AirWatch<Dim>::AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, const Box<Dim>& box,
+                        const PeriodicDomain<Dim>& domain)
     : law_(spec.air), spacing_(spec.particles.spacing), starts_(spec.pockets), vents_(spec.vents) {
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec, ducts)) {
     const Vec<Dim> middle = end.low + 0.5 * (end.height * end.rise + end.width * end.aside);
@@ -197,7 +198,7 @@ template <int Dim>
 void AirWatch<Dim>::mark_end(const AirEnd<Dim>& end, CellMarks& closed) const {
   const double reach = 0.51 * std::sqrt(static_cast<double>(Dim)) * grid_->edge().maxCoeff();
   for (const WallFace<Dim>& face : end.opening.as_faces()) {
-    const Eigen::AlignedBox<double, Dim> box = face.box();
+    const Box<Dim> box = face.box();
     grid_->visit_ball(box.center(), 0.5 * box.diagonal().norm() + reach, [&](int row, int begin, int end_of_run) {
       for (int place = begin; place < end_of_run; ++place) {
         const Vec<Dim> centre = grid_->centre(grid_->cell(row, place));

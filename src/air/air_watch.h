@@ -1,6 +1,8 @@
 // Searches for pockets of air every few steps, and computes the air beside each particle.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <map>
 #include <memory>
 #include <span>
@@ -8,6 +10,7 @@
 
 #include "air/pocket_exchange.h"
 #include "air/pocket_space.h"
+#include "base/box.h"
 #include "case/spec.h"
 #include "geometry/opening.h"
 #include "geometry/wall_patches.h"
@@ -103,7 +106,7 @@ class AirWatch {
   /// For a case without enclosed air.
   AirWatch() = default;
   /// `box` contains all walls during the whole run.
-  AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, const Eigen::AlignedBox<double, Dim>& box,
+  AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, const Box<Dim>& box,
            const PeriodicDomain<Dim>& domain);
 
   bool is_on() const { return grid_ != nullptr; }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "air/pocket_pressure.h"
+#include "base/box.h"
 #include "base/finding.h"
 #include "base/for_each.h"
 #include "base/saved.h"
@@ -31,9 +32,8 @@ constexpr int looks_at_moving_walls = 1000;
 
 /// Box around walls, wherever they go, and openings.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup,
-                                          const Boundary<Dim>& boundary) {
-  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+Box<Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary) {
+  Box<Dim> box = box_around(boundary.faces);
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
   const MotionState<Dim> start = initial_motion<Dim>(spec);
   for (const auto& moving : setup.wall_motion.moving()) {

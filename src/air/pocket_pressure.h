@@ -18,6 +18,8 @@
 // deficit of the latter (pressure/tension.h).
 #pragma once
 
+#include <Eigen/Core>
+
 #include "air/enclosed_air.h"
 
 namespace tailwater {

@@ -67,15 +67,15 @@ std::vector<PocketPairs<Dim>> find_wall_pair_forces(
         sum.moment += force * particles.position[i].transpose();
       }
       sums.insert(sums.end(), sum.force.begin(), sum.force.end());
-      sums.insert(sums.end(), sum.moment.reshaped().begin(), sum.moment.reshaped().end());
+      sums.insert(sums.end(), sum.moment.begin(), sum.moment.end());
       all.push_back(sum);
     }
   }
   flow.setup.ranks.sum_of_each(sums);
   const double* next = sums.data();
   for (PocketPairs<Dim>& each : all) {
-    each.force = Eigen::Map<const Vec<Dim>>(next);
-    each.moment = Eigen::Map<const Mat<Dim>>(next + Dim);
+    each.force = Vec<Dim>::Map(next);
+    each.moment = Mat<Dim>::Map(next + Dim);
     next += Dim + Dim * Dim;
   }
   return all;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/box.h"
+
 namespace tailwater {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr int rim = 8;
 }  // namespace
 
 template <int Dim>
-VoidGrid<Dim>::VoidGrid(const Eigen::AlignedBox<double, Dim>& box, double spacing, const PeriodicDomain<Dim>& domain) {
+VoidGrid<Dim>::VoidGrid(const Box<Dim>& box, double spacing, const PeriodicDomain<Dim>& domain) {
   const double wanted = 0.5 * spacing;
   rows_ = 1;
   for (int d = 0; d < Dim; ++d) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "neighbours/halo.h"
 
@@ -22,7 +23,7 @@ class VoidGrid {
   VoidGrid() = default;
   /// Covers the `box` and some cells around it. Cells begin at the lowest corner of the box, so walls that are drawn in
   /// multiples of dx are between cells.
-  VoidGrid(const Eigen::AlignedBox<double, Dim>& box, double spacing, const PeriodicDomain<Dim>& domain);
+  VoidGrid(const Box<Dim>& box, double spacing, const PeriodicDomain<Dim>& domain);
 
   int rows() const { return rows_; }
   int length() const { return count_[Dim - 1]; }  ///< number of cells of a row
@@ -47,7 +48,7 @@ class VoidGrid {
   }
 
   /// x in cells: the centre of cell c is at c.
-  Vec<Dim> in_cells(const Vec<Dim>& x) const { return (x - origin_).cwiseQuotient(edge_).array() - 0.5; }
+  Vec<Dim> in_cells(const Vec<Dim>& x) const { return (x - origin_).cwiseQuotient(edge_) - Vec<Dim>::Constant(0.5); }
 
   /// Calls visit(row, begin, end) for the pieces of rows whose cells' centres are within `radius` of x.
   template <class Visit>

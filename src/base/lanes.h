@@ -195,7 +195,7 @@ Vec<Dim> sum_of(const VecLanes<Dim>& lanes) {
 template <int Dim>
 Mat<Dim> sum_of(const MatLanes<Dim>& lanes) {
   Mat<Dim> sum;
-  for (int b = 0; b < Dim; ++b) sum.col(b) = sum_of(lanes.column[b]);
+  for (int b = 0; b < Dim; ++b) sum.put_column(b, sum_of(lanes.column[b]));
   return sum;
 }
 

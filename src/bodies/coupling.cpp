@@ -1,6 +1,7 @@
 #include "bodies/coupling.h"
 
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -12,6 +12,8 @@
 // known.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <limits>
 #include <vector>
 

@@ -19,9 +19,8 @@ class ForceSums {
   /// A force at `x` and a couple; nothing if `body` is -1.
   void add(int body, const Vec<Dim>& x, const Vec<Dim>& force, const Turn<Dim>& couple = Turn<Dim>::Zero()) {
     if (body < 0) return;
-    Eigen::Map<Twist<Dim>> sum(sums_.data() + static_cast<std::size_t>(body) * size);
-    sum.template head<Dim>() += force;
-    sum.template tail<turns<Dim>>() += moment_of<Dim>(x - centres_[body], force) + couple;
+    const Twist<Dim> both = twist_of<Dim>(force, moment_of<Dim>(x - centres_[body], force) + couple);
+    both.add_to(sums_.data() + static_cast<std::size_t>(body) * size);
   }
 
   /// Of all ranks. Collective.
@@ -29,7 +28,7 @@ class ForceSums {
     flow_.setup.ranks.sum_of_each(sums_);
     std::vector<Twist<Dim>> forces;
     for (std::size_t b = 0; b < centres_.size(); ++b) {
-      forces.push_back(Eigen::Map<const Twist<Dim>>(sums_.data() + b * size));
+      forces.push_back(Twist<Dim>::Map(sums_.data() + b * size));
     }
     return forces;
   }

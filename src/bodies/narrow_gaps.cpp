@@ -47,8 +47,7 @@ NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bo
   for (const Piece& piece : pieces_) places.push_back(piece.x);
   places_ = CellGrid<Dim>(places, reach_of_pairs * flow_.setup.scale.spacing);
   for (const Vec<Dim>& place : places) around_.extend(place);
-  around_.min().array() -= reach_of_pairs * flow_.setup.scale.spacing;
-  around_.max().array() += reach_of_pairs * flow_.setup.scale.spacing;
+  around_.widen(reach_of_pairs * flow_.setup.scale.spacing);
   number_gaps();
   find_nearest();
   find_water();
@@ -309,9 +308,8 @@ double NarrowGaps<Dim>::share_at(double gap) const {
 
 template <int Dim>
 void NarrowGaps<Dim>::add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& force, std::vector<double>& sums) const {
-  Eigen::Map<Twist<Dim>> sum(sums.data() + static_cast<std::size_t>(n) * twist_size);
-  sum.template head<Dim>() += force;
-  sum.template tail<turns<Dim>>() += moment_of<Dim>(x - pieces_[n].x, force);
+  const Twist<Dim> both = twist_of<Dim>(force, moment_of<Dim>(x - pieces_[n].x, force));
+  both.add_to(sums.data() + static_cast<std::size_t>(n) * twist_size);
 }
 
 // The force of a pair acts in the middle of its ends, which is on the surface of the body on average. At the wall
@@ -349,7 +347,7 @@ void NarrowGaps<Dim>::measure_pairs() {
   flow_.setup.ranks.sum_of_each(sums);
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     Piece& piece = pieces_[n];
-    const Eigen::Map<const Twist<Dim>> sum(sums.data() + n * twist_size);
+    const auto sum = Twist<Dim>::Map(sums.data() + n * twist_size);
     piece.area = sum.template head<Dim>() + share_beside(piece) * share_at(piece.gap) * piece.surface;
     piece.couple = sum.template tail<turns<Dim>>();
   }

@@ -16,8 +16,11 @@
 // pressure follows that of the water around it (docs/theory/floating_bodies.md).
 #pragma once
 
+#include <Eigen/Core>
+
 #include <vector>
 
+#include "base/box.h"
 #include "bodies/floating_bodies.h"
 #include "neighbours/cell_grid.h"
 
@@ -151,8 +154,8 @@ class NarrowGaps {
   std::int32_t gap_count_ = 0;
   std::vector<double> is_stagnant_;  ///< of all particles, 1 or 0
   static constexpr std::size_t twist_size = Dim + turns<Dim>;
-  CellGrid<Dim> places_;                   ///< of the pieces
-  Eigen::AlignedBox<double, Dim> around_;  ///< all places that are near to pieces
+  CellGrid<Dim> places_;  ///< of the pieces
+  Box<Dim> around_;       ///< all places that are near to pieces
 };
 
 }  // namespace tailwater

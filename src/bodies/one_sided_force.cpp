@@ -1,5 +1,7 @@
 #include "bodies/one_sided_force.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 

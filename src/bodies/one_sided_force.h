@@ -6,6 +6,8 @@
 // A contact is the limit of infinite damping: 0 <= f, 0 <= w, and one of them is 0.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <limits>
 #include <span>

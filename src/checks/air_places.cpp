@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 
@@ -8,7 +9,7 @@ namespace tailwater {
 template <int Dim>
 Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
-  const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  const Box<Dim> box = box_around(boundary.faces);
   const double tolerance = 0.5 * spec.particles.spacing;
   const auto check = [&](const CaseLabel& owner, const Coordinates& at) {
     const Vec<Dim> x = to_vec<Dim>(at, owner, "at");

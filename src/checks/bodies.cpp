@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "motion/floating_body.h"
@@ -10,8 +11,8 @@ namespace {
 
 /// The box around a body's walls as drawn.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_of_body(const FloatingBody<Dim>& body, const Boundary<Dim>& boundary) {
-  Eigen::AlignedBox<double, Dim> box;
+Box<Dim> box_of_body(const FloatingBody<Dim>& body, const Boundary<Dim>& boundary) {
+  Box<Dim> box;
   for (const WallFace<Dim>& face : boundary.faces) {
     if (std::ranges::find(body.walls, face.wall) != body.walls.end()) box.extend(face.box());
   }
@@ -24,7 +25,7 @@ constexpr double least_draught = 0.05;
 
 /// An error for a body that floats on the surface like a film; empty if it does not.
 template <int Dim>
-Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const Eigen::AlignedBox<double, Dim>& box) {
+Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const Box<Dim>& box) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.isZero(0.0)) return {};
   int upright = 0;
@@ -49,7 +50,7 @@ template <int Dim>
 Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
   for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) {
-    const Eigen::AlignedBox<double, Dim> box = box_of_body(body, boundary);
+    const Box<Dim> box = box_of_body(body, boundary);
     if (box.isEmpty()) continue;
     append(findings, check_mass(spec, body, box));
     const Vec<Dim>& centre = body.drawn.centre;
@@ -81,7 +82,7 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const std::vector<FloatingBody<Dim>> bodies = make_bodies<Dim>(spec);
   const auto check_end = [&](const std::string& name, int of_body, const Vec<Dim>& x) {
     const FloatingBody<Dim>& body = bodies[of_body];
-    const Eigen::AlignedBox<double, Dim> box = box_of_body(body, boundary);
+    const Box<Dim> box = box_of_body(body, boundary);
     const double away = box.isEmpty() ? 0.0 : box.exteriorDistance(x);
     if (away <= box.diagonal().norm()) return;
     findings.push_back(Finding::error(

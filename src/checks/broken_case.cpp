@@ -16,7 +16,7 @@ void append_triangles(const PlacedFile& file, int wall, Boundary<3>& boundary) {
     const TriangleMesh mesh = read_placed_mesh(file, {});
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
       boundary.faces.push_back(
-          {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).stableNormalized(), wall});
+          {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, mesh.area_normal(t).normalized(), wall});
     }
   } catch (const UserError&) {
     // There is nothing to draw.
@@ -70,7 +70,7 @@ template <int Dim>
 std::vector<Vec<Dim>> places_of(const Findings& findings) {
   std::vector<Vec<Dim>> places;
   for (const Finding& finding : findings) {
-    for (const MarkedPlace& place : finding.places) places.emplace_back(place.x.data());
+    for (const MarkedPlace& place : finding.places) places.push_back(Vec<Dim>::Map(place.x.data()));
   }
   return places;
 }

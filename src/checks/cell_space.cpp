@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/box.h"
 #include "geometry/from_spec.h"
 
 namespace tailwater {
@@ -20,10 +21,9 @@ std::vector<WallFace<Dim>> faces_with(const Boundary<Dim>& boundary, const std::
 }
 
 template <int Dim>
-CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces,
-                          const Eigen::AlignedBox<double, Dim>& water, double most)
+CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, const Box<Dim>& water, double most)
     : tolerance_(corner_tolerance * spec.particles.spacing) {
-  const Eigen::AlignedBox<double, Dim> box = water.merged(box_around(faces));
+  const Box<Dim> box = water.merged(box_around(faces));
   low_ = box.min();
   const Vec<Dim> high = box.max();
   const Vec<Dim> extent = (high - low_).cwiseMax(spec.particles.spacing);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
@@ -28,8 +29,7 @@ class CellSpace {
  public:
   using Cell = std::array<int, Dim>;
 
-  CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, const Eigen::AlignedBox<double, Dim>& water,
-            double most);
+  CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, const Box<Dim>& water, double most);
 
   std::size_t count() const { return near_faces_.size() - 1; }
   double volume() const { return size_.prod(); }                 ///< volume of a cell, m^Dim

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "checks/face_samples.h"
 #include "geometry/from_spec.h"
@@ -98,7 +99,7 @@ std::optional<Gap<Dim>> closed_gap_beside(const Boundary<Dim>& boundary, int pla
 }
 
 template <int Dim>
-using EdgeBox = Eigen::AlignedBox<double, Dim>;
+using EdgeBox = Box<Dim>;
 
 template <int Dim>
 EdgeBox<Dim> box_of(const PlateEdge<Dim>& edge) {

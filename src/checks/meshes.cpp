@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
@@ -18,8 +19,7 @@ constexpr double largest_share_of_case = 2.0;
 /// Cosine: walls back to back are a plate where they differ by less than 8 degrees from parallel; else a sharp edge.
 constexpr double least_facing_of_plate = 0.99;
 
-Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurface& surface,
-                    const Eigen::AlignedBox<double, 3>& water) {
+Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurface& surface, const Box<3>& water) {
   const double dx = spec.particles.spacing;
   const double length = (surface.high() - surface.low()).maxCoeff();
   if (length < dx) {
@@ -34,9 +34,8 @@ Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurf
 }
 
 /// The box around the water and all walls but one.
-Eigen::AlignedBox<double, 3> box_of_others(const Boundary<3>& boundary, int wall,
-                                           const Eigen::AlignedBox<double, 3>& water) {
-  Eigen::AlignedBox<double, 3> box = water;
+Box<3> box_of_others(const Boundary<3>& boundary, int wall, const Box<3>& water) {
+  Box<3> box = water;
   for (const WallFace<3>& face : boundary.faces) {
     if (face.wall != wall) box.extend(face.box());
   }
@@ -45,10 +44,10 @@ Eigen::AlignedBox<double, 3> box_of_others(const Boundary<3>& boundary, int wall
 
 /// Warns of a mesh at rest that stands beside the rest of the case.
 Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const MeshSurface& surface,
-                     const Eigen::AlignedBox<double, 3>& water) {
+                     const Box<3>& water) {
   const WallTable& table = spec.walls[wall];
-  const Eigen::AlignedBox<double, 3> own(surface.low(), surface.high());
-  const Eigen::AlignedBox<double, 3> others = box_of_others(boundary, wall, water);
+  const Box<3> own(surface.low(), surface.high());
+  const Box<3> others = box_of_others(boundary, wall, water);
   if (boundary.walls[wall].moves() || others.isEmpty()) return {};
   const CaseLabel label = wall_label(boundary, wall);
   if (!own.intersects(others)) {
@@ -71,7 +70,7 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
 }
 
 Findings check_size_and_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const MeshSurface& surface,
-                              const Eigen::AlignedBox<double, 3>& water) {
+                              const Box<3>& water) {
   Findings findings = check_size(spec, wall_label(boundary, wall), surface, water);
   return findings.empty() ? check_place(spec, boundary, wall, surface, water) : findings;
 }
@@ -96,7 +95,7 @@ Findings check_self_crossing(const MeshSurface& surface, const CaseLabel& label,
   const TriangleMesh& mesh = surface.mesh();
   for (int one = 0; one < static_cast<int>(mesh.triangles.size()); ++one) {
     const WallFace<3> face = face_of(mesh, one);
-    const Eigen::AlignedBox<double, 3> box = face.box();
+    const Box<3> box = face.box();
     std::optional<Finding> found;
     surface.visit_in(box.min(), box.max(), [&](int other) {
       if (other <= one || found || share_a_point(mesh, one, other)) return;
@@ -141,7 +140,7 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
 
 Findings check_meshes(const CaseSpec& spec, const Boundary<3>& boundary, const FluidParticles<3>& fluid) {
   const double tolerance = corner_tolerance * spec.particles.spacing;
-  const Eigen::AlignedBox<double, 3> water = fluid.box();
+  const Box<3> water = fluid.box();
   Findings findings;
   for (const WallMesh& mesh : boundary.meshes) {
     const CaseLabel label = wall_label(boundary, mesh.wall);

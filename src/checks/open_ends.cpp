@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
@@ -94,9 +95,9 @@ std::vector<Vec<Dim>> places_beyond(const Opening<Dim>& end, double depth, doubl
 template <int Dim>
 void check_opening_size(const Boundary<Dim>& boundary, const Opening<Dim>& end, const FluidParticles<Dim>& fluid,
                         Findings& findings) {
-  Eigen::AlignedBox<double, Dim> mouth;
+  Box<Dim> mouth;
   for (const Vec<Dim>& corner : end.rim()) mouth.extend(corner);
-  const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces).merged(fluid.box());
+  const Box<Dim> box = box_around(boundary.faces).merged(fluid.box());
   if (box.isEmpty() || mouth.diagonal().norm() <= largest_opening * box.diagonal().norm()) return;
   findings.push_back(Finding::error({"{} at {} is {:.6g} m wide, more than {:g} times the size of all walls and water",
                                      end.label(), place(end.corner), mouth.diagonal().norm(), largest_opening},

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/point_grid.h"
@@ -24,9 +25,9 @@ using CandidateList = std::vector<Candidate<Dim>>;
 /// The particles of all ranks that are nearer than `distance` (m) to the box around another block, in their order.
 template <int Dim>
 CandidateList<Dim> particles_in_other_boxes(const CaseSpec& spec, const FluidParticles<Dim>& fluid, double distance) {
-  std::vector<Eigen::AlignedBox<double, Dim>> boxes(spec.fluid.size());
+  std::vector<Box<Dim>> boxes(spec.fluid.size());
   for (std::size_t i = 0; i < fluid.position.size(); ++i) boxes[fluid.block[i]].extend(fluid.position[i]);
-  const std::vector<Eigen::AlignedBox<double, Dim>> of_ranks = gather_on_all(fluid.ranks, boxes);
+  const std::vector<Box<Dim>> of_ranks = gather_on_all(fluid.ranks, boxes);
   for (std::size_t k = 0; k < of_ranks.size(); ++k) {
     if (!of_ranks[k].isEmpty()) boxes[k % boxes.size()].extend(of_ranks[k]);
   }

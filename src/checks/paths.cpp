@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "checks/collision.h"
 #include "checks/room_for_water.h"
@@ -175,8 +176,8 @@ class PathWalk {
   void move_to(const Places& places) {
     places_ = places;
     for (std::size_t m = 0; m < movers_.size(); ++m) {
-      Eigen::AlignedBox<double, Dim>& box = boxes_[movers_[m].wall];
-      box.setEmpty();
+      Box<Dim>& box = boxes_[movers_[m].wall];
+      box = {};
       for (const int f : movers_[m].faces) {
         faces_before_[f] = faces_[f];
         // A wall that is no longer followed counts at its drawn place.
@@ -253,15 +254,15 @@ class PathWalk {
   const Boundary<Dim>& drawn_;
   double dx_;
   std::vector<Mover<Dim>> movers_;
-  Places places_;                                      ///< of the walls at the last check
-  std::vector<WallFace<Dim>> faces_;                   ///< at the last check
-  std::vector<WallFace<Dim>> faces_before_;            ///< at the check before it
-  std::vector<std::vector<int>> faces_of_;             ///< by wall
-  std::vector<Eigen::AlignedBox<double, Dim>> boxes_;  ///< around each wall at the last check
-  std::set<std::pair<int, int>> collided_;             ///< walls whose collision is reported
-  std::optional<RoomForWater<Dim>> room_;              ///< none if the space is unknown
-  Places places_of_room_;                              ///< of the walls at the last check of the space
-  double looks_ = 0.0;                                 ///< so far
+  Places places_;                            ///< of the walls at the last check
+  std::vector<WallFace<Dim>> faces_;         ///< at the last check
+  std::vector<WallFace<Dim>> faces_before_;  ///< at the check before it
+  std::vector<std::vector<int>> faces_of_;   ///< by wall
+  std::vector<Box<Dim>> boxes_;              ///< around each wall at the last check
+  std::set<std::pair<int, int>> collided_;   ///< walls whose collision is reported
+  std::optional<RoomForWater<Dim>> room_;    ///< none if the space is unknown
+  Places places_of_room_;                    ///< of the walls at the last check of the space
+  double looks_ = 0.0;                       ///< so far
   Findings findings_;
 };
 

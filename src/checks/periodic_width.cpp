@@ -1,3 +1,4 @@
+#include "base/box.h"
 #include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
@@ -8,7 +9,7 @@ namespace {
 /// The walls that are longer along `axis` than the `period` (m) after which they would be repeated.
 template <int Dim>
 Findings walls_longer_than(double period, int axis, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  std::vector<Eigen::AlignedBox<double, Dim>> boxes(boundary.walls.size());
+  std::vector<Box<Dim>> boxes(boundary.walls.size());
   for (const WallFace<Dim>& face : boundary.faces) boxes[face.wall].extend(face.box());
   Findings findings;
   for (std::size_t w = 0; w < boxes.size(); ++w) {

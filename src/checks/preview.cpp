@@ -197,8 +197,8 @@ Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid
 /// plot.
 View fitted_view(const Extent& extent, double dx) {
   View view;
-  view.low = extent.low.array() - 1.5 * dx;
-  view.high = extent.high.array() + 1.5 * dx;
+  view.low = extent.low - Vec<2>::Constant(1.5 * dx);
+  view.high = extent.high + Vec<2>::Constant(1.5 * dx);
   const Vec<2> size = view.high - view.low;
   view.scale = std::min(plot_width / size[0], plot_height / size[1]);
   view.left = page_margin + axis_margin;

@@ -2,6 +2,7 @@
 #include <limits>
 #include <string>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "checks/swept_box.h"
 #include "geometry/from_spec.h"
@@ -16,9 +17,8 @@ constexpr int looks_at_walls = 100;
 
 /// The box around the water at the start and the walls, wherever they are during the run.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_of_case(const CaseSpec& spec, const Boundary<Dim>& drawn,
-                                           const FluidParticles<Dim>& fluid) {
-  Eigen::AlignedBox<double, Dim> box = fluid.box().merged(box_around(drawn.faces));
+Box<Dim> box_of_case(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
+  Box<Dim> box = fluid.box().merged(box_around(drawn.faces));
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) box.extend(box_around(end.as_faces()));
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (drawn.walls[w].moves()) box.extend(swept_box(spec, drawn, static_cast<int>(w)));
@@ -29,7 +29,7 @@ Eigen::AlignedBox<double, Dim> box_of_case(const CaseSpec& spec, const Boundary<
 /// The space that water may reach: a spacing around the box, and above it as high again, for splashes. Floating bodies
 /// may carry water as far on all sides.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> reach_of_water(const CaseSpec& spec, Eigen::AlignedBox<double, Dim> box) {
+Box<Dim> reach_of_water(const CaseSpec& spec, Box<Dim> box) {
   const double dx = spec.particles.spacing;
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   const double size = box.diagonal().norm();
@@ -46,9 +46,9 @@ Eigen::AlignedBox<double, Dim> reach_of_water(const CaseSpec& spec, Eigen::Align
 }
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_of_probe(const ProbeTable& probe) {
+Box<Dim> box_of_probe(const ProbeTable& probe) {
   const CaseLabel owner = label(probe);
-  Eigen::AlignedBox<double, Dim> box;
+  Box<Dim> box;
   if (probe.type == ProbeType::pressure || probe.type == ProbeType::velocity) {
     box.extend(to_vec<Dim>(probe.at, owner, "at"));
   } else if (probe.type == ProbeType::discharge) {
@@ -86,8 +86,8 @@ void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const Pr
 }  // namespace
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> swept_box(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
-  Eigen::AlignedBox<double, Dim> box;
+Box<Dim> swept_box(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
+  Box<Dim> box;
   const WallPath<Dim> path(spec, spec.walls[wall], wall_label(drawn, wall));
   for (int k = 0; k <= looks_at_walls; ++k) {
     const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_walls);
@@ -103,11 +103,10 @@ template <int Dim>
 Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
   Findings findings;
   if (spec.damping.empty() || drawn.faces.empty()) return findings;
-  const Eigen::AlignedBox<double, Dim> box = box_of_case(spec, drawn, fluid);
+  const Box<Dim> box = box_of_case(spec, drawn, fluid);
   for (const DampingTable& zone : spec.damping) {
     const CaseLabel owner("damping", zone.name);
-    const Eigen::AlignedBox<double, Dim> where(to_vec<Dim>(zone.min, owner, "min"),
-                                               to_vec<Dim>(zone.max, owner, "max"));
+    const Box<Dim> where(to_vec<Dim>(zone.min, owner, "min"), to_vec<Dim>(zone.max, owner, "max"));
     if (box.intersects(where)) continue;
     findings.push_back(Finding::error(
         {"{} from {} to {} is outside of the case, whose walls and water lie between {} and {}: it would damp nothing",
@@ -120,11 +119,11 @@ Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const F
 template <int Dim>
 Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
   Findings findings;
-  const Eigen::AlignedBox<double, Dim> box = box_of_case(spec, drawn, fluid);
+  const Box<Dim> box = box_of_case(spec, drawn, fluid);
   for (const ProbeTable& probe : spec.probes) {
     check_times(spec, probe, findings);
     check_is_on_wall(spec, drawn, probe, findings);
-    const Eigen::AlignedBox<double, Dim> where = box_of_probe<Dim>(probe);
+    const Box<Dim> where = box_of_probe<Dim>(probe);
     if (drawn.faces.empty() || where.isEmpty() || reach_of_water(spec, box).intersects(where)) continue;
     findings.push_back(Finding::error(
         {"{} at {} is outside of the case, whose walls and water lie between {} and {}: no water comes there",

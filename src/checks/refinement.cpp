@@ -1,5 +1,6 @@
 #include "refinement/spacing_field.h"
 
+#include "base/box.h"
 #include "case/formulation.h"
 #include "checks/checks.h"
 #include "checks/swept_box.h"
@@ -57,8 +58,8 @@ Findings check_period(const CaseSpec& spec, const RefinementTable& table, const 
 
 /// A zone that is narrower than its borders.
 template <int Dim>
-Findings check_width(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>& all,
-                     const typename SpacingField<Dim>::Zone& zone, const CaseLabel& owner) {
+Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename SpacingField<Dim>::Zone& zone,
+                     const CaseLabel& owner) {
   for (int axis = 0; axis < Dim; ++axis) {
     const bool has_low = std::isfinite(zone.box.min()[axis]);
     const bool has_high = std::isfinite(zone.box.max()[axis]);
@@ -77,10 +78,9 @@ Findings check_width(const CaseSpec& spec, const Eigen::AlignedBox<double, Dim>&
 
 /// Whether a zone, with what surrounds it, meets a box.
 template <int Dim>
-bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, Eigen::AlignedBox<double, Dim> box) {
+bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, Box<Dim> box) {
   const double margin = clearance * spec.particles.spacing;
-  box.min().array() -= margin;
-  box.max().array() += margin;
+  box.widen(margin);
   return zone.box.intersects(box);
 }
 
@@ -98,7 +98,7 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
   }
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : boundary.meshes) {
-      const Eigen::AlignedBox<double, 3> box(mesh.surface->low(), mesh.surface->high());
+      const Box<3> box(mesh.surface->low(), mesh.surface->high());
       if (!is_near<Dim>(spec, zone, box)) continue;
       findings.push_back(
           refused(owner, "meshes" + within, {"end the zone farther from {}", wall_label(boundary, mesh.wall)}));
@@ -117,7 +117,7 @@ template <int Dim>
 Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
   Findings findings;
   const SpacingField<Dim> field(spec, drawn);
-  const Eigen::AlignedBox<double, Dim> box = fluid.box().merged(box_around(drawn.faces));
+  const Box<Dim> box = fluid.box().merged(box_around(drawn.faces));
   for (std::size_t n = 0; n < spec.refinement.size(); ++n) {
     const RefinementTable& table = spec.refinement[n];
     const CaseLabel owner("refinement", table.name);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "checks/cell_space.h"
 #include "checks/checks.h"
 #include "checks/face_samples.h"
@@ -49,7 +50,7 @@ class FacesBehind {
   FacesBehind(const Boundary<Dim>& boundary, double reach) : grid_(reach) {
     boundary.visit_plain_faces([&](int f) {
       const WallFace<Dim>& face = boundary.faces[f];
-      const Eigen::AlignedBox<double, Dim> box = face.box();
+      const Box<Dim> box = face.box();
       grid_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
     });
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/assert.h"
+#include "base/box.h"
 #include "base/for_each.h"
 #include "flow/stages.h"
 #include "flow/wall_particle.h"
@@ -141,8 +142,8 @@ std::vector<Vec<Dim>> Flow<Dim>::filter_velocity() const {
 }
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> Flow<Dim>::box() const {
-  Eigen::AlignedBox<double, Dim> box = box_around(walls.boundary.faces);
+Box<Dim> Flow<Dim>::box() const {
+  Box<Dim> box = box_around(walls.boundary.faces);
   for (const auto& part : parts) part->extend_box(box);
   return box;
 }

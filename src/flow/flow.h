@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "closures/surroundings.h"
 #include "flow/part.h"
 #include "flow/pores.h"
@@ -131,7 +132,7 @@ struct Flow {
     return space.fraction * space.inertia * energy;
   }
   /// The box around all walls, where they are now, and what parts have of the case's edges; empty if there is nothing.
-  Eigen::AlignedBox<double, Dim> box() const;
+  Box<Dim> box() const;
   /// Relative to the origin; there is none along periodic directions.
   double potential_energy_of(std::size_t i) const {
     return -setup.liquid.density * water_volume_of(i) * setup.gravity_across.dot(state.particles.position[i]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/box.h"
+
 namespace tailwater {
 
 void StepLimits::include(const StepLimits& other) {
@@ -12,7 +14,7 @@ void StepLimits::include(const StepLimits& other) {
 }
 
 template <int Dim>
-void Part<Dim>::extend_box(Eigen::AlignedBox<double, Dim>& /*box*/) const {}
+void Part<Dim>::extend_box(Box<Dim>& /*box*/) const {}
 
 template <int Dim>
 void Part<Dim>::begin(Flow<Dim>& /*flow*/) {}

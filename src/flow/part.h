@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/box.h"
 #include "base/json.h"
 #include "base/vec.h"
 #include "flow/role.h"
@@ -84,7 +85,7 @@ class Part {
   /// Whether it needs the forces of friction and of the last guard on the walls.
   virtual bool needs_wall_forces() const { return false; }
   /// Extends the box around the case [m] by what the part has of it, where it is now.
-  virtual void extend_box(Eigen::AlignedBox<double, Dim>& box) const;
+  virtual void extend_box(Box<Dim>& box) const;
   /// Called when the particles of the start are there. Throws InputError.
   virtual void begin(Flow<Dim>& flow);
   /// All that it needs to go on in a resumed run; the same on all ranks.

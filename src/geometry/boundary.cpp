@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box.h"
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
@@ -105,7 +106,7 @@ void Boundary<Dim>::file_faces(double reach) {
       moving_.push_back(f);
       return;
     }
-    const Eigen::AlignedBox<double, Dim> box = faces[f].box();
+    const Box<Dim> box = faces[f].box();
     resting_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(faces[f], x) - x).norm(); });
   });
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "base/finding.h"
 #include "base/vec.h"
 #include "case/spec.h"
@@ -164,11 +165,11 @@ struct Boundary {
   bool is_free_end(int face, const Vec<Dim>& x) const;
 
  private:
-  double screen_spacing_ = 0.0;              ///< m
-  double screen_reach_ = 0.0;                ///< m
-  FaceGrid<Dim> hung_;                       ///< the screens
-  Eigen::AlignedBox<double, Dim> hung_box_;  ///< around all that is felt through screens
-  std::vector<Screen<Dim>> mesh_rims_;       ///< the screens beside free rims of meshes, as drawn
+  double screen_spacing_ = 0.0;         ///< m
+  double screen_reach_ = 0.0;           ///< m
+  FaceGrid<Dim> hung_;                  ///< the screens
+  Box<Dim> hung_box_;                   ///< around all that is felt through screens
+  std::vector<Screen<Dim>> mesh_rims_;  ///< the screens beside free rims of meshes, as drawn
   std::vector<int> all_screens_;
   FaceGrid<Dim> resting_;    ///< without meshes; reach 0: nothing is filed
   std::vector<int> moving_;  ///< faces that are not of a mesh, when others are filed

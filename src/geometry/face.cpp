@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/box.h"
+
 namespace tailwater {
 
 template <int Dim>
@@ -14,15 +16,15 @@ double WallFace<Dim>::measure() const {
 }
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> WallFace<Dim>::box() const {
-  Eigen::AlignedBox<double, Dim> box;
+Box<Dim> WallFace<Dim>::box() const {
+  Box<Dim> box;
   for (const Vec<Dim>& corner : corners) box.extend(corner);
   return box;
 }
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_around(const std::vector<WallFace<Dim>>& faces) {
-  Eigen::AlignedBox<double, Dim> box;
+Box<Dim> box_around(const std::vector<WallFace<Dim>>& faces) {
+  Box<Dim> box;
   for (const WallFace<Dim>& face : faces) box.extend(face.box());
   return box;
 }

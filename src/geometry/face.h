@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 
 namespace tailwater {
@@ -24,12 +25,12 @@ struct WallFace {
   /// Length (2D, m) or area (3D, m^2).
   double measure() const;
   /// The axis-parallel box around it.
-  Eigen::AlignedBox<double, Dim> box() const;
+  Box<Dim> box() const;
 };
 
 /// The box around all of them; empty if there are none.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_around(const std::vector<WallFace<Dim>>& faces);
+Box<Dim> box_around(const std::vector<WallFace<Dim>>& faces);
 
 /// The point of a triangle nearest to some point, and the part of the triangle that it belongs to. Edge 2 leads from
 /// corner 2 to corner 0.

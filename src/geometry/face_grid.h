@@ -23,8 +23,8 @@ class FaceGrid {
   /// it.
   template <class Distance>
   void add(int index, const Vec<Dim>& low, const Vec<Dim>& high, Distance&& distance) {
-    const Cell<Dim> first = cell_of<Dim>(low.array() - reach_, reach_);
-    const Cell<Dim> last = cell_of<Dim>(high.array() + reach_, reach_);
+    const Cell<Dim> first = cell_of<Dim>(low - Vec<Dim>::Constant(reach_), reach_);
+    const Cell<Dim> last = cell_of<Dim>(high + Vec<Dim>::Constant(reach_), reach_);
     const double half_diagonal = 0.5 * std::sqrt(Dim) * reach_;
     Cell<Dim> c = first;
     for (int axis = 0; axis < Dim;) {

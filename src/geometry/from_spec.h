@@ -32,7 +32,7 @@ Vec<Dim> to_vec(const Coordinates& point, const CaseLabel& owner, std::string_vi
     throw CaseError({"{} has {} numbers but the case has {} dimensions", owner.with_key(key), point.size(), Dim},
                     {"give one number per dimension"});
   }
-  return Eigen::Map<const Vec<Dim>>(point.data());
+  return Vec<Dim>::Map(point.data());
 }
 
 template <int Dim>

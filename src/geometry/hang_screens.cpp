@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/box.h"
 #include "geometry/boundary.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
@@ -101,9 +102,9 @@ std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& 
 void share_rim(const std::vector<RimPiece<3>>& rim, double fade, std::vector<Screen<3>>& screens) {
   for (Screen<3>& screen : screens) {
     screen.fade = fade;
-    const Eigen::AlignedBox<double, 3> box = screen.box();
+    const Box<3> box = screen.box();
     for (const RimPiece<3>& piece : rim) {
-      const Eigen::AlignedBox<double, 3> around(piece[0].cwiseMin(piece[1]), piece[0].cwiseMax(piece[1]));
+      const Box<3> around(piece[0].cwiseMin(piece[1]), piece[0].cwiseMax(piece[1]));
       if (box.exteriorDistance(around) < fade) screen.rim.push_back(piece);
     }
   }
@@ -253,9 +254,9 @@ std::vector<Screen<3>> screens_beside(const WallMesh& mesh, const Lengths& lengt
   std::vector<Screen<3>> screens = screens_of_triangles(wide, is_free, Vec<3>::Zero(), as_plate, lengths.fade());
   const std::vector<RimPiece<3>> rim = rim_of(wide, is_free);
   std::erase_if(screens, [&](const Screen<3>& screen) {
-    const Eigen::AlignedBox<double, 3> box = screen.box();
+    const Box<3> box = screen.box();
     return std::ranges::none_of(rim, [&](const RimPiece<3>& piece) {
-      const Eigen::AlignedBox<double, 3> around(piece[0].cwiseMin(piece[1]), piece[0].cwiseMax(piece[1]));
+      const Box<3> around(piece[0].cwiseMin(piece[1]), piece[0].cwiseMax(piece[1]));
       return box.exteriorDistance(around) < screened_reach * lengths.reach;
     });
   });
@@ -293,7 +294,7 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
   screen_reach_ = reach;
   const Lengths lengths{spacing, reach};
   screens.clear();
-  hung_box_.setEmpty();
+  hung_box_ = {};
   for (const WallPlate& plate : plates) append(screens, screens_of(*this, plate, lengths));
   if constexpr (Dim == 2) {
     for (WallEnd& end : ends) {
@@ -324,7 +325,7 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
   all_screens_.clear();
   for (int s = 0; s < static_cast<int>(screens.size()); ++s) {
     all_screens_.push_back(s);
-    const Eigen::AlignedBox<double, Dim> box = screens[s].box();
+    const Box<Dim> box = screens[s].box();
     hung_box_.extend(box);
     hung_.add(s, box.min(), box.max(), [&](const Vec<Dim>& x) { return screens[s].distance(x); });
   }

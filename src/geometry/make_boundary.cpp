@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "geometry/boundary.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
@@ -210,7 +211,7 @@ constexpr double most_cells_of_a_plate = 3e8;
 template <int Dim>
 void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, const CaseLabel& owner, double spacing,
                        double reach) {
-  Eigen::AlignedBox<double, Dim> box;
+  Box<Dim> box;
   for (std::size_t f = first_face; f < boundary.faces.size(); ++f) box.extend(boundary.faces[f].box());
   if (box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= most_cells_of_a_plate) return;
   const double length = box.sizes().maxCoeff();
@@ -221,7 +222,7 @@ void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, co
 
 /// The meshes of the blocks of water.
 std::vector<std::shared_ptr<const MeshSurface>> water_meshes(const CaseSpec& spec, const Boundary<3>& boundary) {
-  const Eigen::AlignedBox<double, 3> walls = box_around(boundary.faces);
+  const Box<3> walls = box_around(boundary.faces);
   std::vector<std::shared_ptr<const MeshSurface>> water(spec.fluid.size());
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     if (spec.fluid[b].shape != BlockShape::mesh) continue;
@@ -239,7 +240,7 @@ std::vector<WallFace<Dim>> places_where_walls_continue(const CaseSpec& spec, con
     if (end.meets_air) continue;
     for (const WallFace<Dim>& face : end.as_faces()) faces.push_back(face);
   }
-  const Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  const Box<Dim> box = box_around(boundary.faces);
   for (int axis = 0; axis < Dim && !box.isEmpty(); ++axis) {
     for (const double at : periodic_range(spec.domain, axis)) {
       std::array<Vec<Dim>, 2> ends{box.min(), box.max()};

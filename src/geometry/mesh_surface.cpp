@@ -7,10 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "base/box.h"
+#include "base/eigen.h"
+
 namespace tailwater {
 namespace {
 
-using AxisBox = Eigen::AlignedBox<double, 3>;
+using AxisBox = Box<3>;
 
 AxisBox box_of(const TriangleMesh& mesh, int triangle) {
   AxisBox box;
@@ -19,6 +22,10 @@ AxisBox box_of(const TriangleMesh& mesh, int triangle) {
 }
 
 /// Whether a path meets a box.
+AxisBox from_eigen(const Eigen::AlignedBox3d& box) {
+  return {Vec<3>::Map(box.min().data()), Vec<3>::Map(box.max().data())};
+}
+
 bool meets(const AxisBox& box, const Vec<3>& from, const Vec<3>& to) {
   double begin = 0.0;
   double end = 1.0;
@@ -57,10 +64,11 @@ struct MeshSurface::Tree {
 
   explicit Tree(const TriangleMesh& mesh) {
     std::vector<int> triangles(mesh.triangles.size());
-    std::vector<AxisBox> around(mesh.triangles.size());
+    std::vector<Eigen::AlignedBox3d> around(mesh.triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       triangles[t] = static_cast<int>(t);
-      around[t] = box_of(mesh, static_cast<int>(t));
+      const AxisBox box = box_of(mesh, static_cast<int>(t));
+      around[t] = {to_eigen(box.min()), to_eigen(box.max())};
     }
     boxes.init(triangles.begin(), triangles.end(), around.begin(), around.end());
   }
@@ -80,7 +88,8 @@ struct MeshSurface::Tree {
       boxes.getChildren(node, branch, last_branch, triangle, last_triangle);
       for (; triangle != last_triangle; ++triangle) visit(*triangle);
       const std::size_t before = waiting.size();
-      for (; branch != last_branch; ++branch) waiting.emplace_back(order(boxes.getVolume(*branch)), *branch);
+      for (; branch != last_branch; ++branch)
+        waiting.emplace_back(order(from_eigen(boxes.getVolume(*branch))), *branch);
       if (waiting.size() == before + 2 && waiting[before].first < waiting[before + 1].first) {
         std::swap(waiting[before], waiting[before + 1]);
       }

@@ -1,16 +1,16 @@
 #include "geometry/mesh_walls.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 
+#include "base/box.h"
 #include "case_files/mesh_file.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
+#include "geometry/rotation.h"
 
 namespace tailwater {
 namespace {
@@ -26,15 +26,16 @@ constexpr double largest_round_off = 0.01;  // dx
 /// Of the area of an open mesh; where less of it looks up or down, neither side is above the other.
 constexpr double least_upward_share = 0.1;
 
-Eigen::Matrix3d rotation_of(const PlacedFile& file, const CaseLabel& owner) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+Mat<3> rotation_of(const PlacedFile& file, const CaseLabel& owner) {
+  Mat<3> turn = Mat<3>::Identity();
   if (file.rotate.empty()) return turn;
   const Vec<3> degrees = to_vec<3>(file.rotate, owner, "rotate");
   for (int axis = 0; axis < 3; ++axis) {
     const double quarters = degrees[axis] / 90.0;
     const double angle = degrees[axis] * std::numbers::pi / 180.0;
-    Eigen::Matrix3d one = Eigen::AngleAxisd(angle, Vec<3>::Unit(axis)).toRotationMatrix();
-    if (quarters == std::round(quarters)) one = one.array().round();  // exactly along the axes
+    Mat<3> one = rotation_about(Vec<3>::Unit(axis), angle);
+    if (quarters == std::round(quarters))
+      one = one.each([](double entry) { return std::round(entry); });  // exactly along the axes
     turn = one * turn;
   }
   return turn;
@@ -42,7 +43,7 @@ Eigen::Matrix3d rotation_of(const PlacedFile& file, const CaseLabel& owner) {
 
 /// From the file's coordinates to those of the case.
 void put_in_place(const PlacedFile& file, const CaseLabel& owner, TriangleMesh& mesh) {
-  const Eigen::Matrix3d turn = file.scale * rotation_of(file, owner);
+  const Mat<3> turn = file.scale * rotation_of(file, owner);
   const Vec<3> shift = file.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(file.translate, owner, "translate");
   for (Vec<3>& x : mesh.points) x = turn * x + shift;
 }
@@ -157,7 +158,7 @@ void turn_outwards(TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, c
   const std::vector<int> part = parts_of(mesh, edges);
   const int count = 1 + *std::ranges::max_element(part);
   std::vector<double> volume(count, 0.0);
-  std::vector<Eigen::AlignedBox<double, 3>> box(count);
+  std::vector<Box<3>> box(count);
   std::vector<int> first(count, -1);
   for (int t = 0; t < static_cast<int>(part.size()); ++t) {
     const int p = part[t];
@@ -281,17 +282,17 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
 }
 
 TriangleMesh make_water_mesh(const CaseSpec& spec, const PlacedFile& file, const CaseLabel& owner,
-                             const Eigen::AlignedBox<double, 3>& walls) {
+                             const Box<3>& walls) {
   SoundMesh sound(spec, file, owner);
   if (!sound.rim.empty()) {
     sound.refuse({"is not watertight, so that no inside holds the water: {}", sound.rim_text()}, {"close the mesh"});
   }
   turn_outwards(sound.mesh, sound.edges, sound.refuse);
-  Eigen::AlignedBox<double, 3> box;
+  Box<3> box;
   for (const Vec<3>& x : sound.mesh.points) box.extend(x);
   if (walls.isEmpty()) return std::move(sound.mesh);
   const Vec<3> beyond = Vec<3>::Constant(walls.diagonal().norm());
-  if (!Eigen::AlignedBox<double, 3>(Vec<3>(walls.min() - beyond), Vec<3>(walls.max() + beyond)).contains(box)) {
+  if (!Box<3>(Vec<3>(walls.min() - beyond), Vec<3>(walls.max() + beyond)).contains(box)) {
     sound.refuse({"reaches from {} to {}, far beyond the walls, which stand between {} and {}", place<3>(box.min()),
                   place<3>(box.max()), place<3>(walls.min()), place<3>(walls.max())},
                  {"correct scale = {:g} (0.001 for a file in millimetres) or translate", file.scale});

@@ -1,6 +1,7 @@
 // Walls from mesh files.
 #pragma once
 
+#include "base/box.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
 #include "geometry/triangle_mesh.h"
@@ -20,8 +21,7 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
 
 /// The closed mesh of a block of water or of a layer that water fills, its front outside, among walls that are in the
 /// box `walls`. Throws CaseError as make_wall_mesh does, and for a mesh that the walls cannot hold.
-TriangleMesh make_water_mesh(const CaseSpec& spec, const PlacedFile& file, const CaseLabel& owner,
-                             const Eigen::AlignedBox<double, 3>& walls);
+TriangleMesh make_water_mesh(const CaseSpec& spec, const PlacedFile& file, const CaseLabel& owner, const Box<3>& walls);
 
 /// Adds such a wall to the boundary.
 void append_mesh(const CaseSpec& spec, const WallTable& table, int wall, const CaseLabel& owner, Boundary<3>& boundary);

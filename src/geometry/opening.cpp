@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/box.h"
 #include "geometry/boundary.h"
 #include "geometry/from_spec.h"
 #include "geometry/plane_section.h"
@@ -154,7 +155,7 @@ void outline(const std::vector<Vec<3>>& corners, const Vec<3>& normal, const Vec
              Opening<3>& opening) {
   const Vec<3> rise = upright_in_plane(normal, gravity);
   const Vec<3> aside = rise.cross(normal);
-  Eigen::AlignedBox<double, 2> box;
+  Box<2> box;
   std::vector<Vec<2>> flat;
   for (const Vec<3>& x : corners) {
     flat.emplace_back(aside.dot(x - corners[0]), rise.dot(x - corners[0]));

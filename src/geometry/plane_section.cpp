@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/box.h"
 #include "geometry/polygon.h"
 
 namespace tailwater {
@@ -69,11 +70,10 @@ class Drawing2D {
     const auto& [a, b] = pieces[i];
     const Vec<2> along = b - a;
     std::vector<double> shares{0.0, 1.0};
-    const Eigen::AlignedBox<double, 2> box(Vec<2>(a.cwiseMin(b).array() - tolerance_),
-                                           Vec<2>(a.cwiseMax(b).array() + tolerance_));
+    const Box<2> box = Box<2>(a.cwiseMin(b), a.cwiseMax(b)).widen(tolerance_);
     for (std::size_t j = 0; j < pieces.size(); ++j) {
       const auto& [c, d] = pieces[j];
-      if (j == i || !box.intersects(Eigen::AlignedBox<double, 2>(Vec<2>(c.cwiseMin(d)), Vec<2>(c.cwiseMax(d))))) {
+      if (j == i || !box.intersects(Box<2>(c.cwiseMin(d), c.cwiseMax(d)))) {
         continue;
       }
       for (const Vec<2>& end : {c, d}) {

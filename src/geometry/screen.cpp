@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
+
 namespace tailwater {
 namespace {
 
@@ -66,8 +68,8 @@ double Screen<Dim>::distance(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> Screen<Dim>::box() const {
-  Eigen::AlignedBox<double, Dim> box;
+Box<Dim> Screen<Dim>::box() const {
+  Box<Dim> box;
   for (int c = 0; c < (Dim == 2 ? 2 : 4); ++c) {
     Vec<Dim> x = corner;
     for (int axis = 0; axis < Dim - 1; ++axis) x += range[axis][c >> axis & 1] * along[axis];

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 
 namespace tailwater {
@@ -56,7 +57,7 @@ struct Screen {
   /// Hidden fraction H of two places; 0 if the straight line between them does not pass the screen.
   double hidden_fraction(const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The axis-parallel box around it.
-  Eigen::AlignedBox<double, Dim> box() const;
+  Box<Dim> box() const;
   /// m; of `x` from the piece, or from the rectangle around it
   double distance(const Vec<Dim>& x) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "geometry/from_spec.h"
 
 namespace tailwater {
@@ -49,7 +50,7 @@ void require_few_patches(const Boundary<Dim>& boundary, double longest) {
   if (patches <= most_wall_patches) return;
   const auto largest = std::ranges::max_element(of_wall);
   const auto wall = static_cast<int>(largest - of_wall.begin());
-  Eigen::AlignedBox<double, Dim> box;
+  Box<Dim> box;
   for (const WallFace<Dim>& face : boundary.faces) {
     if (face.wall == wall) box.extend(face.box());
   }

@@ -56,7 +56,7 @@ FloatingBody<Dim>::FloatingBody(const CaseSpec& spec, const BodyTable& table)
   std::ranges::sort(free);
   free.erase(std::unique(free.begin(), free.end()), free.end());
   drawn.centre = to_vec<Dim>(table.centre, owner, "centre");
-  drawn.velocity.template head<Dim>() = to_vec<Dim>(table.velocity, owner, "velocity");
+  drawn.velocity.put(0, to_vec<Dim>(table.velocity, owner, "velocity"));
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (std::ranges::find(table.walls, spec.walls[w].name) != table.walls.end()) walls.push_back(static_cast<int>(w));
   }
@@ -73,27 +73,22 @@ Mat<Dim == 2 ? 1 : 3> FloatingBody<Dim>::inertia_of(const BodyState<Dim>& state)
 
 template <int Dim>
 Twist<Dim> FloatingBody<Dim>::force_of(const BodyState<Dim>& state, const Twist<Dim>& acceleration) const {
-  Twist<Dim> force;
-  force.template head<Dim>() = mass * acceleration.template head<Dim>();
-  force.template tail<turns<Dim>>() = inertia_of(state) * acceleration.template tail<turns<Dim>>();
-  return force;
+  return twist_of<Dim>(mass * acceleration.template head<Dim>(),
+                       inertia_of(state) * acceleration.template tail<turns<Dim>>());
 }
 
 template <int Dim>
 Twist<Dim> FloatingBody<Dim>::scale() const {
-  Twist<Dim> scale;
-  scale.template head<Dim>().setConstant(mass);
-  scale.template tail<turns<Dim>>().setConstant(inertia.mean());
-  return scale;
+  return twist_of<Dim>(Vec<Dim>::Constant(mass), Turn<Dim>::Constant(inertia.mean()));
 }
 
 template <int Dim>
 Twist<Dim> FloatingBody<Dim>::load(const BodyState<Dim>& state, const Vec<Dim>& gravity) const {
   Twist<Dim> load = Twist<Dim>::Zero();
-  load.template head<Dim>() = mass * gravity;
+  load.put(0, mass * gravity);
   if constexpr (Dim == 3) {
     const Vec<3> omega = state.angular_velocity();
-    load.template tail<3>() = -omega.cross(Vec<3>(inertia_of(state) * omega));
+    load.put(3, -omega.cross(inertia_of(state) * omega));
   }
   return load;
 }

@@ -7,6 +7,7 @@
 
 #include "base/vec.h"
 #include "case/spec.h"
+#include "geometry/rotation.h"
 #include "motion/affine_map.h"
 
 namespace tailwater {
@@ -16,12 +17,20 @@ template <int Dim>
 inline constexpr int turns = Dim == 2 ? 1 : 3;
 
 template <int Dim>
-using Turn = Eigen::Matrix<double, turns<Dim>, 1>;
+using Turn = Vec<turns<Dim>>;
 
 /// Of a rigid body: first what goes along the axes, then what goes about them. A velocity [m/s, rad/s], an
 /// acceleration, or a force with its moment [N, N m].
 template <int Dim>
-using Twist = Eigen::Matrix<double, Dim + turns<Dim>, 1>;
+using Twist = Vec<Dim + turns<Dim>>;
+
+template <int Dim>
+Twist<Dim> twist_of(const Vec<Dim>& along, const Turn<Dim>& about) {
+  Twist<Dim> both;
+  both.put(0, along);
+  both.put(Dim, about);
+  return both;
+}
 
 /// arm x force
 template <int Dim>
@@ -47,10 +56,10 @@ Vec<Dim> velocity_about(const Turn<Dim>& omega, const Vec<Dim>& arm) {
 template <int Dim>
 Mat<Dim> rotation_by(const Turn<Dim>& angle) {
   if constexpr (Dim == 2) {
-    return Eigen::Rotation2Dd(angle[0]).toRotationMatrix();
+    return rotation_in_plane(angle[0]);
   } else {
     const double size = angle.norm();
-    return size > 0.0 ? Eigen::AngleAxisd(size, angle / size).toRotationMatrix() : Mat<3>::Identity().eval();
+    return size > 0.0 ? rotation_about(angle / size, size) : Mat<3>::Identity();
   }
 }
 
@@ -60,8 +69,7 @@ Turn<Dim> angle_of(const Mat<Dim>& rotation) {
   if constexpr (Dim == 2) {
     return Turn<2>(std::atan2(rotation(1, 0), rotation(0, 0)));
   } else {
-    const Eigen::AngleAxisd turn(rotation);
-    return turn.angle() * turn.axis();
+    return rotation_vector_of(rotation);
   }
 }
 

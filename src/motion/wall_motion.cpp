@@ -7,6 +7,7 @@
 #include "base/for_each.h"
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
+#include "geometry/rotation.h"
 
 namespace tailwater {
 namespace {
@@ -151,9 +152,9 @@ AffineMap<Dim> WallPath<Dim>::at(const Placement<Dim>& placement) const {
   AffineMap<Dim> map;
   const double angle = placement.angle;
   if constexpr (Dim == 2) {
-    map.linear << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    map.linear = rotation_in_plane(angle);
   } else if (angle != 0.0) {
-    map.linear = Eigen::AngleAxisd(angle, axis_).toRotationMatrix();
+    map.linear = rotation_about(axis_, angle);
   }
   map.constant = pivot_ - map.linear * pivot_;
   map.constant += placement.displacement;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "base/box.h"
 #include "geometry/from_spec.h"
 #include "motion/wave_theory.h"
 
@@ -162,7 +163,7 @@ WaveZone<Dim>::WaveZone(const CaseSpec& spec, const DampingTable& table)
 
 template <int Dim>
 double WaveZone<Dim>::rate_at(const Vec<Dim>& x) const {
-  if ((x.array() < low_.array()).any() || (x.array() > high_.array()).any()) return 0.0;
+  if (!Box<Dim>(low_, high_).contains(x)) return 0.0;
   const double from_low = (x[axis_] - low_[axis_]) / (high_[axis_] - low_[axis_]);
   const double fraction = grows_upwards_ ? from_low : 1.0 - from_low;
   return strength_ * fraction * fraction;

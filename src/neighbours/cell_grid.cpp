@@ -18,8 +18,9 @@ std::array<int, Dim> axes_by_spread(std::span<const Vec<Dim>> positions) {
   const Vec<Dim> mean = sum_over(positions.size(), zero, [&](std::size_t i) -> Vec<Dim> {
     return positions[i] / static_cast<double>(positions.size());
   });
-  const Vec<Dim> spread =
-      sum_over(positions.size(), zero, [&](std::size_t i) -> Vec<Dim> { return (positions[i] - mean).cwiseAbs2(); });
+  const Vec<Dim> spread = sum_over(positions.size(), zero, [&](std::size_t i) {
+    return (positions[i] - mean).each([](double x) { return x * x; });
+  });
   std::array<int, Dim> axes;
   std::iota(axes.begin(), axes.end(), 0);
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return spread[a] > spread[b]; });

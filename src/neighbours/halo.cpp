@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "base/for_each.h"
 
 namespace tailwater {
 
 namespace {
-
-template <int Dim>
-using Box = Eigen::AlignedBox<double, Dim>;
 
 /// Around the owned particles and `margin` [m] beyond; empty without any.
 template <int Dim>

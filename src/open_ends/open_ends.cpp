@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/box.h"
 #include "base/error.h"
 #include "base/for_each.h"
 #include "base/saved.h"
@@ -114,13 +115,13 @@ void OpenEnds<Dim>::set_discharge(const std::string& inlet, double time, double 
 }
 
 template <int Dim>
-void OpenEnds<Dim>::extend_box(Eigen::AlignedBox<double, Dim>& box) const {
+void OpenEnds<Dim>::extend_box(Box<Dim>& box) const {
   for (const OpenEnd<Dim>& end : ends_) {
     box.extend(box_around(end.opening.as_faces()));
     if (!end.air()) continue;
     for (const Vec<Dim>& x : end.mouth.rim()) {
-      box.extend(Vec<Dim>(x.array() - end.far_out));
-      box.extend(Vec<Dim>(x.array() + end.far_out));
+      box.extend(x - Vec<Dim>::Constant(end.far_out));
+      box.extend(x + Vec<Dim>::Constant(end.far_out));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "flow/part.h"
 #include "open_ends/open_end.h"
 
@@ -36,7 +37,7 @@ class OpenEnds final : public Part<Dim> {
 
   std::string_view name() const override { return "open_ends"; }
   bool is_open() const override { return true; }
-  void extend_box(Eigen::AlignedBox<double, Dim>& box) const override;
+  void extend_box(Box<Dim>& box) const override;
   Json save() const override;
   bool restore(const Json& saved) override;
   void take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leaves) override;

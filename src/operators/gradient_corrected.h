@@ -23,7 +23,7 @@ inline double correction_share(double least_eigenvalue_M) {
 /// The same of M itself. Inside the water it is 1 already by what Gershgorin's circles leave of the eigenvalue.
 template <int Dim>
 double share_of_correction(const Mat<Dim>& first_moment) {
-  const Vec<Dim> off_diagonal = first_moment.cwiseAbs().rowwise().sum() - first_moment.diagonal().cwiseAbs();
+  const Vec<Dim> off_diagonal = first_moment.cwiseAbs() * Vec<Dim>::Ones() - first_moment.diagonal().cwiseAbs();
   const double least_possible = (first_moment.diagonal() - off_diagonal).minCoeff();
   if (correction_share(least_possible) == 1.0) return 1.0;
   return correction_share(least_eigenvalue<Dim>(first_moment));

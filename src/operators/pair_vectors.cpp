@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/eigen.h"
 #include "base/for_each.h"
 
 namespace tailwater {
@@ -18,13 +19,14 @@ constexpr double least_share = 0.5;
 /// below half of its largest count as that, so T is between 1/2 and 1 for any set.
 template <int Dim>
 Mat<Dim> equalising_correction(const Mat<Dim>& moment) {
-  Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen;
-  eigen.computeDirect(moment);  // reads the lower triangle
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen;
+  eigen.computeDirect(to_eigen(moment));  // reads the lower triangle
   const double largest = eigen.eigenvalues()[Dim - 1];
   if (!(largest > 0.0)) return Mat<Dim>::Identity();
   const double least = std::max(eigen.eigenvalues()[0], least_share * largest);
-  const Vec<Dim> scale = least * eigen.eigenvalues().cwiseMax(least).cwiseInverse();
-  return eigen.eigenvectors() * scale.asDiagonal() * eigen.eigenvectors().transpose();
+  const auto vectors = from_eigen<Dim, Dim>(eigen.eigenvectors());
+  const auto scale = Vec<Dim>::NullaryExpr([&](int d) { return least / std::max(eigen.eigenvalues()[d], least); });
+  return vectors * scale.asDiagonal() * vectors.transpose();
 }
 
 /// What the mean of first moments reads of a neighbour.

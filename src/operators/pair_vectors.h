@@ -103,7 +103,7 @@ struct PairVectorField {
   /// a_ij of pair k of particle i.
   Vec<Dim> at(const Pairs<Dim>& pairs, std::size_t i, std::size_t k) const {
     const VecLanes<Dim> a = with_one_pair(pairs, i, k, [this](const auto& pair) { return (*this)(pair).a; });
-    return Vec<Dim>::NullaryExpr([&a](Eigen::Index n) { return a.at[n][0]; });
+    return Vec<Dim>::NullaryExpr([&a](int n) { return a.at[n][0]; });
   }
 };
 

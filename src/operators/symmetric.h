@@ -8,7 +8,7 @@
 namespace tailwater {
 
 template <int Dim>
-using Packed = Eigen::Matrix<double, symmetric_size<Dim>, 1>;
+using Packed = Vec<symmetric_size<Dim>>;
 
 /// a_c b_d for c <= d, symmetric when a = b.
 template <int Dim>
@@ -66,6 +66,8 @@ Packed<Dim> packed(const Mat<Dim>& full) {
   return packed;
 }
 
+double least_eigenvalue_of(const Mat<3>& matrix);
+
 /// Least eigenvalue of a symmetric matrix.
 template <int Dim>
 double least_eigenvalue(const Mat<Dim>& matrix) {
@@ -75,9 +77,7 @@ double least_eigenvalue(const Mat<Dim>& matrix) {
     return 0.5 * (matrix(0, 0) + matrix(1, 1)) -
            std::sqrt(half_difference * half_difference + off_diagonal * off_diagonal);
   } else {
-    Eigen::SelfAdjointEigenSolver<Mat<Dim>> solver;
-    solver.computeDirect(matrix, Eigen::EigenvaluesOnly);
-    return solver.eigenvalues()[0];
+    return least_eigenvalue_of(matrix);
   }
 }
 

@@ -14,8 +14,8 @@ struct ForceBesideWall {
   int body;
   int beside;  ///< the nearest other wall, an index into Boundary::walls
   Vec<Dim> centre;
-  Vec<Dim> force;                                  ///< N
-  Eigen::Vector<double, Dim == 2 ? 1 : 3> moment;  ///< N m; about the centre
+  Vec<Dim> force;                ///< N
+  Vec<Dim == 2 ? 1 : 3> moment;  ///< N m; about the centre
 };
 
 /// Entries of owned particles. On a wall particle: what its pairs with fluid particles do to it, of the pressure that

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/box.h"
 #include "base/for_each.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
@@ -23,7 +24,7 @@ struct Floor {
 template <int Dim>
 Floor<Dim> find_floor(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
-  Eigen::AlignedBox<double, Dim> box = flow.box();
+  Box<Dim> box = flow.box();
   if (box.isEmpty()) return {};
   for (int d = 0; d < Dim; ++d) {
     if (!setup.domain[d]) continue;
@@ -31,7 +32,7 @@ Floor<Dim> find_floor(const Flow<Dim>& flow) {
     box.max()[d] = std::max(box.max()[d], setup.domain[d]->second);
   }
   const Vec<Dim> down = setup.gravity.normalized();
-  const Vec<Dim> lowest = (down.array() > 0.0).select(box.max(), box.min());
+  const Vec<Dim> lowest = Vec<Dim>::NullaryExpr([&](int d) { return down[d] > 0.0 ? box.max()[d] : box.min()[d]; });
   return {down, down.dot(lowest) + kernel_radius(setup.scale.kernel)};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "base/finding.h"
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
@@ -66,7 +67,7 @@ PorousField<Dim>::PorousField(const CaseSpec& spec, const Boundary<Dim>& boundar
   if (spec.porous.empty()) return;
   std::vector<PorousRegion<Dim>> regions;
   std::vector<PorousMedium> media;
-  Eigen::AlignedBox<double, Dim> box;
+  Box<Dim> box;
   for (const PorousTable& table : spec.porous) {
     regions.emplace_back(spec, table);
     media.push_back(make_medium(table, spec.physics.viscosity, gravity_magnitude(spec.physics)));

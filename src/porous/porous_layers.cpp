@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.h"
 #include "base/finding.h"
 #include "base/for_each.h"
 #include "flow/flow.h"
@@ -49,11 +50,11 @@ void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim
 /// Throws CaseError for a layer that no water of the case can reach.
 template <int Dim>
 void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  Box<Dim> box = box_around(boundary.faces);
   if (box.isEmpty()) return;
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
   for (const PorousTable& table : spec.porous) {
-    const Eigen::AlignedBox<double, Dim> layer = PorousRegion<Dim>(spec, table).box();
+    const Box<Dim> layer = PorousRegion<Dim>(spec, table).box();
     if (box.intersects(layer)) continue;
     throw CaseError({"{} reaches from {} to {}, outside of the walls, which stand between {} and {}",
                      CaseLabel("porous", table.name), place<Dim>(layer.min()), place<Dim>(layer.max()),

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/mesh_surface.h"
@@ -16,14 +17,14 @@ class PorousRegion {
   /// Throws CaseError for corners of the wrong dimension and for a mesh that is not closed.
   PorousRegion(const CaseSpec& spec, const PorousTable& table);
 
-  const Eigen::AlignedBox<double, Dim>& box() const { return box_; }
+  const Box<Dim>& box() const { return box_; }
   /// Distance [m] of a place from the surface of the layer, positive inside. Beyond `reach` [m] from the surface only
   /// its sign and that it is at least `reach` are right.
   double depth_inside(const Vec<Dim>& x, double reach) const;
 
  private:
   RegionShape shape_;
-  Eigen::AlignedBox<double, Dim> box_;
+  Box<Dim> box_;
   Polygon outline_;
   std::shared_ptr<const MeshSurface> mesh_;
 };

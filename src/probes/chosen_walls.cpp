@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "base/box.h"
 #include "base/for_each.h"
 #include "case/nearest_name.h"
 #include "probes/places.h"
@@ -75,7 +76,7 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
     shares[k] = static_cast<double>(inside) / static_cast<double>(pieces.size());
   });
   if (std::ranges::all_of(shares, [](double share) { return share == 0.0; })) {
-    Eigen::AlignedBox<double, Dim> box;
+    Box<Dim> box;
     for (const WallFace<Dim>& face : boundary.faces) {
       if (chosen.is_named(face.wall)) box.extend(face.box());
     }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "case/probe_columns.h"
 #include "geometry/boundary.h"
@@ -144,7 +145,7 @@ struct Region {
   bool contains(const Vec<Dim>& x, double reach) const { return distance(x) <= margin + reach; }
 
   /// Contains all places that `contains` accepts, up to rounding; unbounded in the directions of `along`.
-  Eigen::AlignedBox<double, Dim> box(double reach) const {
+  Box<Dim> box(double reach) const {
     Vec<Dim> sideways = Vec<Dim>::Constant(margin + reach);
     for (int d = 0; d < Dim; ++d) {
       if (along[d] != 0.0) sideways[d] = std::numeric_limits<double>::infinity();

@@ -1,8 +1,6 @@
 // How the force through a particle is divided between the patches of walls near it (docs/theory/probes.md).
 #pragma once
 
-#include <Eigen/Dense>
-
 #include <span>
 
 #include "motion/floating_body.h"
@@ -36,8 +34,11 @@ struct WallLoads {
 
   /// Adds up those of all ranks. Collective.
   void gather(const Communicator& ranks) {
-    Eigen::Vector<double, 2 * Dim + turns<Dim> + 1> sums;
-    sums << pressure, friction, moment, power;
+    Vec<2 * Dim + turns<Dim> + 1> sums;
+    sums.put(0, pressure);
+    sums.put(Dim, friction);
+    sums.put(2 * Dim, moment);
+    sums[2 * Dim + turns<Dim>] = power;
     ranks.sum_of_each(std::span(sums.data(), sums.size()));
     pressure = sums.template head<Dim>();
     friction = sums.template segment<Dim>(Dim);

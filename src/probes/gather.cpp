@@ -4,6 +4,7 @@
 #include <array>
 #include <tuple>
 
+#include "base/box.h"
 #include "base/for_each.h"
 
 namespace tailwater {
@@ -37,7 +38,7 @@ template <int Dim>
 GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::vector<Region<Dim>>& regions) {
   const Particles<Dim>& particles = context.particles;
   const double reach = kernel_radius(context.kernel);
-  std::vector<Eigen::AlignedBox<double, Dim>> boxes;  // a quick test: most places are outside all of them
+  std::vector<Box<Dim>> boxes;  // a quick test: most places are outside all of them
   for (const Region<Dim>& region : regions) boxes.push_back(region.box(reach));
   const auto is_near = [&](std::size_t i) {
     const Vec<Dim>& x = particles.position[i];
@@ -63,8 +64,8 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
   gathered.resize(near.size());
   gathered.owned = near.size();
   for_each(near.size(), [&](std::size_t i) {
-    gathered.position[i] = Vec<Dim>(near[i].position.data());
-    gathered.velocity[i] = Vec<Dim>(near[i].velocity.data());
+    gathered.position[i] = Vec<Dim>::Map(near[i].position.data());
+    gathered.velocity[i] = Vec<Dim>::Map(near[i].velocity.data());
     gathered.pressure[i] = near[i].pressure;
     gathered.volume[i] = near[i].volume;
     gathered.kind[i] = near[i].kind;

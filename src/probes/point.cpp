@@ -1,5 +1,8 @@
 #include "probes/point.h"
 
+#include <Eigen/Cholesky>
+
+#include "base/eigen.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
 
@@ -12,14 +15,15 @@ namespace {
 constexpr double least_reciprocal_condition = 1e-3;
 
 template <int Dim>
-using Moments = Eigen::Matrix<double, Dim + 1, Dim + 1>;
+using Moments = Mat<Dim + 1>;
 template <int Dim>
-using Basis = Eigen::Matrix<double, Dim + 1, 1>;
+using Basis = Vec<Dim + 1>;
 
 template <int Dim>
 Basis<Dim> basis(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
   Basis<Dim> q;
-  q << 1.0, (context.particles.position[j] - x) / kernel_radius(context.kernel);
+  q[0] = 1.0;
+  q.put(1, (context.particles.position[j] - x) / kernel_radius(context.kernel));
   return q;
 }
 
@@ -33,9 +37,9 @@ Basis<Dim> fit(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
     moments += weight * q * q.transpose();
   });
   const Basis<Dim> first = Basis<Dim>::UnitX();
-  const Eigen::LDLT<Moments<Dim>> factors(moments);
-  return factors.rcond() > least_reciprocal_condition ? Basis<Dim>(factors.solve(first))
-                                                      : Basis<Dim>(first / moments(0, 0));
+  const Eigen::LDLT<Eigen::Matrix<double, Dim + 1, Dim + 1>> factors(to_eigen(moments));
+  return factors.rcond() > least_reciprocal_condition ? from_eigen<Dim + 1, 1>(factors.solve(to_eigen(first)))
+                                                      : first / moments(0, 0);
 }
 
 /// f at `x`, where there is fluid; `zero` is the initial value of the sum.

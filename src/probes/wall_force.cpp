@@ -1,7 +1,5 @@
 #include "probes/wall_force.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,6 +7,7 @@
 #include <span>
 
 #include "base/assert.h"
+#include "base/box.h"
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "geometry/face.h"
@@ -88,12 +87,11 @@ class WallForceProbe {
     grid_ = CellGrid<Dim>(centres_, reach_);
     is_covered_.assign(patches_.size(), 0);
     for_each(patches_.size(), [&](std::size_t k) { is_covered_[k] = is_under_wall(boundary, k) ? 1 : 0; });
-    around_chosen_.setEmpty();
+    around_chosen_ = {};
     for (std::size_t k = 0; k < patches_.size(); ++k) {
       if (chosen_[k] > 0.0) around_chosen_.extend(centres_[k]);
     }
-    around_chosen_.min().array() -= reach_;
-    around_chosen_.max().array() += reach_;
+    around_chosen_.widen(reach_);
   }
 
   /// Whether another wall lies on the patch, as a bed does below a block that stands on it.
@@ -164,7 +162,7 @@ class WallForceProbe {
       if (body_of_[wall] >= 0) {
         const BodyState<Dim>& body = context.bodies[body_of_[wall]];
         for (int d = 0; d < Dim; ++d) {
-          maps[wall].linear.col(d) = velocity_about<Dim>(body.angular_velocity(), Vec<Dim>::Unit(d));
+          maps[wall].linear.put_column(d, velocity_about<Dim>(body.angular_velocity(), Vec<Dim>::Unit(d)));
         }
         maps[wall].constant = body.linear_velocity() - maps[wall].linear * body.centre;
       }
@@ -290,10 +288,10 @@ class WallForceProbe {
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
-  std::vector<Vec<Dim>> centres_;                 ///< of the patches, where they are
-  std::vector<std::uint8_t> is_covered_;          ///< whether no water reaches the patch
-  CellGrid<Dim> grid_;                            ///< of these
-  Eigen::AlignedBox<double, Dim> around_chosen_;  ///< contains all forces of which chosen patches take a fraction
+  std::vector<Vec<Dim>> centres_;         ///< of the patches, where they are
+  std::vector<std::uint8_t> is_covered_;  ///< whether no water reaches the patch
+  CellGrid<Dim> grid_;                    ///< of these
+  Box<Dim> around_chosen_;                ///< contains all forces of which chosen patches take a fraction
 };
 
 /// Largest and mean force so far, as numbers that a checkpoint saves.
@@ -306,13 +304,13 @@ struct ForceMemory {
   double& duration() const { return numbers[1]; }         // s; of the impulse
   double& largest() const { return numbers[2]; }          // N
   double& time_of_largest() const { return numbers[3]; }  // s
-  Eigen::Map<Vec<Dim>> impulse() const { return Eigen::Map<Vec<Dim>>(numbers.data() + 4); }
+  Vec<Dim> impulse() const { return Vec<Dim>::Map(numbers.data() + 4); }
 
   void add(double time, const Vec<Dim>& force) const {
     const double since_last = time - last_time();
     last_time() = time;
     duration() += since_last;
-    impulse() += since_last * force;
+    (since_last * force).add_to(numbers.data() + 4);
     if (force.norm() <= largest()) return;
     largest() = force.norm();
     time_of_largest() = time;
@@ -353,7 +351,8 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
   reading.totals = [memory] {
     const ForceMemory<Dim> so_far{*memory};
     std::vector<double> totals{so_far.largest(), so_far.time_of_largest()};
-    for (const double impulse : so_far.impulse()) {
+    const Vec<Dim> whole = so_far.impulse();
+    for (const double impulse : whole) {
       totals.push_back(so_far.duration() > 0.0 ? impulse / so_far.duration() : 0.0);
     }
     return totals;

@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
+#include "geometry/rotation.h"
 #include "motion/wall_motion.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
@@ -86,12 +87,12 @@ std::vector<Vec<Dim>> places_on_disc(const ProbeTable& probe, const Vec<Dim>& ce
   if constexpr (Dim == 2) {
     for (int k = 0; k < count; ++k) places.push_back(centre + from_centre(k) * Vec<2>(-normal[1], normal[0]));
   } else {
-    const Vec<3> along = normal.unitOrthogonal();
-    const Vec<3> across = normal.cross(along);
+    const Vec<3> along = across(normal);
+    const Vec<3> upwards = normal.cross(along);
     for (int i = 0; i < count; ++i) {
       for (int k = 0; k < count; ++k) {
         if (std::hypot(from_centre(i), from_centre(k)) > 0.5 * probe.diameter) continue;
-        places.push_back(centre + from_centre(i) * along + from_centre(k) * across);
+        places.push_back(centre + from_centre(i) * along + from_centre(k) * upwards);
       }
     }
   }

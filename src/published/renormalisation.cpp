@@ -1,7 +1,9 @@
 #include "published/renormalisation.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
+#include "base/eigen.h"
 #include "base/for_each.h"
 
 namespace tailwater {
@@ -12,8 +14,8 @@ constexpr double singular_pivot = 1e-9;
 
 template <int Dim>
 struct PairMoments {
-  using Third = Eigen::Matrix<double, Dim, symmetric_size<Dim>>;
-  using Fourth = Eigen::Matrix<double, symmetric_size<Dim>, symmetric_size<Dim>>;
+  using Third = SmallMatrix<Dim, symmetric_size<Dim>>;
+  using Fourth = Mat<symmetric_size<Dim>>;
 
   Mat<Dim> A = Mat<Dim>::Zero();
   Third C = Third::Zero();
@@ -39,12 +41,13 @@ Renormalisation<Dim> renormalisation_of(const PairMoments<Dim>& moments) {
 
   // sum over a <= b of m_ab B2_ab M_ab,cd = I_cd, M = E - C . B1 . D, is the transposed system for m * B2.
   const typename PairMoments<Dim>::Fourth M = moments.E - moments.C.transpose() * result.B1 * moments.D;
-  const Eigen::FullPivLU<typename PairMoments<Dim>::Fourth> factors(M.transpose());
+  constexpr int size = symmetric_size<Dim>;
+  const Eigen::FullPivLU<Eigen::Matrix<double, size, size>> factors(to_eigen(M).transpose());
   if (factors.maxPivot() == 0.0 ||
       std::abs(factors.matrixLU().diagonal()[symmetric_size<Dim> - 1]) < singular_pivot * factors.maxPivot()) {
     return result;
   }
-  const Packed<Dim> weighted_B2 = factors.solve(packed_identity<Dim>());
+  const Packed<Dim> weighted_B2 = from_eigen<size, 1>(factors.solve(to_eigen(packed_identity<Dim>())));
   result.B2 = weighted_B2.cwiseQuotient(packed_multiplicity<Dim>());
   result.drift = result.B1 * (moments.C * weighted_B2);
   result.b2_sum = result.B2.cwiseAbs().sum();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/box.h"
 #include "geometry/from_spec.h"
 
 namespace tailwater {
@@ -23,7 +24,7 @@ template <int Dim>
 SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double dx = spec.particles.spacing;
-  Eigen::AlignedBox<double, Dim> bounds = box_around(boundary.faces);
+  Box<Dim> bounds = box_around(boundary.faces);
   periodic_.min().setZero();
   periodic_.max().setZero();
   if (bounds.isEmpty()) bounds = {Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity)};
@@ -117,10 +118,9 @@ SpacingNearby<Dim> SpacingField<Dim>::nearby(const Vec<Dim>& x, double reach) co
 }
 
 template <int Dim>
-double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, double spacing,
-                              const Eigen::AlignedBox<double, Dim>& box) {
+double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, double spacing, const Box<Dim>& box) {
   constexpr int pieces = 64;  // along each edge
-  const Eigen::AlignedBox<double, Dim> inside = field.zones()[zone].box.intersection(box);
+  const Box<Dim> inside = field.zones()[zone].box.intersection(box);
   if (inside.isEmpty()) return 0.0;
   const double all = power<Dim>(pieces);
   double count = 0.0;

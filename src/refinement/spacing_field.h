@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
@@ -41,7 +42,7 @@ class SpacingField {
 
   /// A zone, of which a face that bounds nothing is infinitely far away.
   struct Zone {
-    Eigen::AlignedBox<double, Dim> box;  ///< m
+    Box<Dim> box;  ///< m
     int level;
     double border;  ///< m
   };
@@ -58,14 +59,13 @@ class SpacingField {
   Vec<Dim> wrapped(Vec<Dim> x) const;
 
   std::vector<Zone> zones_;
-  Eigen::AlignedBox<double, Dim> periodic_;  ///< m; along directions that are not periodic it has no extent
+  Box<Dim> periodic_;  ///< m; along directions that are not periodic it has no extent
 };
 
 /// Particles in the part of a zone that is in `box`, without other zones, when it is full of water of this `spacing`
 /// [m] of the case.
 template <int Dim>
-double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, double spacing,
-                              const Eigen::AlignedBox<double, Dim>& box);
+double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, double spacing, const Box<Dim>& box);
 
 /// A particle is split in two where its volume exceeds that of the field, (h dx)^Dim, by this factor.
 inline constexpr double volume_to_split = 1.34;

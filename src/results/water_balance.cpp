@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/box.h"
 #include "base/for_each.h"
 #include "geometry/mesh_surface.h"
 #include "open_ends/open_ends.h"
@@ -67,7 +68,7 @@ std::vector<Vec<Dim>> images_along(const PeriodicDomain<Dim>& domain, const Vec<
 
 /// Whether water that is beyond the box around the walls falls onto the front of one, as spray above an open tank does.
 template <int Dim>
-bool falls_back(const Flow<Dim>& flow, const Eigen::AlignedBox<double, Dim>& box, const Vec<Dim>& x) {
+bool falls_back(const Flow<Dim>& flow, const Box<Dim>& box, const Vec<Dim>& x) {
   const Vec<Dim>& gravity = flow.setup.gravity;
   if (gravity.norm() == 0.0) return false;
   const double length = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.scale.spacing;
@@ -99,7 +100,7 @@ WaterAmount water_in(const Flow<Dim>& flow) {
 
 template <int Dim>
 WaterAmount water_outside(const Flow<Dim>& flow) {
-  const Eigen::AlignedBox<double, Dim> box = flow.box();
+  const Box<Dim> box = flow.box();
   if (box.isEmpty()) return {};
   const Particles<Dim>& particles = flow.state.particles;
   const auto& ends = flow.template part<OpenEnds<Dim>>();

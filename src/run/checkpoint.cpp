@@ -39,7 +39,7 @@ struct Stored<ParticleKind> {
   static constexpr std::size_t columns = 1;
 };
 template <int Dim>
-struct Stored<Eigen::Matrix<double, Dim, 1>> {
+struct Stored<SmallMatrix<Dim, 1>> {
   using Number = double;
   static constexpr std::size_t columns = Dim;
 };

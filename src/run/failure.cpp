@@ -47,7 +47,7 @@ std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow) {
   const std::span<const double> source = flow.pressure_rows.rhs();
   const std::vector<std::size_t> found = indices_where(particles.owned, [&](std::size_t i) {
     return particles.is_fluid(i) &&
-           (!particles.position[i].array().isFinite().all() || !particles.velocity[i].array().isFinite().all() ||
+           (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
             !std::isfinite(particles.pressure[i]) || (i < source.size() && !std::isfinite(source[i])));
   });
   if (found.empty()) return std::nullopt;

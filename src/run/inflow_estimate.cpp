@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/box.h"
 #include "motion/channel_end.h"
 
 namespace tailwater {
@@ -23,7 +24,7 @@ struct Basin {
 
 template <int Dim>
 Basin basin_of(const Boundary<Dim>& boundary, const std::vector<ChannelEnd<Dim>>& ends, const Vec<Dim>& up) {
-  Eigen::AlignedBox<double, Dim> box;
+  Box<Dim> box;
   for (const WallFace<Dim>& face : boundary.faces) {
     if (!boundary.walls[face.wall].is_duct) box.extend(face.box());
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 
@@ -30,12 +31,11 @@ class Fill {
         near_(2.0 * dx_) {
     boundary.visit_plain_faces([&](int f) { file(boundary.faces[f], boundary.faces[f].box()); });
     box_ = box_around(boundary.faces);
-    Eigen::AlignedBox<double, Dim> around = box_;
-    around.min().array() -= beyond_walls * dx_;
-    around.max().array() += beyond_walls * dx_;
+    Box<Dim> around = box_;
+    around.widen(beyond_walls * dx_);
     for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
       for (const WallFace<Dim>& face : end.as_faces()) {
-        const Eigen::AlignedBox<double, Dim> box = face.box().intersection(around);
+        const Box<Dim> box = face.box().intersection(around);
         if (box.isEmpty()) continue;
         file(face, box);
         box_.extend(box);
@@ -65,7 +65,7 @@ class Fill {
 
  private:
   /// So that it is found in a box.
-  void file(const WallFace<Dim>& face, const Eigen::AlignedBox<double, Dim>& box) {
+  void file(const WallFace<Dim>& face, const Box<Dim>& box) {
     near_.add(static_cast<int>(plain_.size()), box.min(), box.max(),
               [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
     plain_.push_back(face);
@@ -119,7 +119,7 @@ class Fill {
   /// The lowest cell that the water may reach, for `side` -1, or the highest, for 1. A seed is tried with the cells
   /// around its own.
   Cell<Dim> corner_of(int side) const {
-    Eigen::AlignedBox<double, Dim> box = box_;
+    Box<Dim> box = box_;
     box.max()[Dim - 1] = std::min(box.max()[Dim - 1], level_);
     box.extend(seed_);
     Cell<Dim> corner = cell_at(side < 0 ? box.min() : box.max());
@@ -171,7 +171,7 @@ class Fill {
   double level_;
   std::vector<WallFace<Dim>> plain_;  ///< faces of walls that are no meshes, and of open ends
   FaceGrid<Dim> near_;
-  Eigen::AlignedBox<double, Dim> box_;
+  Box<Dim> box_;
   std::array<int, Dim> period_{};  ///< cells after which an axis repeats; 0: never
   CellSet<Dim> reached_;
 };

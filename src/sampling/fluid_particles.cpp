@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/box.h"
 #include "base/number_range.h"
 #include "base/random.h"
 #include "case/formulation.h"
@@ -296,7 +297,7 @@ class BlockWater {
 }  // namespace
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> FluidParticles<Dim>::box() const {
+Box<Dim> FluidParticles<Dim>::box() const {
   // Least values, of the highest places with the sign turned.
   std::array<double, 2 * Dim> least;
   least.fill(std::numeric_limits<double>::max());
@@ -307,7 +308,7 @@ Eigen::AlignedBox<double, Dim> FluidParticles<Dim>::box() const {
     }
   }
   ranks.least_of_each(least);
-  Eigen::AlignedBox<double, Dim> box;
+  Box<Dim> box;
   if (all == 0) return box;
   for (int axis = 0; axis < Dim; ++axis) {
     box.min()[axis] = least[axis];

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
@@ -27,7 +28,7 @@ struct FluidParticles {
 
   std::int64_t id_of(std::size_t n) const { return id.empty() ? first + static_cast<std::int64_t>(n) : id[n]; }
   /// The box around the particles of all ranks; empty if there are none. Collective.
-  Eigen::AlignedBox<double, Dim> box() const;
+  Box<Dim> box() const;
   /// Between the lowest and the highest of all of them along a unit vector, m. Collective.
   double extent_along(const Vec<Dim>& direction) const;
 };

@@ -1,6 +1,8 @@
 // Nodes of the water's lattice near a mesh.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <utility>
 
 #include "geometry/boundary.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "case/formulation.h"
 #include "geometry/from_spec.h"
@@ -23,7 +24,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
       count.fluid += block.points.empty() ? 0.0 : std::abs(signed_area(block.points)) / power<Dim>(dx);
     } else if (block.shape == BlockShape::fill) {
       // At most: the box around the walls up to the level.
-      Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+      Box<Dim> box = box_around(boundary.faces);
       if (box.isEmpty()) continue;
       box.max()[Dim - 1] = std::min(box.max()[Dim - 1], block.level);
       count.fluid += std::max(box.volume(), 0.0) / power<Dim>(dx);  // below 0 with a level below the walls
@@ -33,7 +34,7 @@ ParticleCount expected_particle_count(const CaseSpec& spec, const Boundary<Dim>&
       }
     } else {
       const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - to_vec<Dim>(block.min, label, "min");
-      count.fluid += (extent / dx).array().round().max(1.0).prod();
+      count.fluid += (extent / dx).each([](double steps) { return std::max(1.0, std::round(steps)); }).prod();
     }
   }
   const int layers = traits_of(spec).walls.behind ? dummy_layers(spec) : 1;

@@ -1,6 +1,8 @@
 // Wall particles of boxes in 3D: nodes of the box's own lattice, continued outside the box,
 // or inside it for a body that stands in the water. Nodes are the centres of lattice cells behind the wall, or their
 // corners if the first layer stands on the wall.
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -54,6 +56,12 @@ WallBox box_of(const Boundary<3>& boundary, int wall) {
   return box;
 }
 
+Eigen::Vector3i steps_of(const Vec<3>& lengths) {
+  Eigen::Vector3i steps;
+  for (int axis = 0; axis < 3; ++axis) steps[axis] = std::max(1, static_cast<int>(std::round(lengths[axis])));
+  return steps;
+}
+
 Vec<3> inward_normal(int axis, int side) { return (side == 0 ? 1.0 : -1.0) * Vec<3>::Unit(axis); }
 
 /// Calls visit(index) for all index triples in [low, high) per axis.
@@ -70,7 +78,7 @@ struct BoxLattice {
   const WallBox& box;
   double spacing;
   double offset;  ///< 0: nodes on the box's faces; 1/2: half a step behind them
-  Eigen::Vector3i count = ((box.high - box.low) / spacing).array().round().max(1.0).matrix().cast<int>();  ///< steps
+  Eigen::Vector3i count = steps_of((box.high - box.low) / spacing);
 
   double steps_from_low(const Eigen::Vector3i& index, int axis) const { return index[axis] + offset; }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/box.h"
+#include "base/eigen.h"
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
@@ -20,14 +22,15 @@ constexpr double edge_width = 0.25;        // within this many dx has an edge th
 /// module. The result is identical in all digits.
 template <int Dim>
 std::pair<Mat<Dim>, Vec<Dim>> eigensystem_of(const Mat<Dim>& matrix) {
-  Eigen::SelfAdjointEigenSolver<Mat<Dim>> eigen;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen;
   if constexpr (Dim == 2) {
     const double scale = matrix.cwiseAbs().maxCoeff();  // compute() scales by it too
-    eigen.computeFromTridiagonal(Vec<2>(matrix.diagonal() / scale), Eigen::Matrix<double, 1, 1>(matrix(1, 0) / scale));
-    return {eigen.eigenvectors(), scale * eigen.eigenvalues()};
+    eigen.computeFromTridiagonal(to_eigen(matrix).diagonal() / scale,
+                                 Eigen::Matrix<double, 1, 1>(matrix(1, 0) / scale));
+    return {from_eigen<2, 2>(eigen.eigenvectors()), scale * from_eigen<2, 1>(eigen.eigenvalues())};
   } else {
-    eigen.compute(matrix);
-    return {eigen.eigenvectors(), eigen.eigenvalues()};
+    eigen.compute(to_eigen(matrix));
+    return {from_eigen<3, 3>(eigen.eigenvectors()), from_eigen<3, 1>(eigen.eigenvalues())};
   }
 }
 
@@ -64,7 +67,7 @@ WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, con
       plain_(reach_over_depth * layers.count * layers.spacing) {
   body.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = body.faces[f];
-    const Eigen::AlignedBox<double, Dim> box = face.box();
+    const Box<Dim> box = face.box();
     plain_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
     all_plain_.push_back(f);
   });
@@ -145,7 +148,7 @@ Mat<Dim> WallParticleCollector<Dim>::normals_beyond_edges(const WallPlace<Dim>& 
   int column = 0;
   for (const WallFace<Dim>& face : meeting) {
     const bool is_own = face.normal.dot(sum.normalized()) > 1.0 - corner_tolerance;
-    if (!is_own && column < Dim) beyond.col(column++) = face.normal;
+    if (!is_own && column < Dim) beyond.put_column(column++, face.normal);
   }
   return beyond;
 }

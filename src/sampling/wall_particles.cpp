@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/rotation.h"
 #include "sampling/wall_layers.h"
 
 namespace tailwater {
@@ -111,12 +112,12 @@ Mat<Dim> axes_at_wall(const Boundary<Dim>& boundary, double spacing, const Vec<D
   const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
   if (wall.face < 0) return axes;
   const Vec<Dim>& normal = boundary.faces[wall.face].normal;
-  axes.col(0) = normal;
+  axes.put_column(0, normal);
   if constexpr (Dim == 2) {
-    axes.col(1) = Vec<2>(-normal[1], normal[0]);
+    axes.put_column(1, Vec<2>(-normal[1], normal[0]));
   } else {
-    axes.col(1) = normal.unitOrthogonal();
-    axes.col(2) = normal.cross(axes.col(1));
+    axes.put_column(1, across(normal));
+    axes.put_column(2, normal.cross(axes.col(1)));
   }
   return axes;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "sampling/water_shape.h"
@@ -23,8 +24,8 @@ bool is_axis_parallel(const WallFace<Dim>& face) {
 
 /// The box around a box or polygon.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const CaseLabel& owner) {
-  Eigen::AlignedBox<double, Dim> box;
+Box<Dim> box_around(const FluidTable& block, const CaseLabel& owner) {
+  Box<Dim> box;
   if (block.shape == BlockShape::polygon) {
     if constexpr (Dim == 3) {
       throw CaseError({"{} = \"polygon\" exists in 2D only", owner.with_key("shape")},
@@ -47,8 +48,7 @@ Eigen::AlignedBox<double, Dim> box_around(const FluidTable& block, const CaseLab
 
 /// Places of the planes of axis-parallel walls across `axis` that reach into the box.
 template <int Dim>
-std::vector<double> planes_in(const Boundary<Dim>& boundary, const Eigen::AlignedBox<double, Dim>& box, int axis,
-                              double least_measure) {
+std::vector<double> planes_in(const Boundary<Dim>& boundary, const Box<Dim>& box, int axis, double least_measure) {
   std::vector<double> planes;
   for (const WallFace<Dim>& face : boundary.faces) {
     if (is_axis_parallel(face) && face.measure() >= least_measure && std::abs(face.normal[axis]) > 0.5 &&
@@ -97,7 +97,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
   const CaseLabel owner = fluid_label(spec, block);
   const double dx = spec.particles.spacing;
   std::array<LatticeAxis, Dim> lattice;
-  Eigen::AlignedBox<double, Dim> box;
+  Box<Dim> box;
   if (water.shape == BlockShape::fill) {
     box = box_around(boundary.faces);
     box.extend(to_vec<Dim>(water.seed, owner, "seed"));
@@ -109,7 +109,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
   }
   // Walls that only touch the water's sides do not divide it.
   const Vec<Dim> margin = Vec<Dim>::Constant(0.25 * dx);
-  const Eigen::AlignedBox<double, Dim> inside(Vec<Dim>(box.min() + margin), Vec<Dim>(box.max() - margin));
+  const Box<Dim> inside(Vec<Dim>(box.min() + margin), Vec<Dim>(box.max() - margin));
   for (int axis = 0; axis < Dim; ++axis) {
     const double low = box.min()[axis];
     const double high = box.max()[axis];
@@ -124,7 +124,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
         if (water.shape == BlockShape::polygon) append_flat_sides(outline_of(water, owner), axis, dx, planes);
       } else {
         const auto divide_at = [&](const MeshSurface& mesh) {
-          if (!inside.intersects(Eigen::AlignedBox<double, 3>(mesh.low(), mesh.high()))) return;
+          if (!inside.intersects(Box<3>(mesh.low(), mesh.high()))) return;
           for (const double plane : planes_in(mesh.mesh(), axis, dx)) {
             if (plane > inside.min()[axis] && plane < inside.max()[axis]) planes.push_back(plane);
           }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/box.h"
 #include "geometry/from_spec.h"
 #include "sampling/fill.h"
 
@@ -88,8 +89,8 @@ Bodies<Dim>::Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary)
 template <int Dim>
 bool Bodies<Dim>::hold(const Vec<Dim>& x) const {
   const Vec<Dim> margin = Vec<Dim>::Constant(tolerance_);
-  for (const Eigen::AlignedBox<double, Dim>& box : boxes_) {
-    if (((x - margin).array() > box.min().array()).all() && ((x + margin).array() < box.max().array()).all()) {
+  for (const Box<Dim>& box : boxes_) {
+    if (box.contains(x - margin) && box.contains(x + margin)) {
       return true;
     }
   }

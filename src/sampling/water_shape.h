@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
 #include "geometry/mesh_surface.h"
@@ -70,7 +71,7 @@ class Bodies {
  private:
   const Boundary<Dim>& boundary_;
   double tolerance_;  ///< m
-  std::vector<Eigen::AlignedBox<double, Dim>> boxes_;
+  std::vector<Box<Dim>> boxes_;
   std::vector<Polygon> polygons_;
   std::vector<const WallMesh*> meshes_;
 };

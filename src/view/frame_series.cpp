@@ -1,6 +1,7 @@
 #include "view/frame_series.h"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/box.h"
+#include "base/eigen.h"
 #include "base/error.h"
 #include "base/for_each.h"
 #include "base/input_file.h"
@@ -44,7 +47,7 @@ std::vector<double> numbers_of(const AffineMap<2>& pose) {
   return {pose.constant[0], pose.constant[1], std::atan2(pose.linear(1, 0), pose.linear(0, 0))};
 }
 std::vector<double> numbers_of(const AffineMap<3>& pose) {
-  const Eigen::Quaterniond turn(pose.linear);
+  const Eigen::Quaterniond turn{Eigen::Matrix3d(to_eigen(pose.linear))};
   return {pose.constant[0], pose.constant[1], pose.constant[2], turn.w(), turn.x(), turn.y(), turn.z()};
 }
 
@@ -157,7 +160,7 @@ std::vector<Number> in_order(const std::vector<Number>& column, const std::vecto
 }  // namespace
 
 template <int Dim>
-FrameSeries<Dim>::FrameSeries(std::filesystem::path folder, double spacing, const Eigen::AlignedBox<double, Dim>& walls)
+FrameSeries<Dim>::FrameSeries(std::filesystem::path folder, double spacing, const Box<Dim>& walls)
     : folder_(std::move(folder)), spacing_(spacing), walls_(walls) {}
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "motion/affine_map.h"
 #include "parallel/communicator.h"
@@ -29,7 +30,7 @@ template <int Dim>
 class FrameSeries {
  public:
   /// `spacing` [m] is that of the particles, `walls` the box around the solid geometry [m].
-  FrameSeries(std::filesystem::path folder, double spacing, const Eigen::AlignedBox<double, Dim>& walls);
+  FrameSeries(std::filesystem::path folder, double spacing, const Box<Dim>& walls);
 
   /// Writes a file NAME beside the frames. Makes the folder, as `write` does, where it is missing. Collective; throws
   /// IoError, on all ranks, as all functions here.
@@ -55,7 +56,7 @@ class FrameSeries {
 
   std::filesystem::path folder_;
   double spacing_;
-  Eigen::AlignedBox<double, Dim> walls_;
+  Box<Dim> walls_;
   std::size_t count_ = 0;
   FrameScale scale_;     ///< scale of the last frame; the same on all ranks
   int since_key_ = -1;   ///< frames since the last key frame; -1: the next frame must be one

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/box.h"
 #include "base/error.h"
 #include "case/probe_columns.h"
 #include "geometry/from_spec.h"
@@ -274,7 +275,7 @@ std::vector<Opening<Dim>> sound_open_ends(const CaseSpec& spec) {
 /// The box around the drawn objects; null if there are none.
 template <int Dim>
 Json box_json(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends) {
-  Eigen::AlignedBox<double, Dim> box = box_around(boundary.faces);
+  Box<Dim> box = box_around(boundary.faces);
   for (const Opening<Dim>& end : ends) box.extend(box_around(end.as_faces()));
   if (box.isEmpty()) return {};
   return {{"min", point<Dim>(box.min())}, {"max", point<Dim>(box.max())}};

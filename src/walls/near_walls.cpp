@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "base/for_each.h"
 
 namespace tailwater {
@@ -11,11 +12,11 @@ constexpr std::int32_t nowhere = -1;
 
 /// Around the wall particles of all ranks that do not move; at the origin if there are none.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> box_of_resting(const Communicator& ranks, const Walls<Dim>& walls) {
-  Eigen::AlignedBox<double, Dim> own;
+Box<Dim> box_of_resting(const Communicator& ranks, const Walls<Dim>& walls) {
+  Box<Dim> own;
   for (std::size_t row = walls.moving; row < walls.kept; ++row) own.extend(walls.particles.position[row]);
-  Eigen::AlignedBox<double, Dim> box;
-  for (const Eigen::AlignedBox<double, Dim>& part : ranks.all_gather(own)) box.extend(part);
+  Box<Dim> box;
+  for (const Box<Dim>& part : ranks.all_gather(own)) box.extend(part);
   if (box.isEmpty()) box.extend(Vec<Dim>::Zero());
   return box;
 }
@@ -27,10 +28,11 @@ NearWalls<Dim>::NearWalls(const Communicator& ranks, const Walls<Dim>& walls, co
                           double reach)
     : ranks_(ranks), images_(image_shifts<Dim>(domain)), edge_(reach) {
   const std::vector<Vec<Dim>>& position = walls.particles.position;
-  const Eigen::AlignedBox<double, Dim> box = box_of_resting(ranks, walls);
+  const Box<Dim> box = box_of_resting(ranks, walls);
   // A few distant walls must not make the grid huge. Coarser cells only bring more walls near.
   const double most_cells = 64.0 * static_cast<double>(walls.all) + 1e5;
-  while ((box.sizes() / edge_).array().ceil().cwiseMax(1.0).prod() > most_cells) edge_ *= 2.0;
+  while ((box.sizes() / edge_).each([](double cells) { return std::max(1.0, std::ceil(cells)); }).prod() > most_cells)
+    edge_ *= 2.0;
   origin_ = box.min() - Vec<Dim>::Constant(edge_);
   std::size_t cells = 1;
   for (int d = 0; d < Dim; ++d) {

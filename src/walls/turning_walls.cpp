@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/for_each.h"
+#include "geometry/rotation.h"
 #include "walls/wet_walls.h"
 
 namespace tailwater {
@@ -43,7 +44,7 @@ std::array<Vec<Dim>, Dim - 1> tangents_of(const Vec<Dim>& n) {
   if constexpr (Dim == 2) {
     return {Vec<2>(n[1], -n[0])};
   } else {
-    const Vec<3> first = n.unitOrthogonal();
+    const Vec<3> first = across(n);
     return {first, n.cross(first)};
   }
 }

@@ -1,6 +1,7 @@
 #include "walls/wet_walls.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/for_each.h"
 
@@ -16,15 +17,14 @@ constexpr double least_wet_weight = 1e-6;
 template <int Dim>
 Vec<Dim> part_in_cone(const Vec<Dim>& d, const Mat<Dim>& others, const Vec<Dim>& own) {
   constexpr int sweeps = 8;
-  Eigen::Matrix<double, Dim, Dim + 1> normals;
-  normals << others, own;
-  Eigen::Matrix<double, Dim + 1, 1> share = Eigen::Matrix<double, Dim + 1, 1>::Zero();
+  const auto normal = [&](int k) { return k < Dim ? others.col(k) : own; };
+  std::array<double, Dim + 1> share{};
   Vec<Dim> rest = d;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int k = 0; k <= Dim; ++k) {
-      const double more = std::max(-share[k], normals.col(k).dot(rest));
+      const double more = std::max(-share[k], normal(k).dot(rest));
       share[k] += more;
-      rest -= more * normals.col(k);
+      rest -= more * normal(k);
     }
   }
   return d - rest;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "air/air_watch.h"
+#include "base/box.h"
 #include "base/error.h"
 
 namespace tailwater {
@@ -176,7 +177,7 @@ TEST(Pockets, MoreSpaceThanMemoryIsRefused) {
   spec.air.pockets = AirPockets::adiabatic;
   EXPECT_NO_THROW(AirWatch<2>(spec, {}, {Vec<2>::Zero(), Vec<2>::Ones()}, {}));
   for (const double length : {1e5, 1e15, 1e100}) {
-    const Eigen::AlignedBox<double, 2> box(Vec<2>::Zero(), Vec<2>::Constant(length));
+    const Box<2> box(Vec<2>::Zero(), Vec<2>::Constant(length));
     EXPECT_THROW(AirWatch<2>(spec, {}, box, {}), InputError) << length;
   }
 }

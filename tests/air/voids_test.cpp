@@ -80,7 +80,7 @@ TYPED_TEST(VoidsTest, HoleLetsTheOpenIn) {
   for (int row = 0; row < space.grid.rows(); ++row) {
     for (int place = 0; place < space.grid.length(); ++place) {
       const Vec<Dim> way = space.grid.centre(space.grid.cell(row, place)) - Vec<Dim>::Constant(0.5);
-      const bool is_in_hole = way[0] > 0.0 && way.tail(Dim - 1).norm() < 0.6 * dx;
+      const bool is_in_hole = way[0] > 0.0 && way.template tail<Dim - 1>().norm() < 0.6 * dx;
       if (is_in_hole) space.walls.mark(row, place, place + 1);
     }
   }

@@ -61,7 +61,8 @@ std::vector<std::array<double, 3>> places_of_wall(const CaseSpec& spec, int wall
   std::vector<std::array<double, 3>> places;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     // To a thousandth of the spacing, so that the order does not hang on round-off.
-    const Vec<3> x = (walls.position[i] / (0.001 * spec.particles.spacing)).array().round();
+    const Vec<3> x =
+        (walls.position[i] / (0.001 * spec.particles.spacing)).each([](double steps) { return std::round(steps); });
     if (walls.wall[i] == wall) places.push_back({x[0], x[1], x[2]});
   }
   std::ranges::sort(places);

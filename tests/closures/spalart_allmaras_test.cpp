@@ -78,8 +78,7 @@ TEST(SpalartAllmaras, ShearIsWhatRotatesAndStrains) {
   Mat<2> shear = Mat<2>::Zero();
   shear(0, 1) = 3.0;
   EXPECT_NEAR(shear_rate<2>(shear), 3.0, 1e-15);
-  Mat<2> strain = Mat<2>::Zero();
-  strain.diagonal() << 2.0, -2.0;
+  const Mat<2> strain = Vec<2>(2.0, -2.0).asDiagonal();
   EXPECT_EQ(shear_rate<2>(strain), 0.0);
   Mat<2> rotation = Mat<2>::Zero();
   rotation(0, 1) = -1.0;

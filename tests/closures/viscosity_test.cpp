@@ -98,7 +98,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
   // Any gradients, right or wrong: the properties of the limiter do not depend on them.
   std::vector<Mat<Dim>> gradient(set.size());
   for (Mat<Dim>& entry : gradient) {
-    for (int a = 0; a < Dim; ++a) entry.row(a) = 20.0 * noise.vector<Dim>().transpose();
+    for (int a = 0; a < Dim; ++a) entry.put_column(a, 20.0 * noise.vector<Dim>());
   }
   for (const double layer_viscosity : {0.0, 1.0}) {
     std::ranges::fill(set.particles.layer_viscosity, layer_viscosity);

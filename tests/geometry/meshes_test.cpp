@@ -195,7 +195,7 @@ TEST(MeshSurface, MeasuresTheDistanceFromABoxOnAllSides) {
   std::uniform_real_distribution<double> coordinate(-0.6, 1.6);
   for (int k = 0; k < 2000; ++k) {
     const Vec<3> x(coordinate(random), coordinate(random), coordinate(random));
-    const Vec<3> out = (x.array() - 0.5).abs().matrix() - Vec<3>::Constant(0.5);
+    const Vec<3> out = (x - Vec<3>::Constant(0.5)).cwiseAbs() - Vec<3>::Constant(0.5);
     const double exact = out.cwiseMax(0.0).norm() + std::min(0.0, out.maxCoeff());
     EXPECT_NEAR(surface.nearest(x, infinite).signed_distance, exact, 1e-12) << x.transpose();
   }

@@ -85,8 +85,8 @@ struct Tank {
     std::vector<Vec<Dim>> all;
     Noise noise(7);
     for (const Vec<Dim>& x : lattice_points<Dim>(Vec<Dim>::Constant(0.5 - layers), count, 1.0)) {
-      const auto across = x.template head<Dim - 1>().array();
-      const bool is_beside = x[Dim - 1] < 0.0 || (across < 0.0).any() || (across > edge).any();
+      const Vec<Dim - 1> across = x.template head<Dim - 1>();
+      const bool is_beside = x[Dim - 1] < 0.0 || across.minCoeff() < 0.0 || across.maxCoeff() > edge;
       const bool is_above = x[Dim - 1] > edge;
       if (top == Top::surface && is_above && !is_beside) continue;
       is_water.push_back(!is_beside && !is_above);

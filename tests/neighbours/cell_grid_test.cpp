@@ -60,7 +60,7 @@ TYPED_TEST(CellGridTest, OffersEverythingWithinReachOfABoxInRangesThatFollowEach
   const auto positions = random_places<Dim>(500, 5);
   const CellGrid<Dim> grid(positions, 0.3);
   for (const Vec<Dim>& low : random_places<Dim>(100, 6)) {
-    const Vec<Dim> high = low + Vec<Dim>::LinSpaced(0.0, 0.25);
+    const Vec<Dim> high = low + Vec<Dim>::NullaryExpr([](int d) { return 0.25 * d / (Dim - 1); });
     std::vector<int> offered(positions.size(), 0);
     std::int32_t last = 0;
     grid.for_each_range_near(low, high, [&](std::int32_t begin, std::int32_t end) {

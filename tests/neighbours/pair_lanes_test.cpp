@@ -34,12 +34,12 @@ struct Rows {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < i; ++j) pairs.j.push_back(static_cast<std::int32_t>(j));
       pairs.row_begin.push_back(pairs.j.size());
-      particles.position[i] = Vec<Dim>::NullaryExpr([&] { return origin + number(random); });
+      particles.position[i] = Vec<Dim>::NullaryExpr([&](int) { return origin + number(random); });
       particles.volume[i] = single();
       particles.kind[i] = i % 3 == 0 ? ParticleKind::wall : ParticleKind::fluid;
       pairs.id.push_back(static_cast<std::int64_t>(i));
       field.push_back(number(random));
-      vectors.push_back(Vec<Dim>::NullaryExpr([&] { return number(random); }));
+      vectors.push_back(Vec<Dim>::NullaryExpr([&](int) { return number(random); }));
       records.emplace_back();
       for (float& value : records.back().at) value = single();
     }

@@ -107,8 +107,9 @@ TYPED_TEST(ExactnessTest, TensorsAreSoundInsideAndOnFlatEdgesOfALattice) {
     const ConsistentOperators<Dim> operators(set);
     const double edge = 0.5 * (cube_count<Dim> - 1) * dx;
     for (std::size_t i = 0; i < set.size(); ++i) {
-      const auto on_edge = (set.position(i).cwiseAbs().array() > edge - 0.5 * dx).count();
-      const auto inside = (set.position(i).cwiseAbs().array() < edge - radius).count();
+      const Vec<Dim> out = set.position(i).cwiseAbs();
+      const auto on_edge = std::ranges::count_if(out, [&](double x) { return x > edge - 0.5 * dx; });
+      const auto inside = std::ranges::count_if(out, [&](double x) { return x < edge - radius; });
       if (on_edge == 1 && inside == Dim - 1) {
         EXPECT_TRUE(operators.tensors[i].gradient_is_sound());
       }

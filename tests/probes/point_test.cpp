@@ -78,7 +78,7 @@ TYPED_TEST(PointTest, VelocityIsReadComponentByComponent) {
   const auto reading = velocity_reading<dim>(probe_at(ProbeType::velocity, at));
   EXPECT_EQ(reading.columns.size(), dim + 1u);
   const Row row = reading.take(tank.context()).at(0);
-  const Vec<dim> expected = gradient * Eigen::Map<const Vec<dim>>(at.data());
+  const Vec<dim> expected = gradient * Vec<dim>::Map(at.data());
   for (int d = 0; d < dim; ++d) {
     EXPECT_NEAR(row[d], expected[d], 1e-10) << d;
   }

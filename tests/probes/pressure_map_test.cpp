@@ -37,7 +37,7 @@ TYPED_TEST(PressureMapTest, OfStillWaterIsHydrostatic) {
   probe.region_max[0] = 0.0;
   const Reading<Dim> reading = pressure_map_reading<Dim>(probe, tank.spec, tank.boundary);
   const Row first = reading.take(tank.context(0.0)).at(0);
-  const Vec<Dim> place(first.data() + 1);
+  const auto place = Vec<Dim>::Map(first.data() + 1);
   EXPECT_NEAR(place[0], 0.0, 1e-12);
   EXPECT_NEAR(first[0], T::rho * T::g * (level - place[Dim - 1]), 1e-9 * T::rho * T::g);
   EXPECT_LE(place[Dim - 1], 0.75 * T::dx);

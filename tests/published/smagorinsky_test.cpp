@@ -76,7 +76,7 @@ TYPED_TEST(SmagorinskyTest, DivergenceConservesMomentum) {
   Noise noise(51);
   std::vector<Mat<Dim>> stress(set.size());
   for (Mat<Dim>& tau : stress) {
-    for (int d = 0; d < Dim; ++d) tau.col(d) = noise.vector<Dim>();
+    for (int d = 0; d < Dim; ++d) tau.put_column(d, noise.vector<Dim>());
   }
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
   add_stress_divergence<Dim>(set.pairs(), set.particles, stress, acceleration);

@@ -227,7 +227,7 @@ TEST(Ducts, HoldTheWaterThatStandsAtTheirMouth) {
   ASSERT_EQ(fluid.position.size(), at_start + water.size());
   for (std::size_t i = at_start; i < fluid.position.size(); ++i) {
     const Vec<3> steps = fluid.position[i] / 0.1 - Vec<3>::Constant(0.5);
-    EXPECT_LT((steps - Vec<3>(steps.array().round())).norm(), 1e-9);
+    EXPECT_LT((steps - steps.each([](double x) { return std::round(x); })).norm(), 1e-9);
     EXPECT_GT(fluid.position[i][0], 1.0);
     EXPECT_LT(fluid.position[i][0], 2.0);
     EXPECT_NEAR(fluid.velocity[i][0], 0.3, 1e-15);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/box.h"
 #include "base/error.h"
 #include "geometry/boundary.h"
 #include "geometry/meshes.h"
@@ -31,7 +32,7 @@ TEST(Fill, OfABoxTankThatDxDoesNotDivideIsItsWholeVolume) {
     const Boundary<3> boundary = make_boundary<3>(spec);
     const FluidParticles<3> fluid = make_fluid_particles(spec, boundary);
     double volume = 0.0;
-    Eigen::AlignedBox<double, 3> box;
+    Box<3> box;
     for (std::size_t i = 0; i < fluid.position.size(); ++i) {
       volume += fluid.volume[i];
       box.extend(fluid.position[i]);

@@ -7,6 +7,7 @@
 #include "geometry/boundary.h"
 #include "geometry/meshes.h"
 #include "geometry/point_grid.h"
+#include "geometry/rotation.h"
 #include "sampling/fluid_particles.h"
 #include "sampling/wall_particles.h"
 #include "sampling/water_lattice.h"
@@ -117,8 +118,7 @@ TEST(MeshWall, HoldsWaterOffAtItsEdgesAsFarAsAtItsFaces) {
   const MeshFolder folder;
   for (const double tilt : {0.2, 0.5, 0.8, 1.1}) {
     TriangleMesh cube = box_mesh(Vec<3>::Constant(-0.5), Vec<3>::Constant(0.5));
-    const Eigen::Matrix3d turn =
-        (Eigen::AngleAxisd(0.6 * tilt, Vec<3>::UnitX()) * Eigen::AngleAxisd(tilt, Vec<3>::UnitZ())).toRotationMatrix();
+    const Mat<3> turn = rotation_about(Vec<3>::UnitX(), 0.6 * tilt) * rotation_about(Vec<3>::UnitZ(), tilt);
     for (Vec<3>& x : cube.points) x = turn * x + Vec<3>(0.53, 0.51, 0.52);
     CaseSpec spec = case_with(folder.wall(cube, FluidSide::outside));
     const Boundary<3> boundary = make_boundary<3>(spec);

@@ -97,7 +97,7 @@ TEST(Dummies, ContinueTheLatticeAroundATank) {
       }
       const Vec<2> normals(left ? 1.0 : right ? -1.0 : 0.0, below ? 1.0 : 0.0);
       EXPECT_LT((dummies.normal[found] - normals.normalized()).norm(), round_off);
-      const Mat<2> blocked = normals.cwiseAbs2().asDiagonal();
+      const Mat<2> blocked = normals.cwiseProduct(normals).asDiagonal();
       EXPECT_LT((dummies.blocked[found] - blocked).norm(), round_off);
     }
   }
@@ -219,7 +219,7 @@ TEST(Dummies, FillTheShellOfABoxIn3D) {
         ASSERT_EQ(found >= 0, !normals.isZero());
         if (found >= 0) {
           EXPECT_LT((dummies.normal[found] - normals.normalized()).norm(), round_off);
-          const Mat<3> blocked = normals.cwiseAbs2().asDiagonal();
+          const Mat<3> blocked = normals.cwiseProduct(normals).asDiagonal();
           EXPECT_LT((dummies.blocked[found] - blocked).norm(), round_off);
         }
       }

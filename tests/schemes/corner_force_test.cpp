@@ -41,8 +41,8 @@ CaseSpec chain_of_walls(double dx, double level, const Outline& corners) {
 Vec<3> hydrostatic(const CaseSpec& spec, std::size_t which) {
   const double level = spec.fluid[0].level;
   const Outline& points = spec.walls[which].points;
-  Vec<2> a(points[0].data());
-  Vec<2> b(points[1].data());
+  auto a = Vec<2>::Map(points[0].data());
+  auto b = Vec<2>::Map(points[1].data());
   const Vec<2> corner = a;
   if (a[1] > level) a = b + (level - b[1]) / (a[1] - b[1]) * (a - b);
   if (b[1] > level) b = a + (level - a[1]) / (b[1] - a[1]) * (b - a);

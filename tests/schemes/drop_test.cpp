@@ -52,7 +52,8 @@ CaseSpec round_drop(double dx, Integrator integrator) {
 /// Semi-axes from mean squares: a uniform ellipse has <x^2> = a^2/4.
 Vec<2> semi_axes(const Particles<2>& particles) {
   Vec<2> squares = Vec<2>::Zero();
-  for (std::size_t i = 0; i < particles.owned; ++i) squares += particles.position[i].cwiseAbs2();
+  for (std::size_t i = 0; i < particles.owned; ++i)
+    squares += particles.position[i].cwiseProduct(particles.position[i]);
   return 2.0 * (squares / static_cast<double>(particles.owned)).cwiseSqrt();
 }
 

@@ -45,7 +45,7 @@ class Reader {
                .air_pressure = air_of(flow_).pressure_field()})
         .at(0);
   }
-  Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>(row(dt).data()); }
+  Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>::Map(row(dt).data()); }
   double power(double dt) const { return row(dt).back(); }
   const Reading<Dim>& reading() const { return reading_; }
 

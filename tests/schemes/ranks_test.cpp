@@ -339,7 +339,7 @@ TEST(RanksTest, StaleGhostsChangeNothing) {
     Particles<2>& particles = flow.state.particles;
     for (std::size_t i = particles.owned; i < particles.size(); ++i) {
       particles.pressure[i] = left;
-      particles.velocity[i].setConstant(left);
+      particles.velocity[i].fill(left);
     }
     advance(flow, next_time_step(flow));
     return particles.pressure;

@@ -10,6 +10,7 @@
 
 #include "closures/free_surface.h"
 #include "geometry/meshes.h"
+#include "geometry/rotation.h"
 #include "schemes/cases.h"
 
 namespace tailwater {
@@ -85,7 +86,7 @@ struct Asked {
 
   void add(double dt, double omega) {
     Flow<2> flow = make_flow<2>(round_tank());
-    const Eigen::Matrix2d back = Eigen::Rotation2Dd(-omega * dt).toRotationMatrix();
+    const Mat<2> back = rotation_in_plane(-omega * dt);
     set_velocity(flow, [&](const Vec<2>& x) { return Vec<2>((x - back * x) / dt); });
     const StepStart<2> start = save_step_start(flow);
     locate(flow);

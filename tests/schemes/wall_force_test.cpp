@@ -154,7 +154,7 @@ TEST(WallForceParts, AddUpToTheWholeAndMomentsToo) {
   const Row whole = row(0);
   const Row left = row(1), bed = row(2), right = row(3), bed_left = row(4), bed_right = row(5);
   ASSERT_EQ(whole.size(), 7u);
-  const double scale = Vec<2>(whole.data()).norm();
+  const double scale = Vec<2>::Map(whole.data()).norm();
   for (std::size_t k = 0; k < whole.size(); ++k) {
     EXPECT_NEAR(left[k] + bed[k] + right[k], whole[k], rounding * scale) << k;
     EXPECT_NEAR(bed_left[k] + bed_right[k], bed[k], rounding * scale) << k;

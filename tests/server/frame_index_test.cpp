@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/box.h"
 #include "base/error.h"
 #include "io/pvd_series.h"
 #include "io/temporary_folder.h"
@@ -29,9 +30,7 @@ struct Water {
   }
 };
 
-FrameSeries<2> series_in(const fs::path& folder) {
-  return {folder / "view", 0.1, Eigen::AlignedBox<double, 2>(Vec<2>(0, 0), Vec<2>(2, 2))};
-}
+FrameSeries<2> series_in(const fs::path& folder) { return {folder / "view", 0.1, Box<2>(Vec<2>(0, 0), Vec<2>(2, 2))}; }
 
 TEST(FrameIndex, FollowsARunThatWritesAndIsResumed) {
   const TemporaryFolder folder;

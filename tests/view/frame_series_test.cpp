@@ -1,10 +1,12 @@
 // The frames of a run on 1 to 4 ranks: identical bytes, exact to half a quantum, and unchanged by a resumption.
 #include "view/frame_series.h"
+#include "geometry/rotation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "base/box.h"
 #include "io/shared_folder.h"
 
 namespace tailwater {
@@ -36,9 +38,9 @@ struct Swing {
     }
     AffineMap<Dim> pose;
     if constexpr (Dim == 2) {
-      pose.linear = Eigen::Rotation2Dd(time).toRotationMatrix();
+      pose.linear = rotation_in_plane(time);
     } else {
-      pose.linear = Eigen::AngleAxisd(time, Vec<3>(1, 2, 3).normalized()).toRotationMatrix();
+      pose.linear = rotation_about(Vec<3>(1, 2, 3).normalized(), time);
     }
     pose.constant[0] = time;
     poses = {AffineMap<Dim>(), pose};
@@ -50,7 +52,7 @@ struct Swing {
 };
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> tank() {
+Box<Dim> tank() {
   return {Vec<Dim>::Constant(-0.1), Vec<Dim>::Constant(0.6)};
 }
 
