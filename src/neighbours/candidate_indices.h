@@ -1,4 +1,4 @@
-// The particles that may be neighbours of those of a group, which search a grid together.
+// Candidates for the neighbours of a group of particles that search a grid together.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,10 @@ template <int Dim>
 struct SearchedGrid {
   const CellGrid<Dim>& grid;
   const std::int32_t* order;  ///< particle indices cell by cell; may be read a batch beyond its end
-  bool holds_searchers;       ///< whether the particles that search it are in it
+  bool holds_searchers;       ///< whether the grid also contains the particles that search it
 };
 
-/// Particles with consecutive indices that are near each other. They have the same candidates.
+/// Particles with consecutive indices that are near each other, so that they share their candidates.
 template <int Dim>
 struct Group {
   Group(std::span<const Vec<Dim>> position, std::size_t first)
@@ -39,29 +39,29 @@ struct Group {
     return true;
   }
 
-  /// m^2; between the box and a place.
+  /// m^2; from the box to a place.
   double squared_distance(const Vec<Dim>& position) const {
     return (position - position.cwiseMax(low).cwiseMin(high)).squaredNorm();
   }
 
   std::int32_t begin;
   std::int32_t end;
-  Vec<Dim> low;  ///< m; of the box around them
+  Vec<Dim> low;  ///< m; of the box around the particles
   Vec<Dim> high;
 };
 
-/// Indices of particles, written a batch at a time. May be read a batch beyond the end, where there are indices too.
+/// List of particle indices, written a batch at a time. A batch beyond the end can be read, and holds valid indices.
 class IndexList {
  public:
   void clear() { count_ = 0; }
   void make_room(std::size_t more) {
     if (count_ + more + batch_size > index_.size()) index_.resize(2 * (count_ + more + batch_size));
   }
-  /// Adds those of a batch whose bit is set. There must be room for them.
+  /// Adds the indices of a batch whose bit is set. The list must have space for a whole batch.
   void add(const std::int32_t* indices, unsigned bits) {
     count_ = write_chosen(indices, bits, index_.data() + count_) - index_.data();
   }
-  /// Adds all of `indices`, which may be read a batch beyond their end.
+  /// Adds all of `indices`, of which a batch beyond the end is read.
   void add(std::span<const std::int32_t> indices) {
     make_room(indices.size());
     for (std::size_t n = 0; n < indices.size(); n += batch_size) {
@@ -88,8 +88,8 @@ class IndexList {
   std::size_t count_ = 0;
 };
 
-/// The particles that may be neighbours of those of a group, in the order of a row: indices below the group, the group,
-/// indices above it, ghosts.
+/// Candidates for the neighbours of a group, in the order of a row: indices below the group, the group, indices above
+/// it, ghosts.
 template <int Dim>
 class CandidateIndices {
  public:
@@ -98,18 +98,18 @@ class CandidateIndices {
     sort(pairs, group);
     own_.clear();
     if (searched.holds_searchers) own_.add_range(group.begin, group.end);
-    // In the coarse cells that a distant particle enforces, most are far away, some so far that places repeat.
+    // If a distant particle enlarges the cells, most candidates are far away, some so far that integer places repeat.
     const double radius = kernel_radius(pairs.kernel);
     if (searched.grid.reach() > 1.5 * radius) remove_beyond(radius, pairs, group);
   }
 
-  const IndexList& below() const { return below_; }  ///< the group
-  const IndexList& own() const { return own_; }      ///< the group, or nothing if it is not in the grid
-  const IndexList& above() const { return above_; }  ///< the group, but owned
+  const IndexList& below() const { return below_; }  ///< owned, before the group
+  const IndexList& own() const { return own_; }      ///< the group; empty if the grid does not contain it
+  const IndexList& above() const { return above_; }  ///< owned, after the group
   const IndexList& ghosts() const { return ghosts_; }
 
  private:
-  /// Copies ranges of the grid one behind the other, because most of them are shorter than a batch.
+  /// Copies the ranges of the grid into one list, because most of them are shorter than a batch.
   void search(const SearchedGrid<Dim>& searched, const Group<Dim>& group) {
     near_.clear();
     searched.grid.for_each_range_near(group.low, group.high, [&](std::int32_t begin, std::int32_t end) {

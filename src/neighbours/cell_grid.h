@@ -16,23 +16,23 @@ namespace tailwater {
 template <int Dim>
 class CellGrid {
  public:
-  /// With three, a search looks at half as many particles as with cells of the whole reach.
+  /// With three, a search tests half as many particles as with cells as long as the reach.
   static constexpr int cells_per_reach = 3;
 
   CellGrid() = default;
 
-  /// Sorts `positions` into cells of a third of `reach` [m]. Cells are larger if a few distant particles would
-  /// otherwise make the grid much larger than the set.
+  /// Sorts `positions` into cells with a third of `reach` [m] as edge. The cells are larger if a few distant particles
+  /// would otherwise make the grid much larger than the set.
   CellGrid(std::span<const Vec<Dim>> positions, double reach);
 
-  /// The reach asked for, or larger.
+  /// m; the reach of the constructor, or larger.
   double reach() const { return cells_per_reach * edge_; }
 
-  /// Particle indices cell by cell: slab by slab along the direction of largest spread, and row by row in a slab. May
-  /// be read a batch beyond its end, where it is 0.
+  /// Particle indices cell by cell: slab by slab along the direction of largest extent, and row by row in a slab. A
+  /// batch beyond the end can be read; it holds 0.
   std::span<const std::int32_t> order() const { return std::span(order_).first(size_); }
 
-  /// Calls body(begin, end) for ranges of order(), one after the other, that hold all particles within reach() of the
+  /// Calls body(begin, end) for successive ranges of order(), which together hold all particles within reach() of the
   /// box from `low` to `high`, and some farther away.
   template <class Body>
   [[gnu::always_inline, gnu::flatten]] void for_each_range_near(const Vec<Dim>& low, const Vec<Dim>& high,
@@ -75,37 +75,37 @@ class CellGrid {
   }
 
  private:
-  /// The reach in cells, and more than what is rounded.
+  /// Reach in cells, with a margin for rounding errors.
   static constexpr double reach_in_cells = cells_per_reach * (1.0 + 1e-6);
 
-  /// Where `place` is along axis_[d], in edges of a cell from the first one.
+  /// Distance from the first cell to `place` along axis_[d], in edges of a cell.
   double in_cells(const Vec<Dim>& place, int d) const { return (place[axis_[d]] - origin_[axis_[d]]) / edge_; }
 
-  /// The cells along axis_[d] that have some part within `reach` of what is between `first` and `last`, all in cells.
+  /// Range of the cells along axis_[d] within `reach` of the interval from `first` to `last`, all in cells.
   std::pair<std::int64_t, std::int64_t> cells_within(int d, double reach, const Vec<Dim>& first,
                                                      const Vec<Dim>& last) const {
-    // Compared before it is cast: the index of a place far outside may not fit an integer.
+    // Clamped before the cast: the index of a place far outside may not fit an integer.
     const auto cell = [&](double place) {
       return static_cast<std::int64_t>(std::min(std::max(0.0, place), static_cast<double>(count_[d])));
     };
     return {cell(first[d] - reach), cell(last[d] + reach + 1.0)};
   }
 
-  /// Between a cell along axis_[d] and what is between `first` and `last`.
+  /// Squared distance [cells^2] along axis_[d] from a cell to the interval from `first` to `last`.
   static double squared_gap(int d, std::int64_t cell, const Vec<Dim>& first, const Vec<Dim>& last) {
     const auto begin = static_cast<double>(cell);
     const double before = first[d] - (begin + 1.0);
     const double behind = begin - last[d];
-    const double gap = (before > 0.0 ? before : 0.0) + (behind > 0.0 ? behind : 0.0);  // one of both is 0
+    const double gap = (before > 0.0 ? before : 0.0) + (behind > 0.0 ? behind : 0.0);  // at least one of them is 0
     return gap * gap;
   }
 
   Vec<Dim> origin_ = Vec<Dim>::Zero();
   double edge_ = 1.0;
-  std::array<int, Dim> axis_{};            ///< directions: first the one across the slabs, last the one along the rows
+  std::array<int, Dim> axis_{};            ///< directions: the first is normal to the slabs, the last is along the rows
   std::array<std::int64_t, Dim> count_{};  ///< cells along each axis_
   std::vector<std::int32_t> cell_begin_;
-  std::size_t size_ = 0;  ///< how many particles there are
+  std::size_t size_ = 0;  ///< number of particles
   std::vector<std::int32_t> order_;
 };
 

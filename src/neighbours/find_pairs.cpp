@@ -1,11 +1,11 @@
-// The search for pairs, group by group of particles that are near each other:
+// Search for pairs, group by group of particles that are near each other:
 //
 //   group    the particles of a group search the grid once, for the box around them;
-//   filter   the indices from the grid are put into the order of a row (candidate_indices.h);
-//   append   the places of these candidates are put side by side, so that they are read in lanes;
+//   filter   the indices from the grid are sorted into the order of a row (candidate_indices.h);
+//   append   the places of these candidates are stored contiguously, so that they are read in lanes;
 //   write    each particle of the group writes the candidates within its support, eight at a time, without a branch.
 //
-// Particles that coincide are moved apart afterwards, and the rows are found again.
+// Particles that coincide are then moved apart, and the rows are computed again.
 #include "neighbours/find_pairs.h"
 
 #include <algorithm>
@@ -24,18 +24,18 @@
 namespace tailwater {
 namespace {
 
-/// Relative error by which the square of a distance may be rounded below that of the least distance.
+/// Margin of the least squared distance for rounding errors, as a fraction of it.
 constexpr double parted_tolerance = 1e-3;
 
 /// Fraction by which the square of the radius is reduced in the search, so that no pair beyond the support is rounded
 /// into it.
 constexpr double rounded_at_rim = 1e-6;
 
-/// Particles of a group, and the length of the box around them, in radii of the support.
+/// Largest number of particles in a group, and the largest edge of the box around them in radii of the support.
 constexpr int max_group_size = 32;
 constexpr double max_group_extent = 1.4;
 
-/// A grid of the fluid alone. Most dummies are dry and find only empty cells in it.
+/// Grid of the fluid particles alone. Most dummies are dry and meet only empty cells in it.
 template <int Dim>
 struct FluidGrid {
   FluidGrid(const Particles<Dim>& particles, double reach) {
@@ -52,14 +52,14 @@ struct FluidGrid {
   std::vector<std::int32_t> order;
 };
 
-/// A row as written by Candidates.
+/// Properties of a row as written by Candidates.
 struct FoundRow {
   std::size_t size;
   bool sees_wall;
   bool is_crowded;  ///< whether a neighbour is nearer than the least distance
 };
 
-/// The candidates of a group, number by number, so that they are read in lanes.
+/// Candidates of a group, one array per component, so that they are read in lanes.
 template <int Dim>
 class Candidates {
  public:
@@ -72,7 +72,7 @@ class Candidates {
     append(pairs, indices_.own());
     append(pairs, indices_.above());
     append(pairs, indices_.ghosts());
-    // The last batch is read to its end: the entries beyond the last candidate are far from all of the group.
+    // The last batch is read to its end: place the entries beyond the last candidate far from the group.
     for (int n = 0; n < batch_size; ++n) at_[0][count_ + n] = pairs.place[group.begin].at[0] + farthest;
   }
 
@@ -82,17 +82,17 @@ class Candidates {
   FoundRow write_neighbours(const Pairs<Dim>& pairs, std::size_t i, std::int32_t* j) {
     std::uint32_t not_a_candidate = 0;
     std::uint32_t& own_place = holds_group_ ? at_[0][offset_of_group_ + i] : not_a_candidate;
-    own_place += farthest;  // so that the particle does not find itself
+    own_place += farthest;  // excludes the particle itself
     const FoundRow row = pairs.is_graded() ? write_near<true>(pairs, i, j) : write_near<false>(pairs, i, j);
     own_place -= farthest;
     return row;
   }
 
  private:
-  /// The largest distance between two places, because places repeat.
+  /// Largest distance between two places in units, because integer places repeat.
   static constexpr std::uint32_t farthest = 1U << 31;
 
-  /// Writes those within the support around particle i to `j`, and up to a batch beyond them.
+  /// Writes the candidates within the support of particle i to `j`, and up to a batch beyond them.
   template <bool is_graded>
   FoundRow write_near(const Pairs<Dim>& pairs, std::size_t i, std::int32_t* j) const {
     const Place<Dim>& own = pairs.place[i];
@@ -100,7 +100,7 @@ class Candidates {
     const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
     const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.least_squared;
     const std::array<float, Dim> unit = pairs.unit;
-    // Copied out of the vectors, so that a loop that writes keeps the addresses in registers.
+    // Copies of the addresses: the loop, which writes, keeps them in registers.
     const std::int32_t* const index = index_.data();
     const float* const signed_volume = signed_volume_.data();
     std::array<const std::uint32_t*, Dim> at;
@@ -127,7 +127,7 @@ class Candidates {
         reach_squared *= mean * mean;
       }
       const IndexBatch is_near = distances < reach_squared;
-      walls |= is_near & batch_at<IndexBatch>(signed_volume + n);  // of which the sign counts
+      walls |= is_near & batch_at<IndexBatch>(signed_volume + n);  // only the sign of the volume matters
       least = distances < least ? distances : least;
       end = write_chosen(index + n, bits_of(is_near), end);
     }
@@ -160,19 +160,20 @@ class Candidates {
   CandidateIndices<Dim> indices_;
   std::vector<std::int32_t> index_;
   std::array<std::vector<std::uint32_t>, Dim> at_;  ///< in units of Pairs::unit
-  std::vector<float> signed_volume_;                ///< m^Dim; negative of a wall particle
-  std::vector<float> relative_spacing_;             ///< if particles have several spacings
+  std::vector<float> signed_volume_;                ///< m^Dim; negative for wall particles
+  std::vector<float> relative_spacing_;             ///< only if particles have several spacings
   std::size_t count_ = 0;
   bool holds_group_ = false;
   std::ptrdiff_t offset_of_group_ = 0;  ///< from the index of a particle of the group to its candidate
 };
 
-/// Moves neighbours that are too near each other apart: the one with the larger id to the place where Pairs::d sees it,
-/// so that loops in lanes need no check. A particle that sees both as ghosts sees them at one place.
+/// Moves neighbours apart that are nearer than the least distance, so that loops in lanes need no check. The particle
+/// with the larger id moves to the place where Pairs::d sees it. A particle that sees both as ghosts sees them at one
+/// place.
 template <int Dim>
 void part_coinciding(Pairs<Dim>& pairs) {
   const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
-  // More than the search finds too near, whatever was rounded there: what it finds again has moved.
+  // The threshold exceeds that of the search for any rounding error: pairs that are found twice have moved in between.
   const double too_near = (1.0 - 0.5 * parted_tolerance) * pairs.least_distance * pairs.least_distance;
   const auto squared_distance = [&](const Place<Dim>& a, const Place<Dim>& b) {
     double squared = 0.0;
@@ -182,7 +183,7 @@ void part_coinciding(Pairs<Dim>& pairs) {
     }
     return squared;
   };
-  for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: a place that was changed is compared again
+  for (std::size_t i = 0; i < pairs.owned(); ++i) {  // in order: a place that has moved is compared again
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const std::size_t j = pairs.j[k];
       if (squared_distance(pairs.place[i], pairs.place[j]) >= too_near) continue;
@@ -193,7 +194,7 @@ void part_coinciding(Pairs<Dim>& pairs) {
   }
 }
 
-/// The grids, and which of them a particle searches.
+/// The grids, and the choice between them for each particle.
 template <int Dim>
 struct RowSearch {
   const Particles<Dim>& particles;
@@ -203,7 +204,7 @@ struct RowSearch {
 
   bool sees_all(std::size_t i) const { return wall_rows == WallRows::all || particles.is_fluid(i); }
 
-  /// The largest group from `first` on that fits into a box of `max_extent` [m] and searches one grid.
+  /// The longest group from `first` on that fits into a box of `max_extent` [m] and searches a single grid.
   Group<Dim> group_from(std::size_t first, double max_extent) const {
     Group<Dim> group(particles.position, first);
     const std::size_t end = std::min<std::size_t>(particles.owned, first + max_group_size);
@@ -214,12 +215,12 @@ struct RowSearch {
   }
 };
 
-/// Calls body(candidates, i) for each owned particle, in their order.
+/// Calls body(candidates, i) for each owned particle i, in order.
 template <int Dim, class Body>
 void for_each_row(const RowSearch<Dim>& search, const Pairs<Dim>& pairs, Body&& body) {
   const double max_extent = max_group_extent * kernel_radius(pairs.kernel);
   Candidates<Dim> candidates;
-  for (std::size_t i = 0; i < search.particles.owned;) {  // in order: a group begins where the last one ends
+  for (std::size_t i = 0; i < search.particles.owned;) {  // in order: a group begins at the end of the previous one
     const Group<Dim> group = search.group_from(i, max_extent);
     candidates.find(search.sees_all(i) ? search.all : search.fluid, pairs, group);
     for (const auto end = static_cast<std::size_t>(group.end); i < end; ++i) body(candidates, i);
@@ -237,15 +238,15 @@ std::size_t count_pairs(const RowSearch<Dim>& search, const Pairs<Dim>& pairs) {
   return count;
 }
 
-/// Finds the rows from the places. Returns in how many of them neighbours are nearer than the least distance.
+/// Computes the rows from the places. Returns the number of rows with neighbours nearer than the least distance.
 template <int Dim>
 std::size_t find_rows(const RowSearch<Dim>& search, Pairs<Dim>& pairs) {
   const std::size_t owned = search.particles.owned;
   pairs.row_begin.resize(owned + 1);
   pairs.row_begin[0] = 0;
   pairs.sees_wall.resize(owned);
-  // The first pairs are counted before they are kept; later ones are about as many as the last. A lattice, as at the
-  // start, may have many particles just beyond the rim.
+  // The first search counts the pairs before it stores them; later ones expect as many as the last. A lattice, as at
+  // the start, may have many particles just outside the support.
   std::size_t expected = pairs.j.size();
   if (expected == 0) {
     expected = count_pairs(search, pairs);
@@ -289,7 +290,7 @@ template <int Dim>
 void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& domain, double radius, Pairs<Dim>& pairs) {
   Vec<Dim> unit = Vec<Dim>::Constant(static_cast<float>(radius * 0x1p-28));
   for (int d = 0; d < Dim; ++d) {
-    if (domain[d]) {  // a whole number of units in a period, so that images are as far away as their owners
+    if (domain[d]) {  // a whole number of units in a period, so that images are exactly as far away as their owners
       const double period = domain[d]->second - domain[d]->first;
       unit[d] = period / std::round(period / unit[d]);
     }

@@ -9,14 +9,14 @@
 namespace tailwater {
 namespace {
 
-/// Share of dx; particles nearer than this count as this far apart, so directions stay defined and weights finite.
+/// Least distance in dx: nearer particles count as this far apart, so directions stay defined and weights finite.
 constexpr double least_distance_over_spacing = 1e-6;
 
-/// Cost of a row and of a wall particle's pair, in pairs of a fluid particle (docs/scaling.md).
+/// Cost of a row, and of a pair of a wall particle, in pairs of a fluid particle (docs/scaling.md).
 constexpr double row_cost = 10.0;
 constexpr double wall_pair_cost = 0.3;
 
-/// The indices of `positions` in the order in which a Z curve through cells of the given edge meets them.
+/// The indices of `positions` in the order of a Z curve through cells with the given edge.
 template <int Dim>
 std::vector<std::int32_t> order_along_z_curve(std::span<const Vec<Dim>> positions, double edge) {
   std::vector<std::pair<std::uint64_t, std::int32_t>> numbered(positions.size());

@@ -1,9 +1,10 @@
-// The interacting pairs: compact neighbour rows. Nothing else is kept by pair. Neighbours' places, from which all else
-// follows, are in the cache, and an array with an entry per pair is not.
+// Interacting pairs as compact neighbour rows. Apart from the neighbour's index, and a weight where needed, nothing is
+// stored per pair: the places of neighbours, from which the rest is computed, stay in the cache, and an array with an
+// entry per pair would not.
 //
-// Loops over pairs compute in single precision (base/lanes.h). A position in single precision would not do: in a long
-// channel its rounding is a share of dx. Places are integers modulo 2^32 instead, in units so small that differences of
-// neighbours are exact to 2^-28 of the support, in a domain of any size.
+// Loops over pairs compute in single precision (base/lanes.h). A position in single precision would be too coarse: in a
+// long channel its rounding error is a noticeable fraction of dx. Places are therefore integers modulo 2^32, in units
+// so small that differences between neighbours are exact to 2^-28 of the support, in a domain of any size.
 #pragma once
 
 #include <array>
@@ -17,11 +18,11 @@
 
 namespace tailwater {
 
-/// Where a particle is and how large: what loops over pairs read of a neighbour.
+/// Place and volume of a particle: the data of a neighbour that loops over pairs read.
 template <int Dim>
 struct alignas(16) Place {
   std::array<std::uint32_t, Dim> at{};  ///< in units of Pairs::unit, modulo 2^32
-  float signed_volume = 0.0F;           ///< m^Dim; the negative one of a wall particle
+  float signed_volume = 0.0F;           ///< m^Dim; negative for wall particles
 };
 
 /// Row i holds the neighbours of owned particle i within the support: entries row_begin[i] .. row_begin[i + 1] of the
@@ -32,16 +33,16 @@ struct Pairs {
   UnwrittenArray<std::int32_t> j;       ///< neighbour: in each row those below i, those above it, then ghosts
   UnwrittenArray<float> weight;         ///< of each pair in kernel and gradient, from 0 to 1; empty: 1 for all pairs
   std::vector<std::uint8_t> sees_wall;  ///< of row i; 0: none of its neighbours is a wall particle
-  std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found; no two neighbours have the same
+  std::vector<Place<Dim>> place;        ///< of all particles when the pairs were found; unique among neighbours
   std::array<float, Dim> unit{};        ///< m; of places
   std::vector<Vec<Dim>> position;       ///< m; of all particles when the pairs were found
   std::vector<std::int64_t> id;         ///< of all particles
-  /// Of all particles: the spacing where each stands over that of the case, and with it the radius of its support over
-  /// that of the kernel. A pair has the mean of both. Empty: 1 for all particles.
+  /// Of all particles: local particle spacing, and therefore radius of the support, relative to that of the case. A
+  /// pair uses the mean of both particles. Empty: 1 for all particles.
   std::vector<float> relative_spacing;
-  float inverse_cell = 1.0F;    ///< 1/m^Dim; of a particle of the case's spacing
+  float inverse_cell = 1.0F;    ///< 1/m^Dim; inverse volume of a particle with the spacing of the case
   double least_distance = 0.0;  ///< m; two particles nearer than this count as this far apart
-  float least_squared = 0.0F;   ///< m^2; its square
+  float least_squared = 0.0F;   ///< m^2; square of the least distance
   Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
   Kernel<Dim, float> kernel_in_lanes = in_single_precision(kernel);
 
@@ -57,7 +58,7 @@ struct Pairs {
   /// Whether particles have several spacings.
   bool is_graded() const { return !relative_spacing.empty(); }
   double relative_spacing_of(std::size_t i) const { return is_graded() ? relative_spacing[i] : 1.0; }
-  /// Weight of particle i in means by the kernel at its place, over that of one of the case's spacing.
+  /// Weight of particle i in kernel means at its place, relative to a particle with the spacing of the case.
   double weight_in_means_of(std::size_t i) const {
     const double volume = std::abs(place[i].signed_volume) * static_cast<double>(inverse_cell);
     return volume / power<Dim>(relative_spacing_of(i));
@@ -69,8 +70,8 @@ struct Pairs {
     const double relative = 0.5 * (relative_spacing[i] + relative_spacing[j[k]]);
     return of_pair * kernel_value(kernel, r(i, k) / relative) / power<Dim>(relative);
   }
-  /// 1/m^(Dim+2); F = -(dW/dr)/r as loops in lanes have it, never negative, so that grad_i W_ij = -F d. To call it,
-  /// and what follows, include pair_lanes.h.
+  /// 1/m^(Dim+2); F = -(dW/dr)/r as computed in lanes, never negative, so that grad_i W_ij = -F d. To call F and the
+  /// functions below, include pair_lanes.h.
   float F(std::size_t i, std::size_t k) const;  // NOLINT(readability-identifier-naming): as in formulas
   double slope(std::size_t i, std::size_t k) const { return -F(i, k) * r(i, k); }       ///< 1/m^(Dim+1); dW/dr
   Vec<Dim> gradient(std::size_t i, std::size_t k) const { return -F(i, k) * d(i, k); }  ///< 1/m^(Dim+1); grad_i W_ij
@@ -80,8 +81,8 @@ struct Pairs {
   std::size_t owned() const { return row_begin.empty() ? 0 : row_begin.size() - 1; }
 };
 
-/// Multiplies the pairs k of row i by weigh(i, k), from 0 to 1, and removes those of weight 0. The pairs of the rows
-/// for which may_change(i) is false keep weight 1. No weights are stored if may_change is false for all rows.
+/// Multiplies the pairs k of row i by weigh(i, k), from 0 to 1, and removes those of weight 0. Rows for which
+/// may_change(i) is false keep weight 1. No weights are stored if may_change is false for all rows.
 template <int Dim, class MayChange, class Weigh>
 void weigh_pairs(Pairs<Dim>& pairs, MayChange&& may_change, Weigh&& weigh) {
   std::size_t i = 0;
@@ -90,7 +91,7 @@ void weigh_pairs(Pairs<Dim>& pairs, MayChange&& may_change, Weigh&& weigh) {
   pairs.weight.assign(pairs.j.size(), 1.0F);
   std::size_t n = pairs.begin(i);
   std::size_t begin = n;
-  for (; i < pairs.owned(); ++i) {  // in order: the rows follow each other without gaps
+  for (; i < pairs.owned(); ++i) {  // in order: the rows are stored without gaps
     const std::size_t end = pairs.end(i);
     const bool changes = may_change(i);
     if (changes) pairs.sees_wall[i] = 0;

@@ -1,14 +1,14 @@
-// The default: conservative operators, air in place of a detected surface, dummies behind walls. For water at i, with
-// the pair vectors a_ij of operators/pair_vectors.h and the weights c_ij of operators/laplacian_morris.h,
+// The default formulation: conservative operators, air instead of a detected surface, dummies behind walls. For water
+// at i, with the pair vectors a_ij of operators/pair_vectors.h and the weights c_ij of operators/laplacian_morris.h,
 //
 //   grad p_i = sum_j w_j (p_i + p_j) a_ij                                            gradient.cpp
 //   div u_i  = sum_j w_j (u_j - u_i) . a_ij
 //   sum_j c_ij (p_i - p_j) + a_i p_i =                                               rows.cpp
 //       -(rho/dt) (div u_star - target) + gamma rho (s_i (C/C_0 - 1) + o_i)/dt^2     source.cpp
-//   viscous force: that of a Newtonian fluid, and one that acts on noise only        viscous_force.cpp
+//   viscous force: Newtonian, and one that damps noise only                          viscous_force.cpp
 //
-// Why each is as it is: docs/theory/schemes.md and robustness.md. docs/theory/devices.md lists what the equations of
-// the flow do not ask for.
+// docs/theory/schemes.md and robustness.md give the reasons. docs/theory/devices.md lists the terms beyond the
+// equations of the flow.
 #pragma once
 
 #include "closures/air.h"
@@ -17,12 +17,12 @@
 
 namespace tailwater {
 
-/// Of one case, as its operators need it.
+/// Parameters of the operators for one case.
 struct RobustLaws {
   PairVectors pair_vectors = PairVectors::corrected;
   AirLaw air;
   ShiftingLaw shifting;
-  double density_relaxation = 0.0;  ///< gamma, while water at the speed of the time-step rule goes dx
+  double density_relaxation = 0.0;  ///< gamma: density relaxation per dx travelled at the speed of the time-step rule
 };
 
 template <int Dim>

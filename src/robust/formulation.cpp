@@ -12,7 +12,7 @@ namespace {
 
 constexpr double shifting_cap = 0.2;  // dx
 
-/// What both orders share.
+/// The settings common to both step orders.
 template <int Dim>
 FlowFormulation<Dim> robust(const CaseSpec& spec) {
   const StudyTable& study = spec.study;

@@ -58,8 +58,8 @@ void find_standard_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> v
 
 namespace {
 
-/// What pairs push each of these owned particles with, over its volume. weight(batch, pair) says how much of each
-/// neighbour counts, as a volume.
+/// Pressure reaction of all pairs on each of these owned particles, over its volume [Pa/m]. weight(batch, pair) gives
+/// the volume with which each neighbour counts [m^Dim].
 template <int Dim, class Weight>
 void find_pushes_of_pairs(const Flow<Dim>& flow, std::span<const std::size_t> particles,
                           const std::vector<double>& pressure, std::span<Vec<Dim>> pushes, Weight&& weight) {

@@ -1,12 +1,13 @@
-// The source of the pressure equation. For fluid particle i
+// Source of the pressure equation. For fluid particle i
 //
 //   -(rho/dt) (div u_star - target) + gamma rho (s_i (C/C_0 - 1) + o_i)/dt^2
 //
 // The first term with a target of 0 is (F15).
 //
-// o_i    share of the particle behind a wall (wall_contact.h): films on a wall, where C/C_0 < 1, are held off it
-// gamma  share of the density error that a step corrects; s_i is what the energy leaves of it for particles too close
-//        (`balance_energy`), and `pull` times `interior` for particles too far apart: at the surface nothing pulls
+//   o_i    fraction of the particle behind a wall (wall_contact.h): keeps films, where C/C_0 < 1, in front of walls
+//   gamma  fraction of the density error that a step corrects
+//   s_i    factor of the correction: for particles too close, the fraction that the energy balance allows
+//          (`balance_energy`); for particles too far apart, `pull` times `interior`, which is 0 at the surface
 #include "base/for_each.h"
 #include "flow/stages.h"
 #include "robust/discretisation.h"
@@ -14,11 +15,12 @@
 namespace tailwater {
 namespace {
 
-/// Water too far apart answers by so many times what water too close does: shifts only ever expand, and pulling
-/// together costs no energy. With 1 the dam break is 0.2 to 0.4 % too light, with 2 at fine spacing 0.1 % too dense.
+/// Factor of the correction where particles are too far apart: particle shifting only ever expands the water, and
+/// pulling particles together needs no energy. With 1 the dam break is 0.2 to 0.4 % too light, with 2 at fine spacing
+/// 0.1 % too dense.
 constexpr double pull = 1.5;
 
-/// The share of the density error that a step corrects beside the divergence; owned, Pa/m^2.
+/// Source of the density correction, without the divergence; owned particles, Pa/m^2.
 template <int Dim>
 std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation, double dt) {
   const Setup<Dim>& setup = flow.setup;
