@@ -7,9 +7,9 @@
 namespace tailwater {
 namespace {
 
-/// Share of its shift that a particle keeps: 0 in the three outermost rows, whose support the surface cuts, 1 where all
-/// neighbours are inside. A flat surface reads a mean of `interior` over the neighbours of 0.26, 0.75, 0.98, 1 from the
-/// second row on.
+/// Fraction of the shift that a particle keeps: 0 in the three outermost rows, whose support the surface cuts; 1 where
+/// all neighbours are inside. Below a flat surface, the mean of `interior` over the neighbours is 0.26, 0.75, 0.98, 1
+/// from the second row on.
 double kept_share(double interior, double mean_interior) {
   return interior * std::clamp(4.0 * mean_interior - 3.0, 0.0, 1.0);
 }

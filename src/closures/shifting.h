@@ -1,18 +1,20 @@
-// Particle shifting: small displacements that keep the set evenly spread.
+// Particle shifting: small displacements that keep particles evenly spread.
 //
-//   dr_i = -min(s u_max dt, dx) dx grad C_i, grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W, the crowding of
-//   concentration.h
+//   dr_i = -min(s u_max dt, dx) dx grad C_i,   grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W,
 //
-// The direction and the numbers are Lind et al.'s (2012). The coefficient has the form of Skillen et al. (2013), but
-// takes the largest speed of the flow, not the particle's own: at a stagnation point the strain lines particles up
-// while their own speed is 0, and a Taylor-Green vortex dies of it (docs/theory/closures.md). The minimum keeps this
-// explicit diffusion stable at the long steps of the implicit integrator.
+// where grad C_i is the crowding of concentration.h. Its form and its constants are those of Lind et al. (2012). The
+// coefficient is that of Skillen et al. (2013), but with the largest speed of the flow instead of the particle's own.
+// At a stagnation point the particle's own speed is 0 while the strain aligns particles, which destroys a Taylor-Green
+// vortex (docs/theory/closures.md). The minimum keeps this explicit diffusion stable at the long steps of the implicit
+// integrator.
 //
-// Only a share is kept: 0 wherever the surface is within the support, judged by `interior` (free_surface.h) of the
-// particle and its neighbours: there the gradient is that of the surface and would drive water out of the inside.
+// Particles keep only a fraction of the shift: 0 wherever the surface is within the support, according to `interior`
+// (free_surface.h) of the particle and its neighbours. There the gradient is that of the surface and would drive water
+// out of the interior.
 //
-// Shifts have a smooth bound, dr/sqrt(1 + (dr/cap)^2). Ordinary ones are a hundredth of dx and hardly notice it. A
-// particle where two bodies of water meet has all its neighbours on one side and would be thrown a quarter of dx.
+// Shifts have a smooth bound, dr/sqrt(1 + (dr/cap)^2). Ordinary shifts are a hundredth of dx, and the bound hardly
+// changes them. Where two bodies of water meet, a particle has all its neighbours on one side and would otherwise move
+// a quarter of dx.
 #pragma once
 
 #include <cmath>
@@ -26,11 +28,11 @@ namespace tailwater {
 
 struct ShiftingLaw {
   double strength = 0.0;  ///< s
-  double cap = 0.0;       ///< m; no shift is longer, where particles have the case's spacing
+  double cap = 0.0;       ///< m; upper bound of a shift where particles have the spacing of the case
   double spacing = 0.0;   ///< m; of the case
 };
 
-/// Keeps a share of a shift and bounds it. Returns whether what is kept was longer than the bound.
+/// Multiplies a shift by the fraction `kept` and bounds it to `cap` [m]. Returns whether the bound was exceeded.
 template <int Dim>
 bool bound_shift(Vec<Dim>& shift, double kept, double cap) {
   shift *= kept;
@@ -39,8 +41,8 @@ bool bound_shift(Vec<Dim>& shift, double kept, double cap) {
   return ratio > 1.0;
 }
 
-/// Shift [m] of every owned particle (zero for walls); `largest_speed` [m/s] is that of the fluid. Returns how many
-/// would have been longer than the bound.
+/// Shift [m] of every owned particle (zero for walls); `largest_speed` [m/s] is that of the fluid. Returns the number
+/// of shifts that exceeded the bound.
 template <int Dim>
 std::size_t compute_shift(const ShiftingLaw& law, double dt, double largest_speed, const Pairs<Dim>& pairs,
                           const Particles<Dim>& particles, const Surroundings<Dim>& surroundings,

@@ -1,19 +1,19 @@
-// The eddy viscosity of boundary layers after Spalart & Allmaras (1992), carried by the particles:
+// Eddy viscosity of boundary layers after Spalart & Allmaras (1992), carried by the particles:
 //
 //   D nu~/Dt = c_b1 S nu~ + [div((nu + nu~) grad nu~) + c_b2 |grad nu~|^2]/sigma - c_w1 f_w (nu~/d)^2,
 //   nu_t = nu~ f_v1(nu~/nu),
 //
-// with the distance d from the nearest wall that has friction. Here
+// with the distance d from the nearest wall that has friction. Differences from the original model:
 //
-// - a layer begins at the walls and nowhere else. Where the stress on a wall is turbulent, nu~ is at least that of the
-//   thinnest layer (`seed`); water that no layer has reached has nu~ = 0, and keeps it, whatever it does.
-// - a layer thinner than dx is known by its thickness. With the parabola kappa u_tau y (1 - y/delta), whose largest
-//   value nu~ is, delta = 4 nu~/(kappa u_tau). The wall law then sees the outer speed at the distance delta, and
-//   production makes the layer grow by d delta/dt = c_b1/kappa u_tau; the balance of momentum asks for kappa u_tau.
-// - beside a wall S = u_tau/(kappa d), as in the logarithmic layer. Elsewhere it is the smaller of the rates at which
-//   the water rotates and is strained: equal in a layer, and 0 in potential flow and in a vortex.
-// - f_t2 and the trip term are left out, and no flux passes the wall, where nu~ = 0.
-// - d of a rough wall is measured from 0.03 k_s behind it (Aupoix & Spalart 2003).
+//   - A layer begins at walls only. Where the stress on a wall is turbulent, nu~ is at least that of the thinnest layer
+//     (`seed`). Water that no layer has reached keeps nu~ = 0.
+//   - A layer thinner than dx is represented by its thickness. With the parabola kappa u_tau y (1 - y/delta), whose
+//     maximum is nu~, delta = 4 nu~/(kappa u_tau). The wall law then uses the outer speed at the distance delta.
+//     Production makes the layer grow by d delta/dt = c_b1/kappa u_tau; the momentum balance requires kappa u_tau.
+//   - Beside a wall S = u_tau/(kappa d), as in the logarithmic layer. Elsewhere S is the smaller of the rates of
+//     rotation and strain: both are equal in a layer; the smaller one is 0 in potential flow and in a vortex.
+//   - The term f_t2 and the trip term are omitted, and no flux crosses the wall, where nu~ = 0.
+//   - For a rough wall, d is measured from 0.03 k_s behind the wall (Aupoix & Spalart 2003).
 #pragma once
 
 #include <algorithm>
@@ -38,10 +38,10 @@ inline constexpr double c_v1 = 7.1;
 /// y u_tau/nu of the thinnest turbulent layer: just beyond 11.33, where the two laws of a smooth wall meet.
 inline constexpr double thinnest_layer = 11.4;
 
-/// 1/f_v1 of nu/nu~.
+/// 1/f_v1 as a function of nu/nu~.
 inline double damping(double chi_inverse) { return 1.0 + std::pow(c_v1 * chi_inverse, 3); }
 
-/// nu_t [m^2/s] of nu~ in water of viscosity `molecular` [m^2/s].
+/// nu_t [m^2/s] for nu~ in water with viscosity `molecular` [m^2/s].
 inline double eddy_viscosity(double layer_viscosity, double molecular) {
   return layer_viscosity == 0.0 ? 0.0 : layer_viscosity / damping(molecular / layer_viscosity);
 }
@@ -56,7 +56,7 @@ inline double thickness(double layer_viscosity, double friction_velocity) {
   return 4.0 * layer_viscosity / (von_karman * friction_velocity);
 }
 
-/// S~ [1/s] of water at the distance d [m] in which the rate `S` [1/s] is resolved.
+/// S~ [1/s] of water at the distance d [m] where the resolved rate is `S` [1/s].
 inline double modified_rate(double S, double layer_viscosity, double molecular, double d) {
   const double chi_inverse = molecular / layer_viscosity;
   const double f_v2 = 1.0 - 1.0 / (chi_inverse + 1.0 / damping(chi_inverse));
@@ -64,7 +64,7 @@ inline double modified_rate(double S, double layer_viscosity, double molecular, 
   return std::max(0.3 * S, S + near);
 }
 
-/// c_w1 f_w nu~/d^2 [1/s]: the rate at which the wall takes nu~ away. `S` is the modified rate.
+/// c_w1 f_w nu~/d^2 [1/s]: the relative rate at which the wall reduces nu~. `S` is the modified rate.
 inline double destruction_rate(double S, double layer_viscosity, double d) {
   const double largest = 10.0;
   const double scale = S * std::pow(von_karman * d, 2);
@@ -74,7 +74,7 @@ inline double destruction_rate(double S, double layer_viscosity, double d) {
   return c_w1 * f_w * layer_viscosity / (d * d);
 }
 
-/// What viscosity [m^2/s] the diffusion of nu~ counts as in the limit of the time step.
+/// Viscosity [m^2/s] with which the diffusion of nu~ enters the limit of the time step.
 inline double diffusivity(double layer_viscosity) { return (1.0 + c_b2) / sigma * layer_viscosity; }
 
 /// The diffusion term [m^2/s^2] of fluid particle i, over fluid neighbours. c_b2 |grad nu~|^2 is written as

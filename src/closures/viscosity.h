@@ -2,9 +2,9 @@
 //
 //   nu_eff = nu_0 + c_a |u| dx    (F3)
 //
-// (F3) vanishes at rest, and a jittered tank then boils (docs/theory/closures.md). It has nothing to do with a wall: as
-// its friction it gave a smooth wall the stress 0.034 rho u^2, twenty times that of water. What a wall has is in
-// wall_law.h and spalart_allmaras.h.
+// (F3) vanishes at rest, and the water in a jittered tank then boils (docs/theory/closures.md). It is no model of wall
+// friction: on a smooth wall it gave the stress 0.034 rho u^2, twenty times that of water. wall_law.h and
+// spalart_allmaras.h model the friction of walls.
 #pragma once
 
 #include <span>
@@ -30,22 +30,23 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 ///   sum_j (nu_i + nu_j)/2 [ c_ij (u_j - u_i) + w_j (grad u_i + grad u_j)^T a_ij ],
 ///
 /// where a_ij is the pair vector and c_ij the Morris weight with a_ij . e_ij for dW_ij. The first term alone is nu lap
-/// u, whose natural condition at a free surface is du/dn = 0: waves then decay by a third too slowly. The second one,
-/// the divergence of (grad u)^T, vanishes inside and makes that condition zero stress. Conserves momentum; only the
-/// first term is sure never to add energy. `gradient` [1/s] is needed on ghosts.
+/// u, whose natural condition at a free surface is du/dn = 0: waves then decay too slowly, by a third. The second term,
+/// the divergence of (grad u)^T, vanishes in the interior and turns that condition into zero stress. Conserves
+/// momentum; only the first term is certain never to add energy. `gradient` [1/s] is needed on ghosts.
 ///
-/// A `noise_viscosity` [m^2/s] above 0, one number for the whole flow, and proportional to the spacing where that
-/// varies, dissipates noise: a two-point viscous force on
-/// the part of the velocity difference that a linear field does not explain,
+/// A `noise_viscosity` [m^2/s] above 0 dissipates noise. It is one number for the whole flow, proportional to the
+/// spacing where that varies. Its two-point viscous force acts on the part of the velocity difference that a linear
+/// field does not explain,
 ///
 ///   d_ij = u_j - u_i - l_ij,    l_ij = (grad u_i + grad u_j)/2 . (r_j - r_i),
 ///
-/// without its component along u_j - u_i where that would add energy. Between two particles of a boundary layer d_ij is
-/// without its component along l_ij too, so that it does not flatten the logarithmic profile. Of other pairs of which
-/// one has a wall with friction in its reach, l_ij is the difference nearest to u_j - u_i between those that either
-/// gradient alone explains: there they are one-sided (docs/theory/friction.md). It vanishes for linear
-/// fields and is of fourth order in the wave number of a smooth field. Pairs are antisymmetric: momentum is conserved,
-/// and energy never grows.
+/// without its component along u_j - u_i where that component would add energy. Between two particles of a boundary
+/// layer, d_ij is also without its component along l_ij, so that the force does not flatten the logarithmic profile.
+/// For other pairs with a wall with friction in reach of one particle, gradients are one-sided. There l_ij is the
+/// difference nearest to u_j - u_i between those that either gradient alone explains (docs/theory/friction.md).
+///
+/// The force vanishes for linear fields and is of fourth order in the wave number of a smooth field. Pairs are
+/// antisymmetric, so momentum is conserved, and energy never grows.
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                              const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,

@@ -11,9 +11,9 @@ namespace tailwater {
 
 enum class KernelName { wendland_c2, cubic_spline, farzin };
 
-/// One of the kernels, chosen by name. Every alternative has `radius()` [m], `value(r)` [1/m^Dim] and `steepness(r)`,
-/// F = -(dW/dr)/r [1/m^(Dim+2)]. `Real` is the kind of its constants: double where r is one, float where it is in
-/// lanes.
+/// One of the kernels, chosen by name. Every alternative has `radius()` [m], `value(r)` [1/m^Dim] and `steepness(r)`, F
+/// = -(dW/dr)/r [1/m^(Dim+2)]. `Real` is the type of its constants: double for distances in double precision, float for
+/// distances in lanes.
 template <int Dim, class Real = double>
 using Kernel = std::variant<WendlandC2<Dim, Real>, CubicSpline<Dim, Real>, FarzinKernel<Dim, Real>>;
 
@@ -35,7 +35,7 @@ double kernel_radius(const Kernel<Dim>& kernel) {
   return std::visit([](const auto& chosen) { return chosen.radius(); }, kernel);
 }
 
-/// The same kernel for distances in lanes.
+/// The kernel `kernel` for distances in lanes.
 template <int Dim>
 Kernel<Dim, float> in_single_precision(const Kernel<Dim>& kernel) {
   return std::visit(
@@ -45,7 +45,7 @@ Kernel<Dim, float> in_single_precision(const Kernel<Dim>& kernel) {
       kernel);
 }
 
-/// Calls body with the kernel that was chosen. The default one is asked for first, and in the caller's loop.
+/// Calls body with the chosen kernel. The default kernel is tested first, inside the caller's loop, for speed.
 template <int Dim, class Real, class Body>
 inline auto with_kernel(const Kernel<Dim, Real>& kernel, Body&& body) {
   if (const auto* wendland = std::get_if<WendlandC2<Dim, Real>>(&kernel)) [[likely]]

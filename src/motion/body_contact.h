@@ -1,4 +1,4 @@
-// Where floating bodies can touch: each other, and all other walls.
+// Surfaces at which floating bodies can touch each other and all other walls.
 #pragma once
 
 #include <vector>
@@ -8,28 +8,28 @@
 
 namespace tailwater {
 
-/// Bodies are felt from so far, dx: two that approach each other come nearer by less in a step.
+/// dx; distance within which bodies are detected. Two bodies approach each other by less than this in a step.
 inline constexpr double contact_reach = 2.0;
 
-/// Walls at rest are found from so far behind them, dx: by all of their particles.
+/// dx; distance behind a wall at rest within which it is detected: all of its particles lie within it.
 inline constexpr double reach_behind_walls = 3.0;
 
-/// Walls that bodies can touch and that move together: those that rest, those of one body, or one that moves as
-/// prescribed. Alone, as drawn; filed as if they rested.
+/// Walls that bodies can touch and that move together: all walls at rest, the walls of one body, or one wall with a
+/// prescribed motion. As drawn, without other walls, and treated as if they rested.
 template <int Dim>
 struct ContactSurface {
   Boundary<Dim> boundary;
-  int wall = -1;  ///< index into Boundary::walls of one that moves as prescribed, else -1
-  int body = -1;  ///< index of the body that they are of, or -1
+  int wall = -1;  ///< index into Boundary::walls of a wall with prescribed motion, else -1
+  int body = -1;  ///< index of the body to which the walls belong, or -1
 };
 
 template <int Dim>
 struct ContactSurfaces {
-  std::vector<ContactSurface<Dim>> each;      ///< all walls at rest are the first
-  std::vector<std::vector<Vec<Dim>>> points;  ///< of each body, as drawn: its corners, and others 1.5 dx apart
+  std::vector<ContactSurface<Dim>> each;      ///< the first contains all walls at rest
+  std::vector<std::vector<Vec<Dim>>> points;  ///< of each body, as drawn: its corners, and further points 1.5 dx apart
 };
 
-/// Nothing at all for a case without bodies.
+/// Empty for a case without bodies.
 template <int Dim>
 ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const std::vector<FloatingBody<Dim>>& bodies,
                                            double spacing);

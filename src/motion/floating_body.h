@@ -1,4 +1,4 @@
-// Rigid bodies that the water moves: what they are, and where they are.
+// Rigid bodies that float: their properties, positions and velocities.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@ inline constexpr int turns = Dim == 2 ? 1 : 3;
 template <int Dim>
 using Turn = Vec<turns<Dim>>;
 
-/// Of a rigid body: first what goes along the axes, then what goes about them. A velocity [m/s, rad/s], an
-/// acceleration, or a force with its moment [N, N m].
+/// Motion or load of a rigid body: first the entries along the axes, then those about the axes. A velocity [m/s,
+/// rad/s], an acceleration, or a force with its moment [N, N m].
 template <int Dim>
 using Twist = Vec<Dim + turns<Dim>>;
 
@@ -52,7 +52,7 @@ Vec<Dim> velocity_about(const Turn<Dim>& omega, const Vec<Dim>& arm) {
   }
 }
 
-/// The rotation about the axis of `angle` [rad] by its length.
+/// The rotation by the length of `angle` [rad] about its direction.
 template <int Dim>
 Mat<Dim> rotation_by(const Turn<Dim>& angle) {
   if constexpr (Dim == 2) {
@@ -63,7 +63,7 @@ Mat<Dim> rotation_by(const Turn<Dim>& angle) {
   }
 }
 
-/// The angle of a rotation, times its axis.
+/// The angle [rad] of a rotation, times its axis.
 template <int Dim>
 Turn<Dim> angle_of(const Mat<Dim>& rotation) {
   if constexpr (Dim == 2) {
@@ -73,11 +73,11 @@ Turn<Dim> angle_of(const Mat<Dim>& rotation) {
   }
 }
 
-/// A line from a body to where it rests, or to another body.
+/// A line from a body to a fixed anchor, or to another body.
 template <int Dim>
 struct Mooring {
   int body;          ///< index into CaseSpec::bodies
-  int to_body = -1;  ///< the same of its other end; -1: that rests
+  int to_body = -1;  ///< index of the body at the other end; -1: a fixed anchor
   Vec<Dim> at;       ///< m; on the body, as drawn
   Vec<Dim> anchor;   ///< m; the other end, as drawn
   double stiffness;
@@ -85,15 +85,15 @@ struct Mooring {
   double damping;
 };
 
-/// Where a body is and how it moves: from `time` on with the same velocity, until the step ends.
+/// Position and velocity of a body. The velocity is constant from `time` on, until the step ends.
 template <int Dim>
 struct BodyState {
   double time = 0.0;                   ///< s
-  AffineMap<Dim> placement;            ///< at `time`; from where it is drawn
+  AffineMap<Dim> placement;            ///< from the drawn position to that at `time`
   Vec<Dim> centre = Vec<Dim>::Zero();  ///< m; of mass, at `time`
   Twist<Dim> velocity = Twist<Dim>::Zero();
   Twist<Dim> acceleration = Twist<Dim>::Zero();  ///< in the last step
-  Twist<Dim> carried_over = Twist<Dim>::Zero();  ///< N s, N m s; impulse that has reached it and not moved it yet
+  Twist<Dim> carried_over = Twist<Dim>::Zero();  ///< N s, N m s; impulse that has reached the body but not yet moved it
 
   Vec<Dim> linear_velocity() const { return velocity.template head<Dim>(); }
   Turn<Dim> angular_velocity() const { return velocity.template tail<turns<Dim>>(); }
@@ -103,7 +103,7 @@ struct BodyState {
 
   Vec<Dim> centre_at(double t) const { return centre + (t - time) * linear_velocity(); }
   AffineMap<Dim> at(double t) const;
-  /// Goes on to time t.
+  /// Advances the body to time t.
   void go_on(double t);
 };
 
@@ -111,8 +111,8 @@ struct BodyState {
 template <int Dim>
 struct BodyStates {
   std::vector<BodyState<Dim>> each;
-  /// Row by row: how much more force each degree of freedom of all bodies needs per acceleration of each, with the
-  /// water that goes with it [kg, kg m, kg m^2]. Empty: not known.
+  /// Matrix, row by row: the additional force on each degree of freedom of all bodies per acceleration of each, with
+  /// the added mass of the water [kg, kg m, kg m^2]. Empty: not known.
   std::vector<double> inertia = {};
 };
 
@@ -124,15 +124,15 @@ struct FloatingBody {
   std::string name;
   double mass;             ///< kg; in 2D per metre of width
   Turn<Dim> inertia;       ///< kg m^2; about the axes as drawn
-  std::vector<int> free;   ///< entries of a Twist
+  std::vector<int> free;   ///< indices of the free entries of a Twist
   BodyState<Dim> drawn;    ///< at the start
   std::vector<int> walls;  ///< indices into Boundary::walls
 
-  /// The force and moment that give the body an acceleration, beside gyration.
+  /// Force and moment that cause an acceleration of the body, without gyration.
   Twist<Dim> force_of(const BodyState<Dim>& state, const Twist<Dim>& acceleration) const;
-  /// Mass, or the mean moment of inertia, of each entry of a Twist: for comparing them.
+  /// Mass, or the mean moment of inertia, for each entry of a Twist: a scale for comparisons.
   Twist<Dim> scale() const;
-  /// Of weight and gyration.
+  /// Force and moment of weight and gyration.
   Twist<Dim> load(const BodyState<Dim>& state, const Vec<Dim>& gravity) const;
 
  private:
@@ -142,7 +142,7 @@ struct FloatingBody {
 template <int Dim>
 std::vector<FloatingBody<Dim>> make_bodies(const CaseSpec& spec);
 
-/// The index of the body of each of so many walls, or -1.
+/// The index of the body for each of `walls` walls, or -1.
 template <int Dim>
 std::vector<int> bodies_of_walls(const std::vector<FloatingBody<Dim>>& bodies, std::size_t walls) {
   std::vector<int> body_of_wall(walls, -1);
@@ -152,7 +152,7 @@ std::vector<int> bodies_of_walls(const std::vector<FloatingBody<Dim>>& bodies, s
   return body_of_wall;
 }
 
-/// Throws InputError as a body does.
+/// Throws InputError, which names the line, for numbers of the wrong dimension.
 template <int Dim>
 std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec);
 

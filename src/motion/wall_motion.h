@@ -33,7 +33,7 @@ struct Placement {
   double angle = 0.0;                        ///< rad
 };
 
-/// A motion written in the case: numbers, or expressions of t.
+/// A motion given in the case by numbers or by expressions of t.
 template <int Dim>
 class WrittenMotion {
  public:
@@ -64,7 +64,7 @@ class MotionOfFile {
   std::optional<Spline> angle_;
 };
 
-/// A gate's motion along a straight line.
+/// Motion of a gate along a straight line.
 template <int Dim>
 class MotionOfGate {
  public:
@@ -76,7 +76,7 @@ class MotionOfGate {
   GateLaw law_;
 };
 
-/// A wave maker's motion: that of its own waves, and how far it has given way to others.
+/// Motion of a wave maker: that of its own waves, and the displacement by which it absorbs other waves.
 template <int Dim>
 class MotionOfMaker {
  public:
@@ -88,7 +88,7 @@ class MotionOfMaker {
   WavePlate<Dim> plate_;
 };
 
-/// A motion that a program gives which uses this one as a library.
+/// A motion given by a program that uses this one as a library.
 template <int Dim>
 struct GivenMotion {
   std::function<Placement<Dim>(double time)> path;
@@ -103,11 +103,11 @@ class WallPath {
   /// Throws CaseError for components or a pivot of the wrong dimension.
   WallPath(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner);
 
-  /// Takes the place of the motion; the pivot and the axis stay.
+  /// Replaces the motion; the pivot and the axis stay.
   void follow(GivenMotion<Dim> given) { motion_ = std::move(given); }
 
-  /// The motion from where the wall is drawn to where it is at `time` [s] >= 0. It may be infinite or not a number.
-  /// `maker` is the state of a wave maker.
+  /// The motion from the wall as drawn to its position at `time` [s] >= 0. It may be infinite or not a number. `maker`
+  /// is the state of a wave maker.
   AffineMap<Dim> at(double time, const MakerState& maker = {}) const;
   AffineMap<Dim> at(const Placement<Dim>& placement) const;
 
@@ -121,46 +121,46 @@ class WallPath {
 
   Motion motion_;
   Vec<Dim> pivot_;
-  Vec<3> axis_ = Vec<3>::UnitZ();  ///< 3D; about which the wall turns
+  Vec<3> axis_ = Vec<3>::UnitZ();  ///< 3D; axis of the wall's rotation
 };
 
-/// What the motion of walls depends on beside the time, in the order of the tables.
+/// State on which the motion of walls depends besides time, in the order of the tables.
 template <int Dim>
 struct MotionState {
   std::vector<MakerState> wave_makers;
   BodyStates<Dim> bodies;
 };
 
-/// At the start: no wave maker has given way, and the bodies are where they are drawn.
+/// The state at the start: no wave maker has absorbed waves yet, and the bodies are where they are drawn.
 template <int Dim>
 MotionState<Dim> initial_motion(const CaseSpec& spec);
 
-/// All walls of a case that move, as they are drawn.
+/// All moving walls of a case, as drawn.
 template <int Dim>
 class WallMotion {
  public:
-  /// For a moving wall that slides along a periodic direction, adds its image one period back to the faces, so that the
-  /// two together always cover the domain.
+  /// For a moving wall that slides along a periodic direction, adds its image one period back to the faces. Wall and
+  /// image together always cover the domain.
   WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const WallParticles<Dim>& particles);
 
   struct MovingWall {
     int wall;  ///< index into Boundary::walls
     WallPath<Dim> path;
-    Vec<Dim> period = Vec<Dim>::Zero();  ///< m; 0 in directions that do not repeat, or in which it does not move
-    int maker = -1;                      ///< index into CaseSpec::wave_makers; -1: it is none
-    int body = -1;                       ///< index into CaseSpec::bodies; -1: it is of none
+    Vec<Dim> period = Vec<Dim>::Zero();  ///< m; 0 in directions that are not periodic, or without motion of the wall
+    int maker = -1;                      ///< index into CaseSpec::wave_makers; -1: no wave maker
+    int body = -1;                       ///< index into CaseSpec::bodies; -1: no body
 
-    /// From where it is drawn to where it is at `time` [s].
+    /// The motion from the wall as drawn to its position at `time` [s].
     AffineMap<Dim> at(double time, const MotionState<Dim>& state) const;
-    /// The same place one or more periods back, so that the wall and its image cover the domain.
+    /// The placement one or more periods back, so that the wall and its image cover the domain.
     AffineMap<Dim> in_period(AffineMap<Dim> placement) const;
-    /// From where it is drawn to its mean velocity [m/s] between two times [s].
+    /// Maps x, as drawn, to the mean velocity [m/s] between two times [s].
     AffineMap<Dim> mean_velocity(double from, double to, const MotionState<Dim>& state) const;
   };
   const std::vector<MovingWall>& moving() const { return moving_; }
 
-  /// From now on `moving()[which]`, which is of no body, takes a path that is given. Throws InputError, with the wall's
-  /// `label`, if that begins farther than `off` [m] from where the wall is at `time` [s].
+  /// Replaces the path of `moving()[which]`, which belongs to no body. Throws InputError, with the wall's `label`, if
+  /// the new path begins farther than `off` [m] from the wall's position at `time` [s].
   void steer(std::size_t which, GivenMotion<Dim> given, double time, const MotionState<Dim>& state, double off,
              const std::string& label);
 
@@ -169,16 +169,16 @@ class WallMotion {
 
   /// Sets the entries of the particles of moving walls to their mean velocity [m/s] between two times [s].
   void get_mean_velocity(double from, double to, const MotionState<Dim>& state, std::span<Vec<Dim>> velocity) const;
-  /// The same at an instant.
+  /// Sets the entries of the particles of moving walls to their velocity [m/s] at `time` [s].
   void get_velocity(double time, const MotionState<Dim>& state, std::span<Vec<Dim>> velocity) const;
 
-  /// The largest distance [m] that a corner of a wall moves from one time to the other.
+  /// The largest distance [m] that a corner of a wall moves between two times [s].
   double largest_displacement(double from, double to, const MotionState<Dim>& state) const;
 
  private:
   double farthest_corner(int wall, const AffineMap<Dim>& before, const AffineMap<Dim>& after) const;
 
-  /// A particle of a moving wall.
+  /// A particle of a moving wall, as drawn.
   struct DrawnParticle {
     std::size_t row;  ///< of the table of wall particles
     int wall;

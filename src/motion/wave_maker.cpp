@@ -13,16 +13,17 @@
 namespace tailwater {
 namespace {
 
-/// A solitary wave begins where it is this share of its height: sech^2 of this phase, 0.2 %.
+/// A solitary wave begins where its elevation is this fraction of its height: sech^2 of this phase, 0.2 %.
 constexpr double phase_at_start = -3.8;
 
-/// Periods after which an absorbing plate has come back. Long beside a period, so that it hardly matters for the waves.
+/// Number of periods in which an absorbing plate drifts back to its mean position. Many, so that the drift hardly
+/// changes the waves.
 constexpr double periods_remembered = 20.0;
 
-/// [dx]; the gauge of an absorbing plate is this far in front of it, and half as wide on each side.
+/// [dx]; distance of an absorbing plate's gauge from the plate. The gauge extends half as far to each side.
 constexpr double gauge_distance = 2.0;
 
-/// kh; in deeper water the waves of second order no longer matter, and their hyperbolic functions would overflow.
+/// kh; in deeper water, second-order waves are negligible, and their hyperbolic functions would overflow.
 constexpr double deepest_second_order = 20.0;
 
 double sech_squared(double x) {
@@ -35,7 +36,7 @@ double gain_of(const WaveMakerTable& maker, double gravity) {
     const double omega = 2.0 * std::numbers::pi / maker.period;
     return omega / maker_transfer(maker.type, omega, gravity, maker.depth).wave;
   }
-  // Long waves: omega = k sqrt(g h), and the wave is k h of the stroke of a piston, half of it of a flap.
+  // Long waves: omega = k sqrt(g h). The wave is k h times the stroke of a piston, and half of that for a flap.
   return (maker.type == MakerType::flap ? 2.0 : 1.0) * std::sqrt(gravity / maker.depth);
 }
 
@@ -49,12 +50,12 @@ SolitaryWave::SolitaryWave(double height, double depth, double gravity)
 
 double SolitaryWave::displacement(double phase) const { return height_ / (beta_ * depth_) * std::tanh(phase); }
 
-// The plate moves with the water, dX/dt = c eta/(h + eta). With theta = beta (c t - X) this is
-// dX/dtheta = H/(beta h) sech^2 theta, so that c t = theta/beta + X(theta).
+// The plate moves with the water, dX/dt = c eta/(h + eta). With theta = beta (c t - X) this becomes dX/dtheta = H/(beta
+// h) sech^2 theta, and so c t = theta/beta + X(theta).
 double SolitaryWave::phase(double since) const {
   const double distance = celerity_ * since + phase_at_start / beta_ + displacement(phase_at_start);
   double theta = beta_ * distance;
-  // The slope lies between 1/beta and (1 + H/h)/beta, so Newton's method gets nearer with every step.
+  // The slope lies between 1/beta and (1 + H/h)/beta, so every step of Newton's method reduces the error.
   for (int step = 0; step < 200; ++step) {
     const double change =
         (distance - theta / beta_ - displacement(theta)) / ((1.0 + height_ / depth_ * sech_squared(theta)) / beta_);

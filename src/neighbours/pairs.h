@@ -37,7 +37,7 @@ struct Pairs {
   std::array<float, Dim> unit{};        ///< m; of places
   std::vector<Vec<Dim>> position;       ///< m; of all particles when the pairs were found
   std::vector<std::int64_t> id;         ///< of all particles
-  /// Of all particles: local particle spacing, and therefore radius of the support, relative to that of the case. A
+  /// Local particle spacing, and therefore radius of the support, relative to that of the case; of all particles. A
   /// pair uses the mean of both particles. Empty: 1 for all particles.
   std::vector<float> relative_spacing;
   float inverse_cell = 1.0F;    ///< 1/m^Dim; inverse volume of a particle with the spacing of the case

@@ -1,4 +1,4 @@
-// The particles of one rank: what it owns, then ghosts (copies of particles of other ranks, and periodic images).
+// Particles of one rank: those that it owns, then ghosts (copies of particles of other ranks, and periodic images).
 // Structure of arrays; every array has size() entries.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace tailwater {
 
-/// m; distance from walls of water that knows of none.
+/// m; distance from walls for water that no wall with friction influences.
 inline constexpr double far_from_walls = 1e30;
 
 enum class ParticleKind : std::uint8_t { fluid, wall };
 
-/// A particle as it is made: of water, or of a row of walls.
+/// Initial values of a particle: of water, or of a row of the table of wall particles.
 template <int Dim>
 struct NewParticle {
   Vec<Dim> position;                     ///< m
@@ -31,17 +31,18 @@ struct Particles {
   std::vector<Vec<Dim>> position;  ///< m
   std::vector<Vec<Dim>> velocity;  ///< m/s
   std::vector<double> pressure;    ///< Pa
-  /// Pa; what the last step's second projection found, before suction was limited; 0 without one. Both projections
-  /// begin with what they found last.
+  /// Pa; solution of the last step's second projection before the limit on negative pressure; 0 without a second
+  /// projection. Each projection uses its last solution as initial guess.
   std::vector<double> second_pressure;
   std::vector<double> volume;  ///< m^Dim
   std::vector<ParticleKind> kind;
-  /// For a wall particle its row in this rank's table of walls; -1 for fluid. Found anew from the id wherever particles
+  /// For a wall particle its row in this rank's table of walls; -1 for fluid. Recomputed from the id wherever particles
   /// or ghosts arrive.
   std::vector<std::int32_t> wall_row;
   /// m^2/s; nu~ of Spalart & Allmaras, 0 where there is no boundary layer (closures/spalart_allmaras.h).
   std::vector<double> layer_viscosity;
-  /// m; of fluid, from the nearest wall with friction, along the water; at the start and in spray far_from_walls.
+  /// m; of fluid, from the nearest wall with friction, measured through the water; far_from_walls at the start and in
+  /// spray.
   std::vector<double> wall_distance;
   std::vector<std::int64_t> id;  ///< unique, given at the start, never reused
   std::size_t owned = 0;
@@ -63,8 +64,8 @@ struct Particles {
     apply_to_fields([count](auto&... field) { (field.resize(count), ...); });
   }
 
-  /// Makes `count` owned particles, the n-th as make(n) says, behind those that there are. There must be no ghosts. No
-  /// particle is made elsewhere.
+  /// Appends `count` owned particles, the n-th with the values of make(n). There must be no ghosts. Particles are
+  /// created nowhere else.
   template <class Make>
   void add(std::size_t count, Make&& make) {
     const std::size_t before = owned;

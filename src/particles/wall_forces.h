@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// The force of the pressure that moves a floating body beside another wall, where pairs do not give all of it.
+/// Pressure force on a floating body beside another wall, where the forces of pairs are incomplete.
 template <int Dim>
 struct ForceBesideWall {
   int body;
@@ -18,18 +18,18 @@ struct ForceBesideWall {
   Vec<Dim == 2 ? 1 : 3> moment;  ///< N m; about the centre
 };
 
-/// Entries of owned particles. On a wall particle: what its pairs with fluid particles do to it, of the pressure that
-/// part of it which does not act through the fluid particles. On a fluid particle: that part of its own pairs, and what
-/// it does to the wall in front of which the last guard has kept it. The sum of all is what the walls have taken from
-/// the water's momentum, per time. In 2D per metre of width.
+/// Forces between water and walls, one entry per owned particle. Entry of a wall particle: the force of its pairs with
+/// fluid particles, without the part of the pressure that acts through the fluid particles. Entry of a fluid particle:
+/// that part for its own pairs, and the reaction of the last guard that kept it in front of a wall. The sum of all
+/// entries is the momentum per time that the walls have taken from the water. In 2D per metre of width.
 template <int Dim>
 struct WallForces {
-  std::vector<Vec<Dim>> pressure;                  ///< N; on a fluid particle the guard's
+  std::vector<Vec<Dim>> pressure;                  ///< N; on a fluid particle the reaction of the guard
   std::vector<Vec<Dim>> through_water;             ///< N; pressure through a fluid particle, 0 on a wall particle
   std::vector<Vec<Dim>> friction;                  ///< N
-  std::vector<ForceBesideWall<Dim>> beside_walls;  ///< the same on all ranks
+  std::vector<ForceBesideWall<Dim>> beside_walls;  ///< identical on all ranks
   bool are_requested = false;                      ///< whether a probe or a part needs friction and the guard's forces
-  bool pressure_is_requested = false;              ///< whether a probe needs the forces of the pressure too
+  bool pressure_is_requested = false;              ///< whether a probe needs the pressure forces too
 
   void reset(std::size_t owned) {
     pressure.assign(owned, Vec<Dim>::Zero());

@@ -10,11 +10,12 @@
 namespace tailwater {
 namespace {
 
-/// Less than this share of the molecular viscosity is no layer; so that water which none has reached stays free of it.
+/// Fraction of the molecular viscosity below which there is no layer, so that water that no layer has reached stays
+/// free of it.
 constexpr double least_layer_over_molecular = 1e-3;
 
-/// Distance from the nearest wall with friction [m], measured from neighbour to neighbour. A layer comes to a particle
-/// from neighbours that know theirs.
+/// Distance from the nearest wall with friction [m], measured from neighbour to neighbour: a particle computes its
+/// distance from the known ones of its neighbours.
 template <int Dim>
 double distance_by_neighbours(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::size_t i) {
   double least = far_from_walls;
@@ -90,7 +91,7 @@ void BoundaryLayers<Dim>::follow_friction(Flow<Dim>& flow, std::span<const Frict
     const FrictionWall<Dim>& wall = walls[i];
     const bool is_beside_wall = wall.weight > 0.0;
     if (!is_beside_wall && !is_reached(flow.pairs(), particles.layer_viscosity, i)) return;
-    // As if a rough wall stood 0.03 k_s farther back (Aupoix & Spalart 2003).
+    // A rough wall counts as 0.03 k_s farther away (Aupoix & Spalart 2003).
     wall_distance_[i] =
         is_beside_wall ? wall.distance + 0.03 * wall.roughness : distance_by_neighbours(flow.pairs(), particles, i);
     viscosity_[i] = next_layer_viscosity(flow, wall, velocity_gradient[i], wall_distance_[i], dt, i);

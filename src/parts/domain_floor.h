@@ -1,5 +1,5 @@
-// Takes out water that has fallen below all walls, which nothing can bring back: in free fall it would shorten the time
-// step of all water.
+// Removes water that has fallen below all walls. It cannot return, and in free fall it would shorten the time step of
+// all water.
 #pragma once
 
 #include "flow/part.h"
@@ -10,7 +10,7 @@ namespace tailwater {
 template <int Dim>
 class DomainFloor final : public Part<Dim> {
  public:
-  /// What has fallen below all walls since the start.
+  /// Water that has fallen below all walls since the start.
   const WaterAmount& fallen() const { return fallen_; }
 
   std::string_view name() const override { return "domain_floor"; }
@@ -23,7 +23,7 @@ class DomainFloor final : public Part<Dim> {
   WaterAmount fallen_;
 };
 
-/// None without gravity.
+/// Null without gravity.
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_domain_floor(const CaseSpec& spec, const Setup<Dim>& setup,
                                              const Boundary<Dim>& boundary);

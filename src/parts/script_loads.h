@@ -1,4 +1,4 @@
-// Forces in the next step of a program that uses this one as a library, beside those of the case.
+// Forces in the next step, in addition to those of the case, from a program that uses this one as a library.
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace tailwater {
 
-/// No case has them: a program gives them to a flow (`script_loads` below). They act in one step. Empty fields add
-/// nothing, and a step without loads is bit for bit what it is without this part.
+/// No case contains these loads: a program gives them to a flow (`script_loads` below). They act for one step. Empty
+/// fields add nothing. A step without loads is bit-identical to one without this part.
 template <int Dim>
 class ScriptLoads final : public Part<Dim> {
  public:
-  std::vector<Vec<Dim>> acceleration;  ///< m/s^2; force per mass on each owned particle; only water feels it
+  std::vector<Vec<Dim>> acceleration;  ///< m/s^2; force per mass on each owned particle; acts on water only
   std::vector<Twist<Dim>> on_bodies;   ///< N, N m, in 2D per metre of width; on each body, about its centre of mass
 
   void clear();
@@ -27,7 +27,7 @@ class ScriptLoads final : public Part<Dim> {
   void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
 };
 
-/// The loads of a flow, which gets this part if it has none yet.
+/// The loads of a flow. Adds this part to a flow that has none.
 template <int Dim>
 ScriptLoads<Dim>& script_loads(Flow<Dim>& flow);
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr int lattice_count = 65;
 
-/// Throws CaseError where a layer reaches into the duct of an open end: what enters there fills all of space. The
-/// border of a layer that ends at the opening is as wide as the kernel's support.
+/// Throws CaseError where a layer reaches into the duct of an open end: inflow there fills the whole space. The border
+/// of a layer that ends at the opening is as wide as the kernel's support.
 template <int Dim>
 void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim>& field) {
   const double dx = spec.particles.spacing;
@@ -70,7 +70,7 @@ PorousLayers<Dim>::PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, c
     : field_(spec, boundary, setup.scale.kernel, setup.domain) {
   require_layers_in_case(spec, boundary);
   require_open_ends_in_open_water(spec, field_);
-  // From water that has left the tightest layer to water that has entered it.
+  // The range is from water that has left the tightest layer to water that has entered it.
   const double dx = setup.scale.spacing;
   const double widening = std::pow(field_.least_porosity(), -1.0 / Dim);
   least_spacing_ = dx / widening;
@@ -104,8 +104,8 @@ LatticeSums PorousLayers<Dim>::lattice_of(double volume) const {
           .across_plane = std::lerp(below.across_plane, above.across_plane, share)};
 }
 
-/// Gives water the volume that it occupies where it has come to. Indices change between steps only, when nothing has
-/// moved since the last call: what has another index now is where it was.
+/// Gives water the volume that it occupies at its present place. Indices change between steps only, when nothing has
+/// moved since the last call: a particle with a new index still has the old position.
 template <int Dim>
 void PorousLayers<Dim>::arrive(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
@@ -115,12 +115,12 @@ void PorousLayers<Dim>::arrive(Flow<Dim>& flow) {
     if (arrivals_[i].id == particles.id[i]) particles.volume[i] *= arrivals_[i].porosity / porosity;
     arrivals_[i] = {particles.id[i], porosity};
   });
-  // Ghosts that are kept get new positions only.
+  // Ghosts that are not renewed receive new positions only.
   const bool some_are_renewed = flow.setup.ranks.any(!flow.neighbourhood.has_pairs());
   if (!some_are_renewed) flow.halo().exchange(particles.volume);
 }
 
-/// Turns u into n u with the media where water is halfway through the step, or where it is at its end.
+/// Turns u into n u, with the media at the water's mid-step position or at its position at the end of the step.
 template <int Dim>
 void PorousLayers<Dim>::begin_projection(Flow<Dim>& flow, Projection projection, double dt) {
   Particles<Dim>& particles = flow.state.particles;
@@ -156,7 +156,8 @@ void PorousLayers<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const
   });
 }
 
-/// dt/2 tr(grad u . grad v), of which the gradient of v is known.
+/// Subtracts dt/2 (grad v . u) . grad n and divides by n: the target dt/2 tr(grad u . grad v) with the known gradient
+/// of v.
 template <int Dim>
 void PorousLayers<Dim>::change_target(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient, double dt,
                                       std::span<double> target) const {
@@ -170,8 +171,8 @@ void PorousLayers<Dim>::change_target(const Flow<Dim>& flow, std::span<const Mat
   });
 }
 
-/// The harmonic mean, so that what flows from an open into a tight medium is what both let through. Walls conduct as
-/// the water beside them.
+/// Harmonic mean, so that the flow between an open and a tight medium is the one that both admit. Walls have the
+/// conductance of the water beside them.
 template <int Dim>
 double PorousLayers<Dim>::mean_conductance(const Flow<Dim>& flow, std::size_t i, std::size_t j) const {
   const double own = conductance_[i];
@@ -179,7 +180,8 @@ double PorousLayers<Dim>::mean_conductance(const Flow<Dim>& flow, std::size_t i,
   return 2.0 * own * conductance_[j] / (own + conductance_[j]);
 }
 
-/// Multiplies the weights of water by the conductance of each pair, and what closes the row by that of the particle.
+/// Multiplies the weights of water by the conductance of each pair, and the closing weight of the row by that of the
+/// particle.
 template <int Dim>
 void PorousLayers<Dim>::write_rows(Flow<Dim>& flow) {
   const Pairs<Dim>& pairs = flow.pairs();
@@ -199,8 +201,8 @@ void PorousLayers<Dim>::write_rows(Flow<Dim>& flow) {
   });
 }
 
-/// Adds the divergence of the weight where the conductance varies, in the two-point form of the rows: water at rest is
-/// as much at rest in layers as outside.
+/// Adds the divergence of gravity where the conductance varies, in the two-point form of the rows, so that water at
+/// rest stays at rest in layers as well as outside.
 template <int Dim>
 int PorousLayers<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
   const Pairs<Dim>& pairs = flow.pairs();
@@ -226,7 +228,7 @@ int PorousLayers<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predict
   return 0;
 }
 
-/// What pressure and gravity changed in open water they change by the conductance here; then turns v into u.
+/// Multiplies the change of velocity by pressure and gravity in open water by the conductance; then turns v into u.
 template <int Dim>
 void PorousLayers<Dim>::finish_projection(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
@@ -247,7 +249,7 @@ void PorousLayers<Dim>::project_again(Flow<Dim>& flow, const std::vector<double>
   finish_projection(flow);
 }
 
-/// Nothing has been corrected, and the velocity is still that with which the projection began.
+/// Restores u: nothing has been corrected, and the velocity is still the one at the beginning of the projection.
 template <int Dim>
 void PorousLayers<Dim>::stay(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
@@ -256,7 +258,8 @@ void PorousLayers<Dim>::stay(Flow<Dim>& flow) {
   });
 }
 
-/// What the resistance takes from the water, and what the work of viscous forces counted where there is no water.
+/// Subtracts the energy dissipated by the resistance, and the work of viscous forces that was counted in the volume of
+/// the grains.
 template <int Dim>
 void PorousLayers<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& /*on_walls*/, double /*dt*/,
                                  Works& works) const {

@@ -8,7 +8,6 @@
 //
 //   v' = k [(1 + c_A) u + dt a] + dt k (g - grad p/rho),        k = n m, the conductance
 //
-// so the pressure equation has the coefficient k, the divergence is that of v, and gravity has a divergence where k
 // varies. Within a projection the velocity of particles is v. Equations and their discrete form: docs/theory/porous.md.
 #pragma once
 
@@ -30,7 +29,7 @@ class PorousLayers final : public Part<Dim>, public Pores<Dim> {
   PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary);
 
   std::string_view name() const override { return "porous_layers"; }
-  bool changes_rows() const override { return true; }  // the resistance goes with the velocity
+  bool changes_rows() const override { return true; }  // the resistance depends on the velocity
   void begin(Flow<Dim>& flow) override;
   void arrive(Flow<Dim>& flow) override;
   void begin_projection(Flow<Dim>& flow, Projection projection, double dt) override;
@@ -49,7 +48,7 @@ class PorousLayers final : public Part<Dim>, public Pores<Dim> {
   LatticeSums lattice_of(double volume) const override;
 
  private:
-  /// Of an owned particle, as it arrived.
+  /// Data of an owned particle at its arrival.
   struct Arrival {
     std::int64_t id = -1;
     double porosity = 1.0;
@@ -60,14 +59,14 @@ class PorousLayers final : public Part<Dim>, public Pores<Dim> {
 
   PorousField<Dim> field_;
   double least_spacing_ = 0.0;  ///< m; of the first of `lattices_`
-  double spacing_step_ = 1.0;   ///< m; from one to the next
+  double spacing_step_ = 1.0;   ///< m; between consecutive `lattices_`
   std::vector<LatticeSums> lattices_;
   std::vector<Arrival> arrivals_;
 
-  // The present projection; of owned particles, but the conductance of ghosts too.
+  // Data of the present projection for owned particles; the conductance for ghosts too.
   std::vector<PorousMedium> media_;
   std::vector<double> conductance_;    ///< k
-  double work_of_solid_ = 0.0;         ///< J; of viscous forces on the volume of the grains
+  double work_of_solid_ = 0.0;         ///< J; of viscous forces in the volume of the grains
   std::vector<Vec<Dim>> unprojected_;  ///< m/s; v before pressure and gravity act
 };
 

@@ -1,4 +1,4 @@
-// What a run asks of any scheme.
+// Functions of every scheme that a run calls.
 #pragma once
 
 #include "flow/flow.h"
@@ -6,20 +6,20 @@
 
 namespace tailwater {
 
-/// Finds the pressure at the start, for the first measurements and as the guess of the first step. Nothing moves.
+/// Computes the pressure at the start, for the first measurements and as the guess of the first step. Nothing moves.
 template <int Dim>
 void start(Flow<Dim>& flow);
 
-/// Makes all that does not follow from the positions ready for a step of dt: walls, roles, open ends, wave makers, air,
-/// bodies. Returns where the step starts.
+/// Prepares all data of a step of dt that do not follow from the positions: walls, roles, open ends, wave makers, air,
+/// bodies. Returns the state at the start of the step.
 template <int Dim>
 StepStart<Dim> begin_step(Flow<Dim>& flow, double dt);
 
-/// Takes the step that has begun, in the order of the formulation. Advances the time and the number of the step.
+/// Performs the step that has begun, in the order of the formulation. Advances the time and the step number.
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// Both.
+/// Begins and performs a step.
 template <int Dim>
 StepReport advance(Flow<Dim>& flow, double dt) {
   return advance(flow, begin_step(flow, dt), dt);

@@ -1,4 +1,4 @@
-// Parts that several steps share.
+// Stages that several steps share.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@ namespace tailwater {
 template <int Dim>
 StepReport project(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// The divergence (owned, 1/s) at the present positions, which are those of the last solve, if this is a step that
-/// reports it: every tenth, since nothing else needs it. Collective.
+/// The divergence (owned, 1/s) at the present positions, which are those of the last solve, if this step reports it:
+/// every tenth step, since only the report needs it. Collective.
 template <int Dim>
 std::optional<std::vector<double>> divergence_to_report(Flow<Dim>& flow);
 
-/// Reports that divergence, if there is one, and what it has become at the present positions. Collective.
+/// Reports `old`, if there is one, and the divergence at the present positions. Collective.
 template <int Dim>
 std::optional<DivergenceReport> report_of_divergence(Flow<Dim>& flow, const std::optional<std::vector<double>>& old);
 

@@ -1,5 +1,5 @@
-// The friction of walls on the water beside them: the viscous stress of water that sticks to the wall, and what the
-// wall law of a turbulent layer adds to it (closures/wall_law.h).
+// Friction of walls on the water beside them: the viscous stress of the no-slip condition, and the excess by the wall
+// law of a turbulent layer (closures/wall_law.h).
 #pragma once
 
 #include <span>
@@ -10,18 +10,19 @@
 
 namespace tailwater {
 
-/// [dx]; water nearer to a wall with friction counts as this far from it: particles keep no nearer.
+/// [dx]; least distance from a wall with friction: nearer water counts as this far away, because particles keep no
+/// nearer.
 inline constexpr double least_friction_distance = 0.25;
 
 struct FrictionLaw {
   double viscosity = 0.0;  ///< m^2/s; molecular
   double spacing = 0.0;    ///< m; dx of the case
   double exchange_length =
-      0.0;  ///< m; at that spacing: water that glides at u past a wall gets the stress k u/exchange_length from k_i
+      0.0;  ///< m; at that spacing: water with slip velocity u gets the stress k u/exchange_length from k_i
   bool knows_layers = false;  ///< whether particles carry the eddy viscosity of their layer
 };
 
-/// What a fluid particle feels of the walls with friction in its reach: weighted means over their particles.
+/// Properties of the walls with friction in reach of a fluid particle: weighted means over their particles.
 template <int Dim>
 struct FrictionWall {
   double weight = 0.0;                        ///< 1/m^2; sum of lambda c_iw; 0: no such wall
@@ -29,12 +30,12 @@ struct FrictionWall {
   double distance = 0.0;                      ///< m; at least `least_friction_distance`
   double roughness = 0.0;                     ///< m; k_s
   double friction_velocity = 0.0;             ///< m/s; u_tau of the larger of the two laws
-  double excess = 0.0;  ///< m^2/s^2; by which the turbulent stress over rho exceeds the laminar one
+  double excess = 0.0;  ///< m^2/s^2; excess of the turbulent stress over the laminar one, divided by rho
   bool is_turbulent() const { return excess > 0.0; }
 };
 
-/// Finds it for each owned particle; the weight of wall particles is 0. `V` is the wall's velocity for each row of its
-/// table; `velocity` is the water's.
+/// The friction walls of each owned particle; the weight of wall particles is 0. `V` is the wall's velocity for each
+/// row of its table; `velocity` is the water's.
 template <int Dim>
 std::vector<FrictionWall<Dim>> find_friction_walls(const WallScene<Dim>& scene, const FrictionLaw& law,
                                                    std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity);
@@ -50,7 +51,7 @@ void add_wall_friction(const WallScene<Dim>& scene, const FrictionLaw& law, std:
                        std::span<Vec<Dim>> acceleration, std::span<double> excess_viscosity = {});
 
 /// The opposite forces [N, divided by the density in kg/m^3] on owned wall particles, pair by pair. `excess_viscosity`
-/// is what the function above gives, up to date on ghosts as `no_slip` and `velocity` are.
+/// is the output of the function above, up to date on ghosts as `no_slip` and `velocity` are.
 template <int Dim>
 void find_friction_on_walls(const WallScene<Dim>& scene, const FrictionLaw& law, std::span<const Vec<Dim>> V,
                             std::span<const Vec<Dim>> no_slip, std::span<const Vec<Dim>> velocity,

@@ -9,11 +9,12 @@
 namespace tailwater {
 namespace {
 
-// dx; distances from a wall between which the water in front counts less and less.
+// dx; distances from a wall between which the weight of the water in front decreases from 1 to 0.
 constexpr double in_full_until = 1.0;
 constexpr double ends_at = 1.5;
 
-/// Share of the wall particles in reach of particle i, by the kernel, whose wall turns away from the water.
+/// Fraction of the wall particles in reach of particle i, weighted by the kernel, whose wall curves away from the
+/// water.
 template <int Dim>
 double share_of_turning_walls(const WallScene<Dim>& scene, std::size_t i) {
   const Pairs<Dim>& pairs = scene.pairs;
@@ -29,8 +30,9 @@ double share_of_turning_walls(const WallScene<Dim>& scene, std::size_t i) {
   return all > 0.0 ? turning / all : 0.0;
 }
 
-/// Mean of `interior` over the fluid in front of particle i, where the unit vector n points: by the kernel and the
-/// eighth power of the cosine, so that beside a wall that meets the surface only water of the same depth counts.
+/// Mean of `interior` over the fluid in front of particle i, in the direction of the unit vector n. The weight is the
+/// kernel times the eighth power of the cosine, so that beside a wall that meets the surface only water of the same
+/// depth counts.
 template <int Dim>
 double mean_in_front(const Pairs<Dim>& pairs, std::size_t i, const Vec<Dim>& n, std::span<const double> interior) {
   Lanes sum{};

@@ -8,12 +8,12 @@
 namespace tailwater {
 namespace {
 
-/// A wall particle is wet when its kernel sum over the fluid exceeds this share of W(0): some fluid particle is inside
-/// its support, not merely on the edge.
+/// A wall particle is wet when its kernel sum over the fluid exceeds this fraction of W(0): some fluid particle is
+/// inside its support, not merely on the edge.
 constexpr double least_wet_weight = 1e-6;
 
-/// The part of `d` in the cone that the columns of `others` and `own` span: the nearest point of it. Exact where they
-/// are perpendicular to each other.
+/// Projection of `d` onto the cone that the columns of `others` and `own` span: the nearest point of the cone. Exact
+/// where the columns are perpendicular to each other.
 template <int Dim>
 Vec<Dim> part_in_cone(const Vec<Dim>& d, const Mat<Dim>& others, const Vec<Dim>& own) {
   constexpr int sweeps = 8;
