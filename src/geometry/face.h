@@ -1,4 +1,4 @@
-// The flat pieces that walls are made of: segments in 2D, triangles in 3D.
+// Flat pieces of walls: segments in 2D, triangles in 3D.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace tailwater {
 
-/// Two points nearer than this share of dx are the same corner.
+/// Two points nearer than this fraction of dx are the same corner.
 inline constexpr double corner_tolerance = 1e-6;
 
-/// One flat piece of a wall. `normal` has length 1 and points into the fluid. In 2D the fluid is on the left as one
-/// walks from corner 0 to corner 1; in 3D the corners run counter-clockwise as the fluid sees them.
+/// One flat piece of a wall. `normal` has length 1 and points into the fluid. In 2D the fluid is on the left in the
+/// direction from corner 0 to corner 1; in 3D the corners run counter-clockwise as seen from the fluid.
 template <int Dim>
 struct WallFace {
   std::array<Vec<Dim>, Dim> corners;
@@ -24,15 +24,15 @@ struct WallFace {
   double height(const Vec<Dim>& x) const { return normal.dot(x - corners[0]); }
   /// Length (2D, m) or area (3D, m^2).
   double measure() const;
-  /// The axis-parallel box around it.
+  /// The axis-parallel box around the face.
   Box<Dim> box() const;
 };
 
-/// The box around all of them; empty if there are none.
+/// The box around all faces; empty if there are none.
 template <int Dim>
 Box<Dim> box_around(const std::vector<WallFace<Dim>>& faces);
 
-/// The point of a triangle nearest to some point, and the part of the triangle that it belongs to. Edge 2 leads from
+/// The point of a triangle nearest to a given point, and the part of the triangle that contains it. Edge 2 leads from
 /// corner 2 to corner 0.
 struct Foot {
   Vec<3> point = Vec<3>::Zero();
@@ -49,12 +49,12 @@ Foot closest_feature(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Ve
 Vec<2> closest_point(const WallFace<2>& face, const Vec<2>& x);
 Vec<3> closest_point(const WallFace<3>& face, const Vec<3>& x);
 
-/// Where the line through two points, which must not be equally high above it, meets the face's plane.
+/// Intersection of the face's plane with the line through two points, whose distances from the plane must differ.
 template <int Dim>
 Vec<Dim> meet(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to);
 
-/// Whether the path from `from` to `to` passes through the face. An end nearer to its plane than `tolerance` (m) has
-/// not passed; a path within `tolerance` of the face's rim has.
+/// Whether the path from `from` to `to` passes through the face. A path that ends nearer to the face's plane than
+/// `tolerance` (m) does not pass; a path within `tolerance` of the face's rim does.
 template <int Dim>
 bool crosses(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance);
 

@@ -18,12 +18,12 @@ namespace {
 /// Binary STL holds coordinates with this relative precision, and other files are often exported with it.
 constexpr double file_precision = std::numeric_limits<float>::epsilon();
 
-/// Points this many digits apart are torn by round-off, as a transformation by the exporter leaves them.
+/// Relative distance below which points count as one: round-off of a transformation by the exporter separates them.
 constexpr double torn_points = 4.0 * file_precision;
 
 constexpr double largest_round_off = 0.01;  // dx
 
-/// Of the area of an open mesh; where less of it looks up or down, neither side is above the other.
+/// Fraction of the area of an open mesh; if the net upward area is less, neither side is above the other.
 constexpr double least_upward_share = 0.1;
 
 Mat<3> rotation_of(const PlacedFile& file, const CaseLabel& owner) {
@@ -41,14 +41,14 @@ Mat<3> rotation_of(const PlacedFile& file, const CaseLabel& owner) {
   return turn;
 }
 
-/// From the file's coordinates to those of the case.
+/// Transforms the mesh from the file's coordinates to those of the case.
 void put_in_place(const PlacedFile& file, const CaseLabel& owner, TriangleMesh& mesh) {
   const Mat<3> turn = file.scale * rotation_of(file, owner);
   const Vec<3> shift = file.translate.empty() ? Vec<3>(Vec<3>::Zero()) : to_vec<3>(file.translate, owner, "translate");
   for (Vec<3>& x : mesh.points) x = turn * x + shift;
 }
 
-/// Refuses a mesh, with the words that begin every message about it.
+/// Throws CaseErrors about a mesh, with a common beginning of the message.
 class Refusal {
  public:
   Refusal(const TriangleMesh& mesh, Clause start) : mesh_(mesh), start_(std::move(start)) {}
@@ -57,7 +57,8 @@ class Refusal {
     throw CaseError({"{}: {}", start_, problem}, remedy);
   }
 
-  /// "triangle 7 at (0, 1, 2)": the number in the file counts from 1, the place is the triangle's middle in the case.
+  /// "triangle 7 at (0, 1, 2)": the number counts from 1, as in the file; the place is the triangle's middle in the
+  /// case.
   Clause triangle(int t) const {
     const Vec<3> middle = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3.0;
     return {"triangle {} at {}", t + 1, place(middle)};
@@ -71,7 +72,7 @@ class Refusal {
   Clause start_;
 };
 
-/// The mesh of a file, as it is there.
+/// The mesh of a file in the file's coordinates.
 TriangleMesh read_mesh_of(const PlacedFile& file, const CaseLabel& owner) {
   try {
     return TriangleMesh{read_mesh(file.file)};
@@ -107,7 +108,7 @@ void require_no_double_triangles(const TriangleMesh& mesh, const Refusal& refuse
          {"remove double triangles"});
 }
 
-/// The edges that have no neighbour.
+/// Returns the edges without a neighbour.
 std::vector<TriangleEdge> require_neighbours_that_agree(const std::vector<TriangleEdge>& edges, const Refusal& refuse) {
   std::vector<TriangleEdge> rim;
   for (std::size_t k = 0; k < edges.size();) {
@@ -130,7 +131,7 @@ std::vector<TriangleEdge> require_neighbours_that_agree(const std::vector<Triang
   return rim;
 }
 
-/// Number of the connected part that each triangle belongs to.
+/// Index of the connected part for each triangle.
 std::vector<int> parts_of(const TriangleMesh& mesh, const std::vector<TriangleEdge>& edges) {
   std::vector<int> parent(mesh.triangles.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -152,7 +153,7 @@ std::vector<int> parts_of(const TriangleMesh& mesh, const std::vector<TriangleEd
   return part;
 }
 
-/// Turns a closed mesh so that its front looks outwards. A part that looks the other way must be a cavity.
+/// Turns a closed mesh so that its front faces outwards. A part that faces inwards must be a cavity.
 void turn_outwards(TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, const Refusal& refuse) {
   if (six_volumes(mesh, [](int) { return true; }) < 0.0) turn_over(mesh);
   const std::vector<int> part = parts_of(mesh, edges);
@@ -177,7 +178,7 @@ void turn_outwards(TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, c
   }
 }
 
-/// Turns an open mesh so that its front looks up.
+/// Turns an open mesh so that its front faces up.
 void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
   Vec<3> sum = Vec<3>::Zero();
   double area = 0.0;
@@ -193,8 +194,8 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
   if (upward < 0.0) turn_over(mesh);
 }
 
-/// A mesh where it stands in the case, welded, without degenerate and double triangles, whose neighbours agree about
-/// the front.
+/// A mesh in the coordinates of the case, welded, without degenerate and double triangles, with consistent orientation
+/// of neighbours.
 class SoundMesh {
  public:
   SoundMesh(const CaseSpec& spec, const PlacedFile& file, const CaseLabel& owner)
@@ -228,7 +229,7 @@ class SoundMesh {
   TriangleMesh mesh;
   Refusal refuse;
   std::vector<TriangleEdge> edges;
-  std::vector<TriangleEdge> rim;  ///< those that have no neighbour
+  std::vector<TriangleEdge> rim;  ///< edges without a neighbour
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Walls that water feels from one side only: two places that have such a wall between them do not interact. These walls
+// Walls that act on the water of one side only: two points with such a wall between them do not interact. These walls
 // are plates, and the parts of other walls beside their free ends.
 #pragma once
 
@@ -12,25 +12,25 @@
 
 namespace tailwater {
 
-/// A straight cut through the plane of a screen, by coordinates along its axes: what is beyond it is not of the screen.
+/// A straight cut through the plane of a screen, in coordinates along its axes. The screen ends at the cut.
 struct ScreenCut {
   std::array<double, 2> outwards{};                       ///< a unit vector; 0: nothing is cut off
-  double most = std::numeric_limits<double>::infinity();  ///< m; how far the screen reaches in this direction
+  double most = std::numeric_limits<double>::infinity();  ///< m; extent of the screen in this direction
 };
 
-/// A piece of the rim at which a wall ends in the water: a point in 2D, in 3D a segment.
+/// A piece of the rim at which a wall ends in the water: a point in 2D, a segment in 3D.
 template <int Dim>
 using RimPiece = std::array<Vec<Dim>, Dim - 1>;
 
-/// m; infinite if there are no pieces.
+/// Distance [m] from the rim; infinite if there are no pieces.
 template <int Dim>
 double distance_to_rim(std::span<const RimPiece<Dim>> rim, const Vec<Dim>& x);
 
-/// A flat piece of a wall that hides the places on one side of it from those on the other: a segment in 2D, in 3D a
+/// A flat piece of a wall that hides the points on one side of it from those on the other: a segment in 2D, in 3D a
 /// rectangle or, with two cuts, a triangle.
 ///
-/// Beside a rim the hidden fraction H fades. If the line between two places passes the wall at the distance s inside
-/// its rim (negative beyond the rim),
+/// The hidden fraction H decreases to 0 at a rim. If the line between two points passes the wall at the distance s
+/// inside its rim (negative beyond the rim),
 ///
 ///   H = q^2 (3 - 2 q),   q = clamp((1 + s/fade)/2, 0, 1)
 ///
@@ -40,45 +40,46 @@ struct Screen {
   Vec<Dim> corner;
   Vec<Dim> normal;
   std::array<Vec<Dim>, Dim - 1> along;               ///< unit vectors in its plane, at right angles
-  std::array<std::array<double, 2>, Dim - 1> range;  ///< m; where it begins and ends along each, from the corner
+  std::array<std::array<double, 2>, Dim - 1> range;  ///< m; where it begins and ends along each axis, from the corner
   int wall = 0;
-  int front = 0;  ///< indices into Boundary::faces, the front one on the side that the normal points to
+  int front = 0;  ///< indices into Boundary::faces; the front is on the side to which the normal points
   int back = 0;
   std::array<ScreenCut, Dim == 3 ? 2 : 0> cuts{};
-  bool is_plate = true;                 ///< else the part beside a free end of a wall with water on one side
+  bool is_plate = true;                 ///< if false, the part beside a free end of a wall with water on one side
   bool is_beyond = false;               ///< beyond the rim, where there is no wall
-  double plate_reach = 0.0;             ///< m; beyond a free end: how far from it the wall is a plate
+  double plate_reach = 0.0;             ///< m; beyond a free end: distance up to which the wall is a plate
   double fade = 0.0;                    ///< m
   std::vector<RimPiece<Dim>> rim = {};  ///< the pieces within `fade` of the screen
 
   double height(const Vec<Dim>& x) const { return normal.dot(x - corner); }
-  /// Whether the straight line from one place to another passes it.
+  /// Whether the straight line from one point to another passes the screen.
   bool is_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// Hidden fraction H of two places; 0 if the straight line between them does not pass the screen.
+  /// Hidden fraction H between two points; 0 if the straight line between them does not pass the screen.
   double hidden_fraction(const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// The axis-parallel box around it.
+  /// The axis-parallel box around the screen.
   Box<Dim> box() const;
-  /// m; of `x` from the piece, or from the rectangle around it
+  /// Distance [m] of `x` from the piece, or from the rectangle around it.
   double distance(const Vec<Dim>& x) const;
 
  private:
-  /// Whether the line between two places passes it, and where.
+  /// Whether the line between two points passes the screen; if so, sets `passage` to the intersection.
   bool find_passage(const Vec<Dim>& from, const Vec<Dim>& to, Vec<Dim>& passage) const;
 };
 
-/// How water feels a particle, if not through the screens of a wall, an index into Boundary::walls.
-inline constexpr int felt_past_screens = -1;  ///< water, and all else that every screen hides
+/// Visibility of a particle from water, if not through the screens of one wall, given by its index into
+/// Boundary::walls.
+inline constexpr int felt_past_screens = -1;  ///< water, and everything else that every screen hides
 inline constexpr int felt_past_plates = -2;   ///< a wall particle: hidden by plates only
 inline constexpr int never_felt = -3;
 
-/// The fraction of the interaction of two places that the screens `near` them, given by index, leave. `felt` is of the
-/// one that is a wall particle, if there is one: the index of the wall through whose screens it is felt, as the wall
-/// particle replaces the water hidden by that wall, or one of the constants above.
+/// Fraction of the interaction between two points that the screens `near` them, given by index, leave. `felt` applies
+/// to the wall particle of the two points, if there is one. It is the index of the wall through whose screens the
+/// particle acts, because it replaces the water hidden by that wall, or one of the constants above.
 template <int Dim>
 double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
                         const Vec<Dim>& to, int felt);
 
-/// Whether one of the screens `near` two places of water hides more than half of one from the other.
+/// Whether the screens `near` two points of water hide more than half of one from the other.
 template <int Dim>
 bool is_hidden(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
                const Vec<Dim>& to, int felt = felt_past_screens) {

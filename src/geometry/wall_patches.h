@@ -1,5 +1,5 @@
-// Walls in patches about dx large, which move with their faces: where forces act on walls, and where a map of them has
-// its cells.
+// Patches of walls, with edges of about dx, which move with their faces: points of action of forces on walls, and cells
+// of wall maps.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace tailwater {
 template <int Dim>
 struct WallPatch {
   int face;                                          ///< index into Boundary::faces
-  std::array<std::array<double, Dim>, Dim> corners;  ///< of each corner, the shares of the face's corners in it
+  std::array<std::array<double, Dim>, Dim> corners;  ///< for each corner, its weights of the face's corners
   double measure;                                    ///< m or m^2
 
   Vec<Dim> corner(const Boundary<Dim>& boundary, int c) const {
@@ -27,18 +27,18 @@ struct WallPatch {
   }
 };
 
-/// The edges of patches are not longer than this, dx.
+/// dx; upper limit for the edges of patches.
 inline constexpr double longest_patch_edge = 1.5;
 
-/// They would take some 10 GB.
+/// More patches would need about 10 GB.
 inline constexpr double most_wall_patches = 1e8;
 
-/// All faces, halved at their longest edges until none is longer than `longest` [m]. The patches of a face follow each
-/// other. Throws CaseError for more than `most_wall_patches` of them, before there is memory for any.
+/// Patches of all faces, halved at their longest edges until none is longer than `longest` [m]. The patches of a face
+/// are consecutive. Throws CaseError for more than `most_wall_patches` of them, before it allocates memory.
 template <int Dim>
 std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest);
 
-/// The pieces of one patch, made in the same way.
+/// The pieces of one patch, divided in the same way.
 template <int Dim>
 std::vector<WallPatch<Dim>> pieces_of(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, double longest);
 

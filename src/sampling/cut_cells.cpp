@@ -14,13 +14,14 @@
 namespace tailwater {
 namespace {
 
-/// Fractions that differ by less are equal: those of cells that are images of each other in a symmetric case.
+/// Fractions that differ by less are equal, as those of cells that are mirror images of each other in a symmetric case.
 constexpr double same_fraction = 1e-9;
 
-/// Fraction of all water that the taken cells may miss or exceed, so that of equal cells all are taken or none.
+/// Fraction of the whole water volume by which the taken cells may differ from it, so that equal cells are all taken or
+/// all left out.
 constexpr double max_misfit = 5e-3;
 
-/// [dx]; a particle is moved in front of a wall from no deeper behind it.
+/// [dx]; greatest depth behind a wall from which a particle is moved in front of it.
 constexpr double max_depth = 0.25;
 
 template <int Dim>
@@ -37,7 +38,7 @@ Vec<Dim> edges_of(const Lattice<Dim>& lattice, const Cell<Dim>& cell) {
   return edge;
 }
 
-/// Where walls, and the surface of a block, cut cells.
+/// Computes how walls, and the surface of a block, cut cells.
 template <int Dim>
 class Cutter {
  public:
@@ -56,7 +57,7 @@ class Cutter {
     plain_.file_faces(reach_);
   }
 
-  /// The fraction of a cell that is in the block and in front of all walls, as if they were flat over a part of it.
+  /// Fraction of a cell that is in the block and in front of all walls, which count as flat over each part of the cell.
   double fraction_of_water(const Cell<Dim>& cell) const {
     return share(cell, [&](const Vec<Dim>& x, auto&& visit) {
       visit_walls(x, visit);
@@ -64,7 +65,8 @@ class Cutter {
     });
   }
 
-  /// The fraction of a cell that is in the block, with or without the cell's centre, as if there were no walls.
+  /// Fraction of a cell that is in the block, without regard to walls. `holds_centre`: whether the cell's centre is in
+  /// it.
   double fraction_of_shape(const Cell<Dim>& cell, bool holds_centre) const {
     const double half = half_diagonal(cell);
     bool is_near = false;
@@ -74,7 +76,7 @@ class Cutter {
     return share(cell, [&](const Vec<Dim>& x, auto&& visit) { visit_shape(x, visit); });
   }
 
-  /// m; of the centre of a cell above the walls and the surface, negative behind any of them, infinite far from all.
+  /// Height [m] of a cell's centre above the walls and the surface, negative behind any of them, infinite far from all.
   double least_height(const Cell<Dim>& cell) const {
     const Vec<Dim> x = centre_of<Dim>(lattice_, cell);
     double least = std::numeric_limits<double>::infinity();
@@ -107,15 +109,16 @@ class Cutter {
     return sum / parts_of_cell<Dim>;
   }
 
-  /// Calls visit(normal, height), where the nearest point of something is and how high x is above it.
+  /// Calls visit(normal, height) for a surface, where `point` is its nearest point to x and `height` [m] that of x
+  /// above it.
   template <class Visit>
   void tell(const Vec<Dim>& x, const Vec<Dim>& point, double height, const Vec<Dim>& normal, Visit&& visit) const {
     const bool is_on_it = std::abs(height) < corner_tolerance * reach_;
     visit(is_on_it ? normal : Vec<Dim>((x - point) / height), height);
   }
 
-  /// Calls visit(normal, height) for the walls that are no meshes and for each mesh. What is behind a mesh may be
-  /// nearer to another wall, in front of it.
+  /// Calls visit(normal, height) for the nearest wall that is not a mesh, and for each mesh. A point behind a mesh may
+  /// be nearer to another wall, in front of it.
   template <class Visit>
   void visit_walls(const Vec<Dim>& x, Visit&& visit) const {
     if (const NearestWall<Dim> wall = plain_.nearest(x, reach_); wall.face >= 0 && cuts_[wall.face]) {
@@ -144,7 +147,7 @@ class Cutter {
   const Lattice<Dim>& lattice_;
   double reach_;            ///< m
   Boundary<Dim> plain_;     ///< without meshes and plates
-  std::vector<bool> cuts_;  ///< by its faces
+  std::vector<bool> cuts_;  ///< for each face of `plain_`
 };
 
 }  // namespace
@@ -152,18 +155,18 @@ class Cutter {
 template <int Dim>
 PartOfBox part_in_front(const Vec<Dim>& edge, const Vec<Dim>& n, double height) {
   const double whole = n.cwiseAbs().dot(edge);
-  const double t = height + 0.5 * whole;  // from the lowest corner to the plane, along n
+  const double t = height + 0.5 * whole;  // along n, from the lowest corner to the plane
   if (t <= 0.0) return {0.0, 0.0};
   if (t >= whole) return {1.0, height};
-  // Along an axis nearly in the plane nothing changes, and the sums would cancel.
+  // An axis nearly parallel to the plane does not change the result, and its sums would suffer from cancellation.
   constexpr double in_plane = 1e-4;
   std::array<double, Dim> extents{};
   int m = 0;
   for (int axis = 0; axis < Dim; ++axis) {
     if (const double extent = std::abs(n[axis]) * edge[axis]; extent > in_plane * whole) extents[m++] = extent;
   }
-  // The share is the sum of (-1)^k (t - b)^m over the corners, with b the distance to a corner that is k edges from the
-  // lowest, over m! and the extents. Its integral over t is the share times the mean distance.
+  // The fraction is the sum of (-1)^k (t - b)^m over the corners, divided by m! and the extents, with b the distance of
+  // a corner that is k edges from the lowest. Its integral over t is the fraction times the mean distance.
   double share = 0.0;
   double integral = 0.0;
   for (int corner = 0; corner < 1 << m; ++corner) {
@@ -186,13 +189,13 @@ PartOfBox part_in_front(const Vec<Dim>& edge, const Vec<Dim>& n, double height) 
 
 namespace {
 
-/// Sums over the cells of a row. All sums are made row by row, so that they do not depend on the number of ranks.
+/// Sums over the cells of a row. Sums are formed row by row, so that they do not depend on the number of ranks.
 struct RowSums {
   double reached = 0.0;          ///< cells
-  double whole = 0.0;            ///< cells that are all water
+  double whole = 0.0;            ///< cells that are full of water
   double volume_whole = 0.0;     ///< m^Dim
   double volume_of_water = 0.0;  ///< m^Dim, in all cells
-  double volume_in_shape = 0.0;  ///< m^Dim, the same without walls
+  double volume_in_shape = 0.0;  ///< m^Dim, in all cells, without walls
 };
 constexpr std::size_t numbers_of_row = sizeof(RowSums) / sizeof(double);
 
@@ -204,8 +207,8 @@ void for_each_own_row(const LatticeBlock<Dim>& lattice, const Communicator& rank
   for (std::int64_t row = rows * ranks.rank() / ranks.size(); row < end; ++row) visit(row);
 }
 
-/// Takes, of cells that are alike, every so many levels, so that they have the share `wanted` of their volume. What is
-/// symmetric about a vertical plane stays so.
+/// Takes evenly spaced levels of cells with equal fractions, so that the taken cells have the fraction `wanted` of the
+/// total volume. A case that is symmetric about a vertical plane stays symmetric.
 template <int Dim>
 void take_levels(std::span<typename FittedCells<Dim>::Cut> alike, double wanted) {
   using Cut = typename FittedCells<Dim>::Cut;
@@ -217,9 +220,9 @@ void take_levels(std::span<typename FittedCells<Dim>::Cut> alike, double wanted)
   }
 }
 
-/// Takes cells with the largest shares until they have the volume (m^Dim). Of cells of one share, as those that are
-/// images of each other in a symmetric case, all are taken or none, whichever is nearer, if that misses the volume by
-/// `max_missed` (m^Dim) at most, and whole levels of them if not.
+/// Takes cells with the largest fractions until they have the volume (m^Dim). Cells of equal fraction, such as mirror
+/// images in a symmetric case, are all taken or all left out, whichever is nearer, if the error in volume is at most
+/// `max_missed` (m^Dim). Otherwise whole levels of them are taken.
 template <int Dim>
 void take_cells(const Lattice<Dim>& lattice, double volume, double max_missed,
                 std::vector<typename FittedCells<Dim>::Cut>& cells) {
@@ -242,7 +245,7 @@ void take_cells(const Lattice<Dim>& lattice, double volume, double max_missed,
   std::ranges::sort(cells, [](const Cut& a, const Cut& b) { return is_before<Dim>(a.cell, b.cell); });
 }
 
-/// Whether a cell beside this one is reached.
+/// Whether a neighbouring cell is reached by water.
 template <int Dim>
 bool is_beside_water(const BlockToFit<Dim>& block, const Cell<Dim>& cell) {
   bool found = false;
@@ -259,20 +262,20 @@ bool is_beside_water(const BlockToFit<Dim>& block, const Cell<Dim>& cell) {
 
 /// How the water in a cell becomes a particle.
 enum class CellUse : std::uint8_t {
-  dry,      ///< there is no water in it
-  whole,    ///< it is full of water: a particle
-  cut,      ///< it may be taken as a particle
-  no_room,  ///< its centre is reached, but no particle can stand there
+  dry,      ///< contains no water
+  whole,    ///< full of water: becomes a particle
+  cut,      ///< may become a particle
+  no_room,  ///< its centre is reached by water, but no particle fits there
   behind,   ///< its centre is behind a wall, and no particle can be moved in front of it
 };
 
 struct ClassifiedCell {
   CellUse use;
   bool is_reached = false;
-  double fraction = 0.0;  ///< of its volume that is water
+  double fraction = 0.0;  ///< fraction of its volume that is water
 };
 
-/// Classifies a cell that is reached.
+/// Classifies a cell whose centre is reached by water.
 template <int Dim>
 ClassifiedCell classify_reached(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const Cell<Dim>& cell) {
   const double fraction = cutter.fraction_of_water(cell);
@@ -292,7 +295,7 @@ ClassifiedCell classify(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter,
   return {can_be_particle ? CellUse::cut : CellUse::behind, false, fraction};
 }
 
-/// `volume` [m^Dim] is that of the cell.
+/// Adds a cell of volume `volume` [m^Dim] to the sums.
 void count(const ClassifiedCell& cell, double volume, RowSums& sums) {
   sums.volume_of_water += cell.fraction * volume;
   if (cell.is_reached) sums.reached += 1.0;
@@ -301,7 +304,8 @@ void count(const ClassifiedCell& cell, double volume, RowSums& sums) {
   sums.volume_whole += volume;
 }
 
-/// Classifies and counts the cells of a row. Adds those that may be taken, and those without room, to `cut`.
+/// Classifies and counts the cells of a row. Appends those that may be taken, and those where no particle fits, to
+/// `cut`.
 template <int Dim>
 RowSums visit_cells(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, std::int64_t row,
                     std::vector<typename FittedCells<Dim>::Cut>& cut) {
@@ -333,8 +337,8 @@ RowSums total_of(const std::vector<RowSums>& rows) {
   return all;
 }
 
-/// m^Dim; the volume of the water in all cells. The parts of cells leave out corners of the surface, so the sum is
-/// scaled by the volume of the shape, which is exact.
+/// Volume of the water in all cells [m^Dim]. The parts of cells miss corners of the surface, so the sum is scaled by
+/// the volume of the shape, which is exact.
 template <int Dim>
 double volume_of_water(const WaterShape<Dim>& shape, const RowSums& all) {
   if (!shape.has_surface()) return all.volume_of_water;
@@ -342,8 +346,8 @@ double volume_of_water(const WaterShape<Dim>& shape, const RowSums& all) {
   return exact * all.volume_of_water;
 }
 
-/// Takes as many of the cut cells as hold the `water` [m^Dim] that is not in whole cells, and computes the fraction of
-/// its cell's volume that each particle has.
+/// Takes as many cut cells as hold the `water` [m^Dim] outside whole cells, and computes the volume of particles as a
+/// fraction of their cells.
 template <int Dim>
 void take_cut_cells(const LatticeBlock<Dim>& lattice, const RowSums& all, double water, FittedCells<Dim>& fitted) {
   take_cells<Dim>(lattice.axes, water - all.volume_whole, max_misfit * water, fitted.cut);

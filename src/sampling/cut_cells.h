@@ -1,4 +1,4 @@
-// Cells of the water's lattice that walls, and the surface of a block, cut, and how many particles their water makes.
+// Fits particles to cells of the water's lattice that walls, or the surface of a block, cut.
 #pragma once
 
 #include <algorithm>
@@ -16,23 +16,23 @@
 
 namespace tailwater {
 
-/// A part of a box that is cut by a plane.
+/// The part of a box in front of a plane that cuts it.
 struct PartOfBox {
-  double share;     ///< of the box's volume
-  double distance;  ///< m; from the plane, in the mean
+  double share;     ///< fraction of the box's volume
+  double distance;  ///< m; mean distance from the plane
 };
 
-/// The part of a box with these edges that is in front of a plane with the unit normal `n`; `height` (m) is that of the
-/// box's centre above the plane.
+/// The part of a box with these edges that is in front of a plane with the unit normal `n`; `height` (m) is the height
+/// of the box's centre above the plane.
 template <int Dim>
 PartOfBox part_in_front(const Vec<Dim>& edge, const Vec<Dim>& n, double height);
 
-/// A wall counts as flat over a third of a cell.
+/// A wall counts as flat over a third of a cell's edge.
 inline constexpr int parts_per_edge = 3;
 template <int Dim>
 inline constexpr int parts_of_cell = static_cast<int>(power<Dim>(parts_per_edge));
 
-/// Divides a cell: calls visit(centre, edges) for each part.
+/// Calls visit(centre, edges) for each part of a cell.
 template <int Dim, class Visit>
 void for_each_part(const Vec<Dim>& centre, const Vec<Dim>& edge, Visit&& visit) {
   const Vec<Dim> part = edge / parts_per_edge;
@@ -45,13 +45,13 @@ void for_each_part(const Vec<Dim>& centre, const Vec<Dim>& edge, Visit&& visit) 
   }
 }
 
-/// The order of cells, along x first.
+/// Order of cells, along x first.
 template <int Dim>
 bool is_before(const Cell<Dim>& a, const Cell<Dim>& b) {
   return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
 }
 
-/// A block's lattice, as far as it has places for particles. Its rows lie along x.
+/// The range of a block's lattice that has places for particles. Its rows are parallel to x.
 template <int Dim>
 struct LatticeBlock {
   const Lattice<Dim>& axes;
@@ -67,7 +67,7 @@ struct LatticeBlock {
     for (int axis = Dim - 1; axis > 0; --axis) row = row * count[axis] + cell[axis];
     return row;
   }
-  /// Calls visit(cell) along a row.
+  /// Calls visit(cell) for the cells of a row.
   template <class Visit>
   void visit_row(std::int64_t row, Visit&& visit) const {
     Cell<Dim> cell{};
@@ -79,17 +79,17 @@ struct LatticeBlock {
 /// The cells of a block that become particles.
 template <int Dim>
 struct FittedCells {
-  /// A cell that something cuts.
+  /// A cell that a wall or the surface cuts.
   struct Cut {
     Cell<Dim> cell;
-    double share;  ///< of its volume that is water; 0 if no particle can stand there
+    double share;  ///< fraction of its volume that is water; 0 if no particle fits there
     bool is_taken;
   };
 
-  std::vector<double> in_row;  ///< how many cells of each row are taken
+  std::vector<double> in_row;  ///< number of taken cells in each row
   std::vector<Cut> cut;        ///< in their order
-  double share = 1.0;          ///< of its cell's volume that a particle has
-  double missed = 0.0;         ///< share of the water that is in cells that are not taken
+  double share = 1.0;          ///< volume of a particle as a fraction of its cell's
+  double missed = 0.0;         ///< fraction of the water that is in cells that are not taken
 };
 
 template <int Dim>
@@ -104,18 +104,18 @@ struct BlockToFit {
   WaterShape<Dim>& shape;
   const LatticeBlock<Dim>& lattice;
   CellTest<Dim> is_reached;  ///< whether the centre of a cell is in the water
-  CellTest<Dim> has_room;    ///< whether the particle of a cut cell can stand in front of all walls
+  CellTest<Dim> has_room;    ///< whether the particle of a cut cell fits in front of all walls
 };
 
-/// Fits the cells of a block to the volume of its water: takes as many as are nearest to it, those that have the
-/// largest fractions of their volumes in front of the walls and in the block. The fractions of cells beside those that
-/// are reached count as well. Of cells with equal fractions all are taken or none, or whole levels of them where these
-/// are too many, so that a symmetric case starts symmetric. Where nothing cuts a cell, all that are reached are taken
-/// with their own volumes. Each rank visits its part of the rows, and all get the same result. Collective.
+/// Fits the cells of a block to the volume of its water. Takes cells with the largest fractions of water, as many as
+/// match that volume best; water in unreached cells beside reached ones counts as well. Cells with equal fractions are
+/// all taken or all left out, or taken by whole levels where the error would be too large, so that a symmetric case
+/// starts symmetric. Where nothing cuts a cell, all reached cells are taken with their own volumes. Each rank visits
+/// its part of the rows, and all get the same result. Collective.
 template <int Dim>
 FittedCells<Dim> fit_cells(const BlockToFit<Dim>& block, const Communicator& ranks);
 
-/// How many cells of each row are reached. Each rank looks at its part of the rows. Collective.
+/// Number of reached cells in each row. Each rank visits its part of the rows. Collective.
 template <int Dim>
 std::vector<double> count_in_rows(const LatticeBlock<Dim>& lattice, const CellTest<Dim>& is_reached,
                                   const Communicator& ranks);

@@ -31,11 +31,11 @@ namespace {
 
 constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
 
-/// Share of the volume of a mesh that may be in cells without particles: at a surface half of the cells that it cuts
-/// are left out, with a quarter of their volume, which is 0.3 of a ball of three spacings in diameter.
+/// Largest fraction of a mesh's volume that may be in cells without particles. At a surface, half of the cut cells are
+/// left out, with a quarter of their volume: for a ball of three spacings in diameter, 0.3 of its volume.
 constexpr double largest_misfit = 0.4;
 
-/// The starting velocity of one block.
+/// The initial velocity of one block.
 template <int Dim>
 class StartVelocity {
  public:
@@ -87,8 +87,8 @@ class StartVelocity {
   std::vector<Component> varying_;
 };
 
-/// Whether no fluid particle takes the lattice place `x`, because a wall particle stands there or because it is behind
-/// the wall.
+/// Whether no fluid particle may stand at the lattice point `x`, because a wall particle stands there or because the
+/// point is behind the wall.
 template <int Dim>
 bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, const Vec<Dim>& x) {
   const double dx = spec.particles.spacing;
@@ -98,18 +98,18 @@ bool is_taken_by_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const
   return wall.signed_distance < -corner_tolerance * dx && adapts_to_wall(spec, block, boundary.faces[wall.face]);
 }
 
-/// How many ids the parts of a cell may have.
+/// Number of ids reserved for the parts of a cell.
 template <int Dim>
 std::int64_t ids_per_cell(const SpacingField<Dim>& field) {
   return std::llround(power<Dim>(1.0 / field.finest()));
 }
 
-/// `x`, or, if it is too near to a wall, the place at least_wall_distance from that wall. `dx` is the spacing at x.
+/// `x`, or, if it is too near a wall, the point at least_wall_distance from that wall. `dx` is the spacing at x.
 template <int Dim>
 Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, double dx,
                         Vec<Dim> x) {
   if constexpr (Dim == 3) {
-    // What is behind a mesh may be nearer to another wall, in front of it.
+    // A point behind a mesh may be nearer to another wall, in front of it.
     for (const WallMesh& mesh : boundary.meshes) {
       const Vec<3> moved = boundary.displacement_of(mesh);
       const SurfacePlace place = mesh.surface->nearest(x - moved, 0.5 * dx);
@@ -123,7 +123,7 @@ Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     const double missing = least_wall_distance * dx - wall.signed_distance;
     if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(spec, block, boundary.faces[wall.face])) break;
     const WallFace<Dim>& face = boundary.faces[wall.face];
-    // From an edge straight away: the normal of one of its faces leads along the other.
+    // At an edge, move straight away from it: the normal of one of its faces is parallel to the other face.
     const bool is_at_edge =
         wall.signed_distance > corner_tolerance * dx && face.height(x) < wall.signed_distance - corner_tolerance * dx;
     x += missing * (is_at_edge ? Vec<Dim>((x - wall.point) / wall.signed_distance) : face.normal);
@@ -131,7 +131,7 @@ Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   return x;
 }
 
-/// The water of one block: which places of its lattice hold particles.
+/// The water of one block: the cells of its lattice that hold particles.
 template <int Dim>
 class BlockWater {
  public:
@@ -169,8 +169,8 @@ class BlockWater {
     return std::llround(std::accumulate(fitted_.in_row.begin(), fitted_.in_row.end(), 0.0));
   }
 
-  /// Calls put(position, velocity, volume, id) for the particles of the cells `from` to `to` - 1 of this block; its
-  /// first one is number `first` of all.
+  /// Calls put(position, velocity, volume, id) for the particles of the cells `from` to `to` - 1 of this block. `first`
+  /// is the number of its first cell among the cells of all blocks.
   template <class Put>
   void make(std::int64_t from, std::int64_t to, std::int64_t first, StartVelocities velocities, Put&& put) {
     std::int64_t number = 0;
@@ -207,14 +207,14 @@ class BlockWater {
   }
 
  private:
-  /// Where the particle of a cell with this centre and spacing stands.
+  /// Position of the particle of a cell with this centre and spacing.
   Vec<Dim> place_of(const Vec<Dim>& centre, double spacing, std::int64_t id) const {
     const double jitter = spec_.particles.jitter * spacing;
     Vec<Dim> x = centre;
     for (int axis = 0; axis < Dim && jitter > 0.0; ++axis) {
       x[axis] += jitter * random_number(spec_.particles.seed, static_cast<std::uint64_t>(id), axis);
     }
-    // Not to the other side of a wall without thickness.
+    // Jitter must not carry a particle across a wall without thickness.
     if (is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (x - centre).norm()), centre, x)) x = centre;
     return kept_off_walls(spec_, boundary_, block_, spacing, x);
   }
@@ -225,16 +225,16 @@ class BlockWater {
     return x;
   }
 
-  /// Whether the place of a cell is in the water.
+  /// Whether the point of a cell is in the water.
   bool reaches(const Cell<Dim>& cell) {
     const Vec<Dim> x = at(cell);
-    // What is poured in has been stopped by walls already.
+    // The fill algorithm has already stopped the water at walls.
     if (block_.shape == BlockShape::fill && !stands_on_walls_) return shape_.holds(cell, x);
     return shape_.holds(cell, x) && !left_out_.contains(cell_key<Dim>(cell)) &&
            !is_taken_by_wall(spec_, boundary_, block_, x) && !bodies_.hold(x);
   }
 
-  /// Whether the particle of a cell that is cut can stand in front of all walls.
+  /// Whether the particle of a cut cell fits in front of all walls.
   bool leaves_room(const Cell<Dim>& cell) const {
     const double dx = spec_.particles.spacing;
     const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, dx, at(cell)), dx);
@@ -247,7 +247,7 @@ class BlockWater {
     return reaches(cell);
   }
 
-  /// Of the places on the outline of a polygon every second one, in their order, because half of their cells is inside.
+  /// Leaves out every second point on the outline of a polygon, in order, because half of their cells is inside.
   void leave_out_half_of_outline() {
     if constexpr (Dim == 2) {
       const Polygon outline(outline_of(block_, owner_), corner_tolerance * spec_.particles.spacing);
@@ -289,16 +289,16 @@ class BlockWater {
   SpacingField<Dim> field_;
   LatticeBlock<Dim> lattice_;
   bool stands_on_walls_;
-  std::array<double, Dim> share_{};  ///< of the way through its cell at which a place stands
+  std::array<double, Dim> share_{};  ///< position of a point within its cell, as a fraction of the edge
   FittedCells<Dim> fitted_;
-  std::unordered_set<std::uint64_t> left_out_;  ///< places on the outline of a polygon
+  std::unordered_set<std::uint64_t> left_out_;  ///< points on the outline of a polygon
 };
 
 }  // namespace
 
 template <int Dim>
 Box<Dim> FluidParticles<Dim>::box() const {
-  // Least values, of the highest places with the sign turned.
+  // Least coordinates, and negated largest ones, for one reduction.
   std::array<double, 2 * Dim> least;
   least.fill(std::numeric_limits<double>::max());
   for (const Vec<Dim>& x : position) {
@@ -348,7 +348,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
   fluid.velocity.reserve(end - fluid.first);
   fluid.volume.reserve(end - fluid.first);
   fluid.block.reserve(end - fluid.first);
-  std::int64_t first = 0;  // of a block
+  std::int64_t first = 0;  // number of the block's first cell
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const auto put = [&](const Vec<Dim>& x, const Vec<Dim>& velocity, double volume, std::int64_t id) {
       if (!spec.refinement.empty() && velocities == StartVelocities::found) fluid.id.push_back(id);

@@ -6,7 +6,7 @@
 namespace tailwater {
 namespace {
 
-/// Of a distance: lengths written in decimals are whole numbers of spacings to round-off only.
+/// Relative error of a distance: lengths written in decimals are whole numbers of spacings only up to round-off.
 constexpr double round_off = 1e-9;
 
 bool is_whole(double cells) {

@@ -1,5 +1,5 @@
-// Shares of space: cubes of it, dealt out so that neighbouring cubes are of different shares. Whoever works on what is
-// in one share has as much to do as the others, wherever things are.
+// Parts of space: cubes, distributed so that neighbouring cubes belong to different parts. The work per part is
+// therefore balanced, wherever the geometry is.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// All of space, or the cubes of one of several shares.
+/// All of space, or the cubes of one of several parts.
 struct SpaceShare {
   double edge = 1.0;  ///< m; of a cube
   int share = 0;
@@ -19,7 +19,7 @@ struct SpaceShare {
     return shares == 1 || share_of<Dim>(x) == share;
   }
 
-  /// Whether a part of the share may be within `distance` (m), less than an edge, of `x`.
+  /// Whether a cube of the part may be within `distance` (m), less than an edge, of `x`.
   template <int Dim>
   bool is_near(const Vec<Dim>& x, double distance) const {
     if (shares == 1) return true;

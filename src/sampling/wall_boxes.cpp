@@ -1,8 +1,7 @@
-// Wall particles of boxes in 3D: nodes of the box's own lattice, continued outside the box,
-// or inside it for a body that stands in the water. Nodes are the centres of lattice cells behind the wall, or their
-// corners if the first layer stands on the wall.
+// Wall particles of boxes in 3D: nodes of the box's own lattice, continued outside the box, or inside it for a body
+// that stands in the water. Nodes are the centres of lattice cells behind the wall, or their corners if the first layer
+// stands on the wall.
 #include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,7 +45,7 @@ WallBox box_of(const Boundary<3>& boundary, int wall) {
       [[maybe_unused]] const double length = face.normal.cwiseAbs().maxCoeff(&axis);
       TAILWATER_ASSERT(length > 1.0 - 1e-9, "3D walls are boxes");
       const bool points_up = face.normal[axis] > 0.0;
-      // A lone face has no opposite face to compare with. It then counts as the floor of the space it faces.
+      // A single face has no opposite face. It counts as the floor of the space that it faces.
       const bool is_flat = box.high[axis] <= box.low[axis];
       const bool is_low = is_flat ? points_up : face.corners[0][axis] < 0.5 * (box.low[axis] + box.high[axis]);
       box.closed[axis][is_low ? 0 : 1] = true;
@@ -73,7 +72,7 @@ void for_each_node(const Eigen::Vector3i& low, const Eigen::Vector3i& high, Visi
       for (index[0] = low[0]; index[0] < high[0]; ++index[0]) visit(index);
 }
 
-/// The lattice of a box, continued by dx beyond it. Node (i, j, k) stands (index + offset) steps from the low corner.
+/// The lattice of a box, continued with dx beyond it. Node (i, j, k) is (index + offset) steps from the low corner.
 struct BoxLattice {
   const WallBox& box;
   double spacing;
@@ -99,8 +98,8 @@ struct BoxLattice {
     return x;
   }
 
-  /// Of the space that a node stands for, over dx^3: steps within the box are not dx where its length is no whole
-  /// number of them.
+  /// Volume that a node represents, over dx^3. Steps within the box differ from dx where the box's length is not a
+  /// whole number of dx.
   double share(const Eigen::Vector3i& index) const {
     double share = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -112,8 +111,8 @@ struct BoxLattice {
   }
 };
 
-/// How many steps a node is behind the box's closed faces (0: on one), and the normals that act there. No normals if no
-/// wall particle can stand there.
+/// Depth of a node in steps behind the box's closed faces (0: on one), and the normals that act there. There are no
+/// normals if no wall particle can stand there.
 struct NodePlace {
   double depth = 0.0;
   std::vector<Vec<3>> normals;
@@ -121,7 +120,7 @@ struct NodePlace {
 
 NodePlace place_of(const BoxLattice& lattice, const Eigen::Vector3i& index) {
   const WallBox& box = lattice.box;
-  const double direction = box.fluid_is_inside ? -1.0 : 1.0;  // in which depth grows from the low face
+  const double direction = box.fluid_is_inside ? -1.0 : 1.0;  // direction in which depth grows from the low face
   NodePlace place;
   if (!box.fluid_is_inside) place.depth = std::numeric_limits<double>::max();
   for (int axis = 0; axis < 3; ++axis) {
@@ -153,7 +152,7 @@ Vec<3> foot_on(const WallBox& box, const Vec<3>& x, const std::vector<Vec<3>>& n
   return foot;
 }
 
-/// Proposes the nodes of one wall that are at least `from` and at most `to` steps behind it.
+/// Proposes the nodes of one wall that are from `from` to `to` steps behind it.
 void add_nodes(const Boundary<3>& body, int wall, const WallLayers& layers, double from, double to,
                WallParticleCollector<3>& collector) {
   const WallBox box = box_of(body, wall);

@@ -1,5 +1,6 @@
 // Wall particles in 2D. The faces form chains. A chain is cut into runs at its sharp corners. Each row of particles
-// follows the runs at its own distance behind the wall; its corners are where the shifted faces meet (mitres).
+// follows the runs at its own distance behind the wall; its corners are the intersections of the shifted faces
+// (mitres).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,19 +11,19 @@
 namespace tailwater {
 namespace {
 
-constexpr double farthest_share = 1.5;         // of the layers' depth; a sharp mitre is cut off there
+constexpr double farthest_share = 1.5;         // of the layers' depth; sharp mitres are cut off at this distance
 constexpr double least_distance_to_tip = 0.3;  // dx, for the particles in the tip of a crest
 constexpr double sharp_turn_cosine = 0.866;    // a corner that turns by more than 30 degrees gets a particle of its own
 constexpr double folded_back_cosine = -0.9;    // faces that turn by more than 154 degrees have no useful mitre
 
-/// The faces of a 2D boundary joined at shared corners: -1 where a face's end is free.
+/// The joints between the faces of a 2D boundary at shared corners: -1 for a face with a free end.
 struct Joints {
   std::vector<int> next, previous;
-  std::vector<int> chain;  ///< number of the connected chain each face belongs to
+  std::vector<int> chain;  ///< index of the connected chain of each face
 };
 
-/// Joins each face to the one that bounds the same sector of fluid at its corner 1. If several faces meet there, this
-/// is the face across the smallest angle of fluid.
+/// Joins each face to the one that bounds the same sector of fluid at its corner 1. If several faces meet there, it is
+/// the one across the smallest angle of fluid.
 Joints join_faces(const Boundary<2>& boundary, double tolerance) {
   const std::vector<WallFace<2>>& faces = boundary.faces;
   const int count = static_cast<int>(faces.size());
@@ -103,19 +104,19 @@ std::vector<Run> make_runs(const Boundary<2>& boundary, const Joints& joints) {
   return runs;
 }
 
-/// Where two joined faces meet when both are moved back by `depth`.
+/// Intersection of two joined faces that are both moved back by `depth`.
 Vec<2> mitre(const WallFace<2>& from, const WallFace<2>& to, double depth) {
   return from.corners[1] - depth / (1.0 + from.normal.dot(to.normal)) * (from.normal + to.normal);
 }
 
-/// One row of places along a run.
+/// One row of points along a run.
 struct RowOfPlaces {
   std::vector<Vec<2>> places;
-  double share;  ///< of their particles' volumes, over dx^2
+  double share;  ///< volume of their particles, over dx^2
 };
 
-/// The row `depth` behind a run; its last place is `free_end` steps from a free end. A sharp corner belongs to the run
-/// that starts there.
+/// The row at the distance `depth` behind a run; its last point is `free_end` steps from a free end. A sharp corner
+/// belongs to the run that starts there.
 RowOfPlaces place_row(const Boundary<2>& boundary, const Run& run, double depth, double spacing, double free_end) {
   const auto face = [&](int f) -> const WallFace<2>& { return boundary.faces[f]; };
   const WallFace<2>& first = face(run.faces.front());
@@ -131,7 +132,7 @@ RowOfPlaces place_row(const Boundary<2>& boundary, const Run& run, double depth,
   std::vector<double> along{0.0};
   for (std::size_t k = 1; k < corners.size(); ++k) along.push_back(along.back() + (corners[k] - corners[k - 1]).norm());
 
-  // In steps: distance of the first and last place from the run's ends.
+  // Distances of the first and last point from the run's ends, in steps.
   const double head = run.is_closed ? 0.5 : run.before < 0 ? free_end : 0.0;
   const double tail = run.is_closed ? 0.5 : run.after < 0 ? free_end : 0.0;
   const int steps =
@@ -139,7 +140,7 @@ RowOfPlaces place_row(const Boundary<2>& boundary, const Run& run, double depth,
   const double step = along.back() / (steps + head + tail);
   const bool leaves_out_last = run.after >= 0 && !run.is_closed;
 
-  // Some places of shorter runs have no room, and others stand for them.
+  // In shorter runs some points are too close together to be kept; the remaining ones keep the full volume.
   const bool is_regular = steps + head + tail >= 2.0;
   RowOfPlaces row{.places = {}, .share = is_regular ? share_of_step(step, spacing) : 1.0};
   std::size_t piece = 1;
@@ -153,9 +154,9 @@ RowOfPlaces place_row(const Boundary<2>& boundary, const Run& run, double depth,
   return row;
 }
 
-/// The first row stops short of the tip of a crest sharper than a right angle. This adds particles every dx/2 from the
-/// row's corner towards the tip. Without them nothing would hold off a fluid particle on the tip, a whole dx away from
-/// the nearest wall particle.
+/// Adds particles at every dx/2 from the first row's corner towards the tip of a crest sharper than a right angle,
+/// because the row ends short of the tip. Without them nothing would hold off a fluid particle on the tip, a whole dx
+/// away from the nearest wall particle.
 void fill_tips(const Boundary<2>& body, const Joints& joints, const WallLayers& layers,
                WallParticleCollector<2>& collector) {
   for (std::size_t f = 0; f < body.faces.size(); ++f) {
@@ -183,7 +184,7 @@ std::vector<std::vector<int>> faces_by_chain(const Joints& joints) {
   return chains;
 }
 
-/// `x` with the nearest point of the chain and the normals of all faces of the chain at that distance.
+/// The wall place at `x`: the nearest point of the chain, and the normals of all faces of the chain at that distance.
 WallPlace<2> place_behind(const Boundary<2>& body, const std::vector<int>& chain, const Vec<2>& x, double tolerance) {
   WallPlace<2> place{x, x, {}, -1};
   double nearest = std::numeric_limits<double>::max();
@@ -220,7 +221,7 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
       for (const Vec<2>& x : row.places) {
         WallPlace<2> place = place_behind(body, chains[chain], x, tolerance);
         place.share = row.share;
-        // A place nearer to the chain than its row: the row has folded over itself inside a convex corner.
+        // The row folds over itself inside a convex corner. Points there are nearer to the chain than the row is.
         const double distance = (x - place.foot).norm();
         if (distance < depth - 2.0 * tolerance || distance > farthest) continue;
         collector.add_unless_behind_another(place, [&](int f) { return joints.chain[f] == chain; });

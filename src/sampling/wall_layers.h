@@ -1,6 +1,6 @@
-// Common parts of making wall particles for every kind of wall geometry. Each kind is one file with one function. The
-// function proposes places for the particles of one body, layer by layer, to a WallParticleCollector, which keeps the
-// free ones. It is declared at the end of this file and called in wall_particles.cpp.
+// Common code for the wall particles of every kind of wall geometry. Each kind is one file with one function. The
+// function proposes places for the particles of one body, layer by layer, to a WallParticleCollector, which keeps those
+// that are free. It is declared at the end of this file and called in wall_particles.cpp.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +15,20 @@
 
 namespace tailwater {
 
-/// The layers of particles asked for, `spacing` (m) apart.
+/// The requested layers of particles, `spacing` (m) apart.
 struct WallLayers {
   double spacing;
   int count;
   bool starts_on_wall;    ///< whether the first layer stands on the wall; else it is spacing/2 behind it
-  SpaceShare share = {};  ///< the part of space whose particles are wanted
+  SpaceShare share = {};  ///< the part of space whose particles are requested
 
-  /// The same of a wall that moves, all of whose particles are wanted, or of one at rest.
+  /// The layers of a moving wall, of which all particles are requested, or of a wall at rest.
   WallLayers of_wall(bool moves) const { return {spacing, count, starts_on_wall, moves ? SpaceShare{} : share}; }
   double first_depth() const { return starts_on_wall ? 0.0 : 0.5 * spacing; }  ///< m behind the wall
 };
 
-/// What a step [m] from a wall particle to the next adds to the share of its volume; 1 to the last bit where it is the
-/// spacing.
+/// Factor of a step [m] between wall particles in their relative volume; exactly 1 where the step is the spacing, up to
+/// round-off.
 inline double share_of_step(double step, double spacing) {
   constexpr double round_off = 1e-9;
   const double share = step / spacing;
@@ -38,30 +38,30 @@ inline double share_of_step(double step, double spacing) {
 /// A place for a wall particle.
 template <int Dim>
 struct WallPlace {
-  Vec<Dim> position;                   ///< where it needs room
-  Vec<Dim> foot;                       ///< the point of its own wall nearest to it
+  Vec<Dim> position;                   ///< m; must be free of other particles
+  Vec<Dim> foot;                       ///< the nearest point of its own wall
   std::vector<Vec<Dim>> normals;       ///< of the faces that act there; several at a corner
   int wall = 0;                        ///< index into Boundary::walls
-  Vec<Dim> offset = Vec<Dim>::Zero();  ///< m; from there to where the particle stands
-  double share = 1.0;                  ///< its volume, over dx^Dim
-  bool is_beyond_end = false;          ///< of its wall, which ends in the water
+  Vec<Dim> offset = Vec<Dim>::Zero();  ///< m; from `position` to where the particle stands
+  double share = 1.0;                  ///< volume of the particle, over dx^Dim
+  bool is_beyond_end = false;          ///< whether it is beyond the end of its wall in the water
 
   Vec<Dim> stands_at() const { return position + offset; }
 };
 
-/// The particles of one body. None is nearer than spacing/2 to another: the first one proposed is kept. Every place
-/// proposed has a number; those outside the share that is wanted are not looked at, but for a seam, which decides who
-/// has room at its border: particles beyond it could matter only through a chain of places, each in the way of the
-/// next.
+/// The particles of one body. None is nearer than spacing/2 to another: the first one proposed is kept. Every proposed
+/// place has a number. Places outside the requested part of space are skipped, except for a seam around it. The seam
+/// decides which places at the border of the part are free: particles beyond it could matter only through a chain of
+/// places, each too near the next.
 template <int Dim>
 class WallParticleCollector {
  public:
   WallParticleCollector(const Boundary<Dim>& body, const WallLayers& layers);
 
-  /// The number of a place to be proposed.
+  /// The number of the next place to be proposed.
   std::int64_t take_number() { return particles_.numbers++; }
 
-  /// Whether a place is in the share that is wanted, or in its seam.
+  /// Whether a place is in the requested part of space, or in its seam.
   bool wants(const Vec<Dim>& x) const { return share_.is_near(x, seam_); }
 
   /// Keeps the place if no other particle is near.
@@ -70,15 +70,15 @@ class WallParticleCollector {
     if (wants(place.position) && !taken_.has_near(place.position)) keep(place, number);
   }
 
-  /// The same, unless a face that is not the place's own lies between the place and its foot; the place is then behind
-  /// another wall. is_own(f) says whether Boundary::faces[f], which is of no mesh, is the place's own.
+  /// Keeps the place if no other particle is near and no face of another wall lies between the place and its foot.
+  /// is_own(f) returns whether Boundary::faces[f], which belongs to no mesh, is a face of the place's own wall.
   template <class IsOwn>
   void add_unless_behind_another(const WallPlace<Dim>& place, IsOwn&& is_own) {
     const std::int64_t number = take_number();
     if (wants(place.position)) add_unless_behind_another(place, number, is_own);
   }
 
-  /// The same for a place that is wanted and has its number.
+  /// Variant for a requested place that already has its number.
   template <class IsOwn>
   void add_unless_behind_another(const WallPlace<Dim>& place, std::int64_t number, IsOwn&& is_own,
                                  const WallMesh* own_mesh = nullptr) {
@@ -89,23 +89,23 @@ class WallParticleCollector {
     if (!is_behind_mesh(place, own_mesh) && std::ranges::none_of(faces_between(place), hides)) keep(place, number);
   }
 
-  /// Call after all places on the wall itself have been proposed, before those behind it.
+  /// To be called after all places on the wall itself have been proposed, before those behind it.
   void end_of_places_on_wall() { particles_.numbers_on_wall = particles_.numbers; }
 
   WallParticles<Dim> particles() && { return std::move(particles_); }
 
  private:
-  /// The faces, of no mesh, that may lie between a place and its foot.
+  /// The faces outside meshes that may lie between a place and its foot.
   std::span<const int> faces_between(const WallPlace<Dim>& place) const {
     return (place.stands_at() - place.foot).norm() <= plain_.reach() ? plain_.near(place.foot) : all_plain_;
   }
   /// Whether a mesh other than its own lies between a place and its foot.
   bool is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const;
-  /// The faces within reach behind whose planes a place is, the nearest first.
+  /// The faces within reach behind whose planes a place is, nearest first.
   std::vector<WallFace<Dim>> faces_in_front_of(const WallPlace<Dim>& place) const;
-  /// Whether nothing is between a place and the point of the face nearest to it.
+  /// Whether nothing lies between a place and the point of the face nearest to it.
   bool sees(const WallPlace<Dim>& place, const WallFace<Dim>& face) const;
-  /// Whether the wall turns sharply somewhere between the points of two faces that are nearest to x, behind them.
+  /// Whether the wall has a sharp edge between the points of two faces that are nearest to x, which is behind them.
   bool has_edge_between(const Vec<Dim>& x, const WallFace<Dim>& a, const WallFace<Dim>& b) const;
   /// WallParticles::beyond_edges of a place, from the sum of its normals.
   Mat<Dim> normals_beyond_edges(const WallPlace<Dim>& place, const Vec<Dim>& sum) const;
@@ -116,18 +116,18 @@ class WallParticleCollector {
   SpaceShare share_;
   double seam_;           ///< m
   double look_distance_;  ///< m
-  double reach_;          ///< m; over which dummies see water
+  double reach_;          ///< m; distance up to which dummies interact with water
   PointGrid<Dim> taken_;
-  FaceGrid<Dim> plain_;         ///< faces of no mesh
-  std::vector<int> all_plain_;  ///< the same
+  FaceGrid<Dim> plain_;         ///< faces that belong to no mesh
+  std::vector<int> all_plain_;  ///< indices of all faces of `plain_`
   WallParticles<Dim> particles_;
 };
 
 /// 2D: faces joined to chains (wall_chains.cpp).
 WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers);
 
-/// 2D: rows of dummies beyond the ends of walls (wall_chains.cpp): the wall drawn on by the depth of the layers. Water
-/// feels them only through the wall while its end is free (geometry/screen.h).
+/// 2D: rows of dummies beyond the ends of walls (wall_chains.cpp), on the wall extended by the depth of the layers.
+/// They act on water only through the wall, while its end is free (geometry/screen.h).
 std::vector<WallParticles<2>> sample_beyond_ends(const Boundary<2>& boundary, const WallLayers& layers);
 
 /// 3D: axis-parallel boxes (wall_boxes.cpp).
@@ -137,8 +137,9 @@ void sample_boxes(const Boundary<3>& body, const WallLayers& layers, WallParticl
 void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice,
                    WallParticleCollector<3>& collector);
 
-/// Plates (wall_plates.cpp), as many parts as they have sides. The two sides of a plate share the space on both of its
-/// sides; water feels only those of them that the plate hides from it. Those from meshes stand on nodes of the lattice.
+/// Plates (wall_plates.cpp), one part per side. The particles of both sides of a plate overlap in space, on both of its
+/// sides. Water interacts only with the particles that the plate hides from it. Particles of plates from meshes stand
+/// on nodes of the lattice.
 template <int Dim>
 std::vector<WallParticles<Dim>> sample_plates(const Boundary<Dim>& boundary, const WallLayers& layers,
                                               const Lattice<Dim>& lattice);

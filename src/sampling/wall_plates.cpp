@@ -1,4 +1,4 @@
-// Wall particles of plates: the two sides share the space on both sides.
+// Wall particles of plates: the particles of both sides overlap in space.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,14 +11,14 @@
 namespace tailwater {
 namespace {
 
-/// The faces of one side of a plate, drawn on in its plane by `reach` beyond each end: what the plate hides from a
-/// particle widens behind it.
+/// The faces of one side of a plate, extended in its plane by `reach` beyond each end, because the region that a plate
+/// hides from a particle widens behind the plate.
 Boundary<2> widened_side(const Boundary<2>& boundary, const WallPlate& plate, bool is_front, double reach) {
   Boundary<2> side;
   side.walls = boundary.walls;
   const auto from = boundary.faces.begin() + plate.first_face + (is_front ? 0 : plate.pieces);
   side.faces.assign(from, from + plate.pieces);
-  // The corners of a back run the other way.
+  // The corners of a back face are in reverse order.
   WallFace<2>& first = side.faces.front();
   WallFace<2>& last = side.faces.back();
   const int head = is_front ? 0 : 1;
@@ -34,7 +34,8 @@ WallParticles<2> sample_side(const Boundary<2>& boundary, const WallPlate& plate
   return sample_chains(widened_side(boundary, plate, is_front, layers.count * layers.spacing), layers);
 }
 
-/// Nodes of the water's lattice, as behind other meshes: what water feels through the sheet is then the lattice itself.
+/// Nodes of the water's lattice, as behind other meshes, so that water on the lattice sees the lattice continued behind
+/// the sheet.
 WallParticles<3> sample_side_of_sheet(const Boundary<3>& boundary, const WallPlate& plate, bool is_front,
                                       const WallLayers& layers, const Lattice<3>& lattice) {
   const double depth = layers.count * layers.spacing;

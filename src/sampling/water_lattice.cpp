@@ -14,7 +14,7 @@
 namespace tailwater {
 namespace {
 
-/// dx; a face as large as a square of this edge (in 2D as long) divides the lattice.
+/// dx; a face divides the lattice if its area is at least that of a square with this edge (in 2D, if it is as long).
 constexpr double least_edge = 3.0;
 
 template <int Dim>
@@ -46,7 +46,7 @@ Box<Dim> box_around(const FluidTable& block, const CaseLabel& owner) {
   return box;
 }
 
-/// Places of the planes of axis-parallel walls across `axis` that reach into the box.
+/// Coordinates of the planes of axis-parallel walls normal to `axis` that reach into the box.
 template <int Dim>
 std::vector<double> planes_in(const Boundary<Dim>& boundary, const Box<Dim>& box, int axis, double least_measure) {
   std::vector<double> planes;
@@ -61,7 +61,8 @@ std::vector<double> planes_in(const Boundary<Dim>& boundary, const Box<Dim>& box
   return planes;
 }
 
-/// The same of the faces of a mesh, which may be small, if together they are large enough.
+/// Coordinates of the planes of a mesh's faces normal to `axis`. The faces may be small if together they are large
+/// enough.
 std::vector<double> planes_in(const TriangleMesh& mesh, int axis, double spacing) {
   const double tolerance = corner_tolerance * spacing;
   std::vector<std::pair<double, double>> flats;  // plane and area
@@ -81,7 +82,7 @@ std::vector<double> planes_in(const TriangleMesh& mesh, int axis, double spacing
   return planes;
 }
 
-/// The same of a polygon.
+/// Appends the coordinates of a polygon's axis-parallel sides normal to `axis`.
 void append_flat_sides(const std::vector<Vec<2>>& outline, int axis, double spacing, std::vector<double>& planes) {
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec<2> side = outline[(k + 1) % outline.size()] - outline[k];
@@ -107,7 +108,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
   } else {
     box = box_around<Dim>(water, owner);
   }
-  // Walls that only touch the water's sides do not divide it.
+  // Walls that only touch the sides of the water do not divide it.
   const Vec<Dim> margin = Vec<Dim>::Constant(0.25 * dx);
   const Box<Dim> inside(Vec<Dim>(box.min() + margin), Vec<Dim>(box.max() - margin));
   for (int axis = 0; axis < Dim; ++axis) {

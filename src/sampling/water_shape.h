@@ -1,4 +1,4 @@
-// The shape that a block of water is drawn with, whatever walls and bodies leave of it.
+// The shape of a block of water as drawn, without regard to walls and bodies.
 #pragma once
 
 #include <optional>
@@ -15,25 +15,25 @@
 
 namespace tailwater {
 
-/// Corners of a polygon. Throws CaseError if they are less than three.
+/// Corners of a polygon. Throws CaseError if there are fewer than three.
 std::vector<Vec<2>> outline_of(const FluidTable& block, const CaseLabel& owner);
 
-/// A box and a fill have no surface of their own: their lattice ends where they do.
+/// Shape of a block. A box and a fill have no surface of their own: their lattice ends with them.
 template <int Dim>
 class WaterShape {
  public:
   /// Throws InputError as outline_of and filled_cells do.
   WaterShape(const CaseSpec& spec, std::size_t block, const Boundary<Dim>& boundary, const Lattice<Dim>& lattice);
 
-  /// Whether the place, the centre of a cell, is in it or on its surface. Asked along a line it looks at a mesh seldom:
-  /// what is nearer to the last place than the surface was is on the same side.
+  /// Whether the point, the centre of a cell, is in the shape or on its surface. Calls in order along a line rarely
+  /// search a mesh: a point nearer to the last one than the surface was is on the same side.
   bool holds(const Cell<Dim>& cell, const Vec<Dim>& x);
 
   bool has_surface() const { return mesh_ != nullptr || !outline_.faces.empty(); }
-  double volume() const { return volume_; }  ///< m^Dim, that its surface encloses
+  double volume() const { return volume_; }  ///< m^Dim, enclosed by the surface
 
-  /// Calls visit(point, height, normal) with the place of the surface nearest to x, if it is within the reach: its
-  /// height above it is positive inside.
+  /// Calls visit(point, height, normal) with the point of the surface nearest to x, if it is within `reach` [m]. The
+  /// height of x above it is positive inside.
   template <class Visit>
   void visit_surface(const Vec<Dim>& x, double reach, Visit&& visit) const {
     if (!outline_.faces.empty()) {
@@ -55,8 +55,8 @@ class WaterShape {
   const MeshSurface* mesh_ = nullptr;  ///< its front is outside
   std::optional<CellSet<Dim>> filled_;
   double volume_ = 0.0;
-  Vec<Dim> last_ = Vec<Dim>::Zero();  ///< the last place asked about
-  double last_height_ = 0.0;          ///< m; of it above the mesh
+  Vec<Dim> last_ = Vec<Dim>::Zero();  ///< the point of the last call of `holds`
+  double last_height_ = 0.0;          ///< m; of `last_` above the mesh
 };
 
 /// Bodies that stand in the water: walls with the water outside.
@@ -65,7 +65,7 @@ class Bodies {
  public:
   Bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-  /// Whether `x` is inside one of them, and not on its surface.
+  /// Whether `x` is inside a body, not on its surface.
   bool hold(const Vec<Dim>& x) const;
 
  private:
@@ -76,8 +76,8 @@ class Bodies {
   std::vector<const WallMesh*> meshes_;
 };
 
-/// Whether the particles of `block` are fitted to this face. A misfit between an axis-parallel wall that is no body and
-/// the edge of a box is the case file's, and check_geometry reports it.
+/// Whether the particles of `block` are fitted to this face. A misfit between the edge of a box and an axis-parallel
+/// wall that is not a body is an error of the case file, and check_geometry reports it.
 template <int Dim>
 bool adapts_to_wall(const CaseSpec& spec, const FluidTable& block, const WallFace<Dim>& face) {
   const bool is_axis_parallel = face.normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
