@@ -6,14 +6,14 @@
 namespace tailwater {
 namespace {
 
-/// Where a surface is at the start of a step, and how it moves.
+/// Position of a surface at the start of a step, and its velocity.
 template <int Dim>
 struct SurfaceMotion {
   AffineMap<Dim> placement = {};
-  AffineMap<Dim> velocity{Mat<Dim>::Zero(), Vec<Dim>::Zero()};  ///< of what is drawn at x
+  AffineMap<Dim> velocity{Mat<Dim>::Zero(), Vec<Dim>::Zero()};  ///< of the point that is drawn at x
 };
 
-/// Of a surface that moves as prescribed.
+/// The path of a surface that moves as prescribed.
 template <int Dim>
 const typename WallMotion<Dim>::MovingWall& path_of(const Flow<Dim>& flow, const ContactSurface<Dim>& surface) {
   return *std::ranges::find(flow.setup.wall_motion.moving(), surface.wall, &WallMotion<Dim>::MovingWall::wall);
@@ -48,7 +48,7 @@ class ContactFinder {
     return motion;
   }
 
-  /// The point of body b that is at x, if it is near the surface.
+  /// Adds a contact for the point of body b at x, if it is near the surface.
   void add(int b, const Vec<Dim>& x, const ContactSurface<Dim>& surface, const SurfaceMotion<Dim>& motion,
            std::vector<OneSidedForce>& contacts) const {
     const double spacing = flow_.setup.scale.spacing;

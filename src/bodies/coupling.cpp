@@ -20,27 +20,27 @@
 namespace tailwater {
 namespace {
 
-/// Pressure and motion agree when the forces do to so many times the solver's tolerance, which leaves that much of them
-/// undecided. The rest is carried over.
+/// Pressure and motion agree when the residual force is below this multiple of the solver's tolerance, because the
+/// solver's own error is of that size. The rest is carried over to the next step.
 constexpr double agreement_over_tolerance = 10.0;
 
-/// Passes until the inertia is measured again. From then on each pass doubles what is left to be carried over, and in
-/// the end the pass that agreed best counts: a film of water that a body presses on a wall pushes back or not as it
-/// tears, and no motion agrees with it better.
+/// Passes until the inertia is measured again. From then on each pass doubles the residual that may be carried over,
+/// and the pass with the smallest residual is used in the end. This happens when a body presses on a thin film of
+/// water: the film reacts or not as it tears, and no motion agrees with it better.
 constexpr int passes_with_old_inertia = 6;
 
-/// Passes of a rough solve. One is enough where water that may pull resists as water that may not. Where the last step
-/// held much of it back, the inertia that was learned there is too small, and one pass would throw the body so far that
-/// all water seems to pull.
+/// Passes of a rough solve. One pass is enough where water under tension resists like other water. Where tension was
+/// limited in much of the water in the last step, the estimated inertia is too small. A single pass would then
+/// accelerate the body so much that all water seems to be under tension.
 constexpr int most_rough_passes = 3;
 
-/// The acceleration that measures inertia, over that of gravity; m/s^2 where there is none.
+/// Acceleration for the measurement of inertia, over that of gravity; in m/s^2 without gravity.
 constexpr double probing_share = 0.1;
 
-/// Share of the surface that sees air up to which what seems to be left of it is an error of pairs and pieces.
+/// Largest net area, as a fraction of the surface that faces air, that counts as an error of pairs and pieces.
 constexpr double most_wrong = 0.25;
 
-/// What a degree of freedom resists at least, over its mass or mean moment of inertia.
+/// Least resistance of a degree of freedom, over its mass or mean moment of inertia.
 constexpr double least_share_of_mass = 0.5;
 
 }  // namespace
@@ -87,9 +87,9 @@ void BodyCoupling<Dim>::begin() {
   add_air_stiffness();
 }
 
-/// Subtracts the net force and moment of the air on bodies that open air does not reach. One pressure of all air around
-/// such a body may not push it. What pairs and pieces of its surface make of that is not quite nothing at edges and
-/// corners; the body takes it from each pocket by the fraction of its surface that looks into it.
+/// Subtracts the net force and moment of the air on bodies that open air does not reach. A uniform pressure of the air
+/// around such a body exerts no net force. The sums over pairs and pieces of its surface leave a small error at edges
+/// and corners. Each pocket takes the fraction of this error that corresponds to its fraction of the body's surface.
 template <int Dim>
 void BodyCoupling<Dim>::remove_net_air_force() {
   const std::vector<double> all_air(enclosed_air_.state.pockets.size(), 1.0);
@@ -118,8 +118,9 @@ void BodyCoupling<Dim>::remove_net_air_force() {
   }
 }
 
-/// G, the force of 1 Pa in each pocket on each degree of freedom, times dt^2/2 is by how much an acceleration makes the
-/// pocket grow: the gas adds dt^2/2 G S G^T to the inertia, with its stiffness S.
+/// Adds the stiffness of the air to the inertia. G is the force of 1 Pa in each pocket on each degree of freedom. An
+/// acceleration increases a pocket's volume by dt^2/2 times the transpose of G. The gas therefore adds dt^2/2 G S G^T
+/// to the inertia, with its stiffness S.
 template <int Dim>
 void BodyCoupling<Dim>::add_air_stiffness() {
   const auto pockets = static_cast<Eigen::Index>(enclosed_air_.state.pockets.size());
@@ -153,7 +154,8 @@ Eigen::VectorXd BodyCoupling<Dim>::on_freedoms(const std::vector<Twist<Dim>>& fo
   return entries;
 }
 
-/// Of a pressure that is up to date, with that of the pockets in it; `air` is that of each.
+/// Forces of a pressure field that is up to date and contains that of the pockets; `air` is the pressure of each
+/// pocket.
 template <int Dim>
 std::vector<Twist<Dim>> BodyCoupling<Dim>::forces_of(std::vector<double> pressure,
                                                      const std::vector<double>& air) const {
@@ -195,7 +197,8 @@ SolveReport BodyCoupling<Dim>::solve_once(double tolerance) {
 
 template <int Dim>
 Eigen::VectorXd BodyCoupling<Dim>::residual() {
-  // The water feels the pressure that walls have in the end, and later solves begin with the one they had.
+  // The forces depend on the final wall pressures; later solves start from the solved pressure, which is restored
+  // below.
   const std::vector<double> solved = flow_.state.particles.pressure;
   shift_minimum_to_zero<Dim>(flow_, fullness_, {}, flow_.state.particles.pressure);
   finish_pressure(flow_, drive_, allowed_tension_);
@@ -242,7 +245,7 @@ void BodyCoupling<Dim>::measure_inertia(const Eigen::VectorXd& g, double toleran
   for (std::size_t w = 0; w < freedoms_.size(); ++w) {
     const auto k = static_cast<Eigen::Index>(w);
     const double mass = bodies_.bodies[freedoms_[w].body].mass;
-    const double step = probing * std::sqrt(mass / scale_[k]);  // over the radius of inertia, for a turn
+    const double step = probing * std::sqrt(mass / scale_[k]);  // divided by the radius of inertia for a rotation
     Eigen::VectorXd other = A;
     other[k] += step;
     accelerate(other);
@@ -267,8 +270,8 @@ void BodyCoupling<Dim>::correct(Eigen::VectorXd& g, double tolerance, SolveRepor
   report.restarts += solved.restarts;
   report.residual = solved.residual;
   const Eigen::VectorXd after = residual();
-  // Broyden's update, with degrees of freedom measured alike by their masses. A change that seems to need less force
-  // than the mass alone tells of water that tears, not of water that goes along: nothing to learn from.
+  // Broyden's update, with degrees of freedom scaled by their masses. A change that appears to need less force than the
+  // mass alone indicates water that tears, not added mass, and is not used.
   const Eigen::VectorXd weighted = change.cwiseProduct(scale_);
   const Eigen::VectorXd answer = (after + push_) - (g + pushed) - air_ * change;
   const double square = change.dot(weighted);
@@ -287,7 +290,7 @@ SolveReport BodyCoupling<Dim>::solve_roughly(double tolerance) {
   do {
     correct(g, tolerance, report);
   } while (++passes < most_rough_passes && size(g) > agreement_over_tolerance * tolerance * largest_force_);
-  // What water does that may still pull is nothing to learn from.
+  // The response of water whose tension is not limited yet must not change the inertia.
   if (!known.empty()) flow_.state.motion.bodies.inertia = known;
   return report;
 }
@@ -335,7 +338,7 @@ void BodyCoupling<Dim>::go_back_to(const Iterate& iterate) {
   flow_.state.particles.pressure = iterate.pressure;
 }
 
-/// Keeps the forces on bodies beside walls for probes, which divide those of pairs between walls.
+/// Stores the forces on bodies beside walls for probes, which divide the forces of pairs between walls.
 template <int Dim>
 void BodyCoupling<Dim>::report_forces(const std::vector<Twist<Dim>>& forces) {
   for (std::size_t b = 0; b < forces.size(); ++b) {

@@ -1,14 +1,15 @@
-// Bodies that float. The pressure depends on how they are accelerated, since the water beside them goes with them, and
-// their acceleration on the pressure:
+// Coupling of floating bodies and pressure. The pressure depends on the acceleration of the bodies, which accelerate
+// the water beside them, and this acceleration depends on the pressure:
 //
 //   M A = F(p) + loads,    p = p(A)
 //
-// Both are solved for together in every step. p(A) is the pressure equation with the walls' acceleration in the rows of
-// their particles; F(p) is the reaction of the water's pair forces, so that water and bodies keep their momentum
-// together. Taking F at the last A instead would blow up for every body lighter than the water that goes with it. The
-// iteration is Newton's, with the derivative of M A - F(p(A)), which is mass and added mass, measured once and then
-// kept up to date by Broyden's (1965) updates, from step to step: some two solves in a step. Beside pockets of air the
-// pressures of these are found in each pass, with the motion of that pass; what the gas adds to the derivative is
+// Every step solves for both together. p(A) is the solution of the pressure equation with the walls' acceleration in
+// the rows of their particles. F(p) is the reaction to the pair forces on the water, so that water and bodies conserve
+// momentum together. With F at the last A instead, every body lighter than its added mass would be unstable.
+//
+// The iteration is Newton's method. The derivative of M A - F(p(A)) is mass plus added mass. It is measured once and
+// then updated by Broyden's (1965) method from step to step, with about two solves per step. Beside pockets of air,
+// each pass computes their pressures for the motion of that pass; the contribution of the gas to the derivative is
 // known.
 #pragma once
 
@@ -29,19 +30,20 @@ namespace tailwater {
 template <int Dim>
 class BodyCoupling final : public CoupledUnknowns {
  public:
-  /// Of an equation that stands in the flow's rows. Changes nothing.
+  /// Couples the bodies to the equation in the flow's rows. Changes nothing.
   BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, const PosedEquation& equation, WallDrive<Dim>& drive);
 
-  /// Makes the water in narrow gaps stagnant, and tells the pockets of air how bodies give way to them. Call first.
+  /// Makes the water in narrow gaps stagnant, and computes the compliance of the bodies for the pockets of air. Call
+  /// first.
   void begin();
-  /// Solves the pressure equation to `tolerance`, and corrects the motion once. `drive` follows.
+  /// Solves the pressure equation to `tolerance`, and corrects the motion at least once. `drive` follows the bodies.
   SolveReport solve_roughly(double tolerance) override;
   SolveReport solve(double tolerance) override;
-  /// What the pressure has not moved yet is carried over to the next step, so that no momentum is lost.
+  /// Carries impulses that have not moved the bodies yet over to the next step, so that momentum is conserved.
   void finish() override;
 
  private:
-  /// A motion, what was found with it, and how far they agree.
+  /// A motion, the pressure computed with it, and their residual.
   struct Iterate {
     Eigen::VectorXd A, push;
     std::vector<double> pressure;
@@ -52,9 +54,9 @@ class BodyCoupling final : public CoupledUnknowns {
   Eigen::VectorXd acceleration() const;
   void accelerate(const Eigen::VectorXd& A);
   SolveReport solve_once(double tolerance);
-  /// Takes one step of Newton's method from the residual `g`, and updates it.
+  /// Performs one step of Newton's method from the residual `g`, and updates `g`.
   void correct(Eigen::VectorXd& g, double tolerance, SolveReport& report);
-  /// M A - F(p) - loads - push of contacts and lines, and the size of the forces in it.
+  /// M A - F(p) - loads - forces of contacts and lines. Also sets the size of the largest force.
   Eigen::VectorXd residual();
   void go_back_to(const Iterate& iterate);
   [[noreturn]] void fail(int passes) const;
@@ -70,18 +72,18 @@ class BodyCoupling final : public CoupledUnknowns {
   Flow<Dim>& flow_;
   FloatingBodies<Dim>& bodies_;
   EnclosedAir<Dim>& enclosed_air_;
-  double fullness_;  ///< that of the equation (pressure/full_water.h)
+  double fullness_;  ///< fullness of the equation (pressure/full_water.h)
   double dt_;
   WallDrive<Dim>& drive_;
   ForcesOnBodies<Dim> forces_;
   NarrowGaps<Dim> gaps_;
   std::vector<Freedom> freedoms_;
   Eigen::VectorXd scale_;                ///< mass or moment of inertia of each degree of freedom
-  std::vector<Twist<Dim>> loads_;        ///< on each body: all but pressure, contacts and lines; the same in all passes
+  std::vector<Twist<Dim>> loads_;        ///< on each body, without pressure, contacts and lines; the same in all passes
   std::vector<Twist<Dim>> last_forces_;  ///< of the pressure on each body, in the last residual
   std::vector<OneSidedForce> one_sided_;  ///< contacts and lines
   std::vector<double> allowed_tension_;   ///< Pa; of all particles (pressure/tension.h)
-  Eigen::VectorXd push_;                  ///< their sum, on each degree of freedom
+  Eigen::VectorXd push_;                  ///< sum of `one_sided_` on each degree of freedom
   Eigen::MatrixXd air_;                   ///< force per acceleration that the air of pockets adds to the inertia
   double largest_force_ = 0.0;            ///< size of the largest force in the last residual
 };

@@ -1,5 +1,5 @@
-// Bodies that the water moves, with their moorings, as a part of a flow: their motion is solved for together with the
-// pressure (coupling.h). Where they are stands in the flow's state, since they are walls that move.
+// Floating bodies with their moorings, as a part of a flow. Their motion is solved for together with the pressure
+// (coupling.h). Their positions belong to the state of the flow, because bodies are moving walls.
 #pragma once
 
 #include <vector>
@@ -17,21 +17,21 @@ class FloatingBodies final : public Part<Dim> {
   FloatingBodies() = default;  ///< no bodies
   FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary);
 
-  // Of the case.
+  // Properties of the case.
   std::vector<FloatingBody<Dim>> bodies;
   std::vector<Mooring<Dim>> moorings;
   std::vector<int> body_of_wall;  ///< index into `bodies` of each wall, or -1
   ContactSurfaces<Dim> contact;
   std::vector<WallPatch<Dim>> patches;  ///< of all bodies, at most dx long; they move with their faces
 
-  // Of the present step.
+  // Data of the present step.
   std::vector<Twist<Dim>> start_velocity;  ///< of each body
   std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps
-  bool has_stagnant_water = false;         ///< of any rank
+  bool has_stagnant_water = false;         ///< on any rank
 
   /// Degrees of freedom of all bodies.
   std::size_t freedom_count() const;
-  /// Gives each body the velocity after a step of dt with its present acceleration.
+  /// Sets the velocity of each body after a step of dt with its present acceleration.
   void steer(Flow<Dim>& flow, double dt) const;
 
   std::string_view name() const override { return "bodies"; }
@@ -39,7 +39,7 @@ class FloatingBodies final : public Part<Dim> {
   bool changes_rows() const override { return has_stagnant_water; }
   StepLimits step_limits(const Flow<Dim>& flow) const override;
   void claim(const Flow<Dim>& flow, std::span<Role> role) override;
-  /// Sets out from the acceleration of the last step.
+  /// Starts with the acceleration of the last step.
   void begin_step(Flow<Dim>& flow, double dt) override;
   void write_rows(Flow<Dim>& flow) override;
   std::unique_ptr<CoupledUnknowns> couple(Flow<Dim>& flow, const PosedEquation& equation,

@@ -7,23 +7,23 @@
 namespace tailwater {
 namespace {
 
-/// Forces on each body, and their moments about its centre, which add up.
+/// Sums of the forces on each body, and of their moments about its centre.
 template <int Dim>
 class ForceSums {
  public:
-  /// With the centres where they are at `time`.
+  /// `time` [s] determines the centres of the bodies.
   ForceSums(const Flow<Dim>& flow, double time) : flow_(flow), sums_(size * flow.state.motion.bodies.each.size(), 0.0) {
     for (const BodyState<Dim>& body : flow.state.motion.bodies.each) centres_.push_back(body.centre_at(time));
   }
 
-  /// A force at `x` and a couple; nothing if `body` is -1.
+  /// Adds a force at `x` and a couple to a body; no effect if `body` is -1.
   void add(int body, const Vec<Dim>& x, const Vec<Dim>& force, const Turn<Dim>& couple = Turn<Dim>::Zero()) {
     if (body < 0) return;
     const Twist<Dim> both = twist_of<Dim>(force, moment_of<Dim>(x - centres_[body], force) + couple);
     both.add_to(sums_.data() + static_cast<std::size_t>(body) * size);
   }
 
-  /// Of all ranks. Collective.
+  /// Forces and moments, summed over all ranks. Collective.
   std::vector<Twist<Dim>> gather() {
     flow_.setup.ranks.sum_of_each(sums_);
     std::vector<Twist<Dim>> forces;

@@ -12,27 +12,27 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; water in a narrower gap is held. From 0.6 to 0.9 results are similar. With 0.5 water from both sides piles up
-/// in the gap; with 1 water at its rim, held, lets none in as it opens.
+/// [dx]; water in a narrower gap is held at rest. Results for 0.6 to 0.9 are similar. With 0.5 water from both sides
+/// piles up in the gap; with 1 the water held at its rim prevents inflow when the gap opens.
 constexpr double closed_gap = 0.75;
-/// [dx]; a row of particles has room in a wider gap.
+/// [dx]; a row of particles fits into a wider gap.
 constexpr double open_gap = 1.0;
-/// [dx]; where no water is in a gap, its film counts less and less from there to here.
+/// [dx]; gap width at which the effect of a film without water in it ends. It decreases from `open_gap` on.
 constexpr double widest_film = 1.5;
 
-/// [dx]; pieces up to here from another wall belong to a gap.
+/// [dx]; pieces up to this distance from another wall belong to a gap.
 constexpr double widest_gap = 3.0;
 
-/// Least of -cos of the angle between the normal of a piece and of the wall that it faces.
+/// Least value of -cos of the angle between the normals of a piece and of the wall that it faces.
 constexpr double least_opposite = 0.5;
 
-/// [dx]; pieces so near are beside each other.
+/// [dx]; pieces nearer to each other than this are neighbours.
 constexpr double reach_of_neighbours = 1.6;
 
-/// [dx]; a pair with an end farther than this from all pieces is of the rest of the body.
+/// [dx]; a pair whose middle is farther than this from all pieces belongs to the rest of the body.
 constexpr double reach_of_pairs = 3.0;
 
-/// Sum of w W over the water at a piece beside which there is water. In a right angle between a body and a bed it is
+/// Sum of w W over the water from which on a piece counts as wet. In a right angle between a body and a bed the sum is
 /// 1/4, beside a row of particles in a gap of dx it is 0.3.
 constexpr double weight_beside_water = 0.15;
 
@@ -214,7 +214,7 @@ std::vector<std::size_t> NarrowGaps<Dim>::find_stagnant() const {
   return stagnant;
 }
 
-// As the row of a dummy, which is what stagnant water is to the water beside it.
+// Writes rows like that of a dummy: stagnant water acts like a dummy on the water beside it.
 template <int Dim>
 void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
   if (pieces_.empty()) return;
@@ -286,21 +286,21 @@ typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int body, const 
   return nearest;
 }
 
-/// How much of a place outside a body counts as a film: fully in a gap without room for a row of particles.
+/// Film fraction of a place outside a body: 1 in a gap too narrow for a row of particles.
 template <int Dim>
 double NarrowGaps<Dim>::film_at(double width, double facing) const {
   if (facing < least_opposite) return 0.0;
   return std::clamp((widest_film - width / flow_.setup.scale.spacing) / (widest_film - open_gap), 0.0, 1.0);
 }
 
-/// How much of what pairs miss counts: all of it beside a gap without room for a row of particles.
+/// Fraction of the missing pair forces that is added: 1 beside a gap too narrow for a row of particles.
 template <int Dim>
 double NarrowGaps<Dim>::share_beside(const Piece& piece) const {
   return std::clamp((resolved_gap - piece.nearest / flow_.setup.scale.spacing) / (resolved_gap - open_gap), 0.0, 1.0);
 }
 
-/// How much of a pair or piece at a place so far [m] from the wall counts beside a narrow gap: up to half a support
-/// there are pairs that the space of the wall does not have.
+/// Weight of a pair or piece at the distance `gap` [m] from the wall beside a narrow gap. Up to half a support there
+/// are pairs that the space of the wall lacks.
 template <int Dim>
 double NarrowGaps<Dim>::share_at(double gap) const {
   return std::clamp(2.0 - 2.0 * gap / (widest_gap * flow_.setup.scale.spacing), 0.0, 1.0);
@@ -312,8 +312,8 @@ void NarrowGaps<Dim>::add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& for
   both.add_to(sums.data() + static_cast<std::size_t>(n) * twist_size);
 }
 
-// The force of a pair acts in the middle of its ends, which is on the surface of the body on average. At the wall
-// particle it would move a force of first order in dx from one side of an edge to the other (docs/theory/probes.md).
+// The force of a pair acts midway between its ends, which is on the surface of the body on average. Acting at the wall
+// particle, it would move a force of first order in dx from one side of an edge to the other (docs/theory/probes.md).
 template <int Dim>
 void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int body, std::vector<double>& sums) const {
   const Particles<Dim>& particles = flow_.state.particles;
@@ -356,7 +356,7 @@ void NarrowGaps<Dim>::measure_pairs() {
 template <int Dim>
 Eigen::VectorXd NarrowGaps<Dim>::find_pressure(const std::vector<double>& pressure) const {
   const auto count = [](std::size_t n) { return static_cast<Eigen::Index>(n); };
-  std::vector<double> sums(2 * pieces_.size(), 0.0);  // of each piece the weight of the water beside it, and with heads
+  std::vector<double> sums(2 * pieces_.size(), 0.0);  // per piece: weight of its water, weighted heads
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     const Piece& piece = pieces_[n];
     for (std::size_t k = 0; k < piece.water.size(); ++k) {
@@ -383,7 +383,7 @@ Eigen::VectorXd NarrowGaps<Dim>::find_pressure(const std::vector<double>& pressu
   const Eigen::VectorXd in_films = shares_ * heads;
   for (std::size_t f = 0; f < films_.size(); ++f) {
     const Piece& film = pieces_[films_[f]];
-    // Air at a high place of the rim has more head than the water that could be there.
+    // Air at a high part of the rim has a larger head than any water there could have.
     const double head = std::min(in_films[count(f)], largest[static_cast<std::size_t>(film.gap_number)]);
     p[count(films_[f])] += (1.0 - film.wetness) * film.film * std::max(0.0, head + weight_of(film.x));
   }

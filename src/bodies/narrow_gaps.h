@@ -1,19 +1,19 @@
-// Floating bodies beside other walls. The force of the water on a body is the integral of the pressure over its own
-// surface. The space of another wall has no pairs with the body, and neither has a gap that is too narrow for a row of
-// particles. A piece of the surface there gets what the pairs miss, the force p m with
+// Forces on floating bodies beside other walls. The force of the water on a body is the integral of the pressure over
+// its surface. The volume of another wall has no pairs with the body, nor does a gap that is too narrow for a row of
+// particles. A piece of the body's surface there therefore receives the missing force p m with
 //
-//   m = s (-A n - sum of the forces that the pairs have in a pressure of 1),
+//   m = s (-A n - sum of the pair forces for a pressure of 1),
 //
-// s = 1 beside a gap narrower than dx, and 0 beside one of 1.75 dx or more, in which rows of particles press by
-// themselves.
+// where s = 1 beside a gap narrower than dx, and 0 beside one of 1.75 dx or more, in which rows of particles transmit
+// the pressure.
 //
-// p is the pressure of the water beside the piece. In a gap without room for a row of particles it is that of a film.
-// Water hardly flows there, so p - rho g.x in a gap is harmonic along it (Reynolds), and at its rim that of the water
-// beside it, or of the air. Each place of the gap has the mean over the rim with weights 1/r^(Dim-1), which is that
-// function between the ends of a slit, along a strip and under a disc.
+// p is the pressure of the water beside the piece. In a gap too narrow for a row of particles it is that of a film.
+// Water hardly flows there, so p - rho g.x is harmonic in the gap (Reynolds). At its rim it is that of the water or air
+// there. Each place of the gap has the mean over the rim with weights 1/r^(Dim-1), which is the harmonic function
+// between the ends of a slit, along a strip and under a disc.
 //
-// Water in a gap narrower than 0.75 dx is held: it rests, since particles cannot tell how it would flow, and its
-// pressure follows that of the water around it (docs/theory/floating_bodies.md).
+// Water in a gap narrower than 0.75 dx is held at rest, because particles cannot resolve its flow. Its pressure follows
+// that of the water around it (docs/theory/floating_bodies.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -29,19 +29,19 @@ namespace tailwater {
 template <int Dim>
 class NarrowGaps {
  public:
-  /// With the walls and the water where they are, at `time` [s].
+  /// With walls and water at their present positions, at `time` [s].
   NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time);
 
-  /// The water in gaps that are narrower than 0.75 dx.
+  /// Owned water in gaps that are narrower than 0.75 dx.
   std::vector<std::size_t> find_stagnant() const;
-  /// Measures what the pairs of water that is not stagnant make of a pressure. Call when it is known which is.
+  /// Measures the pair forces of the water that is not stagnant per pressure. Call when the stagnant water is known.
   /// Collective.
   void measure();
-  /// Makes the stagnant water rest, with the pressure of the water around it. Changes the flow's rows. Collective.
+  /// Holds the stagnant water at rest, with the pressure of the water around it. Changes the flow's rows. Collective.
   void hold_water(Flow<Dim>& flow) const;
 
-  /// Calls push(body, x, force, couple) for what the pairs miss on a piece of a body in `pressure` [Pa], which is up to
-  /// date. All ranks make the same calls. Collective.
+  /// Calls push(body, x, force, couple) for the force that pairs miss on each piece of a body in `pressure` [Pa], which
+  /// is up to date. All ranks make the same calls. Collective.
   template <class Push>
   void visit_forces(const std::vector<double>& pressure, Push&& push) const {
     const Eigen::VectorXd p = find_pressure(pressure);
@@ -53,8 +53,7 @@ class NarrowGaps {
     }
   }
 
-  /// Calls push(body, x, force) for what water in films does to bodies by its pairs, as far as the film counts. Of the
-  /// owned water.
+  /// Calls push(body, x, force) for the pair forces of owned stagnant water on bodies, which the film replaces.
   template <class Push>
   void visit_pairs_in_films(const std::vector<double>& pressure, Push&& push) const {
     const Particles<Dim>& particles = flow_.state.particles;
@@ -82,32 +81,32 @@ class NarrowGaps {
   }
 
  private:
-  /// [dx]; from here on rows of particles press on a body by themselves. With what their pairs miss as well they would
-  /// press by up to a fifth of the buoyancy too much.
+  /// [dx]; from this width on, rows of particles in the gap transmit the pressure. With the missing force added, the
+  /// force would exceed the buoyancy by up to a fifth.
   static constexpr double resolved_gap = 1.75;
 
   struct Piece {
     int body;
-    int other_wall;                    ///< index into Boundary::walls
-    Vec<Dim> x;                        ///< on the body
-    Vec<Dim> towards_body;             ///< from the wall
-    double gap;                        ///< m
-    Vec<Dim> surface;                  ///< m^(Dim-1); force of a pressure of 1 on it
-    double film;                       ///< share of a film where there is no water: 1 in a gap without room for a row
-    Vec<Dim> area = Vec<Dim>::Zero();  ///< m^(Dim-1); force per pressure that pairs miss
-    Turn<Dim> couple = Turn<Dim>::Zero();  ///< m^Dim; likewise, about x
-    double wetness = 0.0;                  ///< 1 where water is beside it
-    double nearest = 0.0;                  ///< m; the narrowest gap that pairs reach from here
-    std::int32_t gap_number = -1;          ///< pieces of one gap have the same
-    std::vector<std::size_t> water = {};   ///< owned particles beside it
-    std::vector<Vec<Dim>> places = {};     ///< m; of these, or of their images
-    std::vector<double> weights = {};      ///< w W at x
+    int other_wall;                        ///< index into Boundary::walls
+    Vec<Dim> x;                            ///< on the body
+    Vec<Dim> towards_body;                 ///< unit normal from the wall
+    double gap;                            ///< m
+    Vec<Dim> surface;                      ///< m^(Dim-1); force of a pressure of 1 on it
+    double film;                           ///< film fraction where there is no water: 1 in a gap too narrow for a row
+    Vec<Dim> area = Vec<Dim>::Zero();      ///< m^(Dim-1); missing force per pressure
+    Turn<Dim> couple = Turn<Dim>::Zero();  ///< m^Dim; missing couple per pressure, about x
+    double wetness = 0.0;                  ///< 1 where water is beside the piece
+    double nearest = 0.0;                  ///< m; the narrowest gap in reach of pairs from here
+    std::int32_t gap_number = -1;          ///< common to all pieces of a gap
+    std::vector<std::size_t> water = {};   ///< owned particles beside the piece
+    std::vector<Vec<Dim>> places = {};     ///< m; of these particles, or of their images
+    std::vector<double> weights = {};      ///< w W of these particles at x
   };
 
-  /// What is nearest of all other walls.
+  /// The nearest wall that does not belong to the body.
   struct OtherWall {
     int wall;         ///< index into Boundary::walls, or -1
-    double distance;  ///< m; negative behind it
+    double distance;  ///< m; negative behind the wall
     Vec<Dim> normal;
   };
 
@@ -128,7 +127,7 @@ class NarrowGaps {
   void measure_pairs();
   void find_shares();
   bool is_film(const Piece& piece) const;
-  /// m; of the gap between a body and another wall at x, at most that of the widest film.
+  /// Width [m] of the gap between a body and another wall at x, at most that of the widest film.
   double width_at(int body, const Vec<Dim>& x) const;
   double share_beside(const Piece& piece) const;
   double share_at(double gap) const;
@@ -139,23 +138,23 @@ class NarrowGaps {
   std::int32_t nearest_piece(int body, const Vec<Dim>& x) const;
   template <class Visit>
   void visit_near(const Piece& piece, double reach, Visit&& visit) const;
-  /// Pa; at each piece.
+  /// Pressure [Pa] at each piece.
   Eigen::VectorXd find_pressure(const std::vector<double>& pressure) const;
   double weight_of(const Vec<Dim>& x) const { return flow_.setup.liquid.density * flow_.setup.gravity.dot(x); }
 
   const Flow<Dim>& flow_;
   const FloatingBodies<Dim>& bodies_;
   std::vector<AffineMap<Dim>> placements_;  ///< of the surfaces that bodies can touch
-  std::vector<Piece> pieces_;               ///< the same on all ranks, but for the water
+  std::vector<Piece> pieces_;               ///< identical on all ranks, except for the water
   std::vector<std::size_t> films_;          ///< pieces whose pressure is that of a film
   std::vector<std::size_t> rim_;            ///< pieces beside films
-  Eigen::MatrixXd shares_;                  ///< of each piece of the rim in the head of each film
+  Eigen::MatrixXd shares_;                  ///< weight of each piece of the rim in the head of each film
   std::vector<WaterInGap> water_;
   std::int32_t gap_count_ = 0;
   std::vector<double> is_stagnant_;  ///< of all particles, 1 or 0
   static constexpr std::size_t twist_size = Dim + turns<Dim>;
   CellGrid<Dim> places_;  ///< of the pieces
-  Box<Dim> around_;       ///< all places that are near to pieces
+  Box<Dim> around_;       ///< box around all places near pieces
 };
 
 }  // namespace tailwater

@@ -8,13 +8,13 @@
 namespace tailwater {
 namespace {
 
-/// More are needed only where many points of a body touch at once.
+/// More sweeps are needed only where many points of a body touch at once.
 constexpr int most_sweeps = 300;
 
 /// [dx per step]; a sweep that changes speeds by less is the last.
 constexpr double settled_displacement = 1e-12;
 
-/// What the force must be if nothing else changes, where a unit of it adds `mobility` to its speed.
+/// The force required with all other forces unchanged, where a unit of it adds `mobility` to its speed.
 double force_wanted(const OneSidedForce& one, double speed, double mobility) {
   if (one.is_rigid()) return one.force - speed / mobility;
   return (one.load + one.damping * (mobility * one.force - speed)) / (1.0 + one.damping * mobility);
@@ -22,7 +22,7 @@ double force_wanted(const OneSidedForce& one, double speed, double mobility) {
 
 }  // namespace
 
-// A sweep sets each in turn (projected Gauss-Seidel).
+// Each sweep updates the forces in turn (projected Gauss-Seidel).
 Eigen::VectorXd find_one_sided(std::vector<OneSidedForce>& forces, const Eigen::MatrixXd& inertia, double dt,
                                double spacing, const Eigen::VectorXd& wanted, Eigen::VectorXd& sum) {
   sum.setZero();
@@ -39,7 +39,7 @@ Eigen::VectorXd find_one_sided(std::vector<OneSidedForce>& forces, const Eigen::
     for (std::size_t n = 0; n < forces.size(); ++n) {
       OneSidedForce& one = forces[n];
       const double mobility = std::max(0.0, dt * one.direction.dot(answers[n]));
-      if (mobility == 0.0 && one.is_rigid()) continue;  // it cannot move that way
+      if (mobility == 0.0 && one.is_rigid()) continue;  // no motion is possible in this direction
       const double change = std::max(0.0, force_wanted(one, one.speed_after(dt, A), mobility)) - one.force;
       if (change == 0.0) continue;
       one.force += change;

@@ -1,7 +1,7 @@
-// Forces between bodies, or of the surroundings on them, that only push or only pull: contacts and lines. Each acts
-// along a direction and answers the speed w of its ends apart from each other along it, at the end of the step,
+// Forces between bodies, or of the surroundings on them, that act in one sense only: contacts push and lines pull. Each
+// acts along a direction and depends on the speed w at which its ends separate along it, at the end of the step,
 //
-//   f = max(0, load - damping w)
+//   f = max(0, load - damping w).
 //
 // A contact is the limit of infinite damping: 0 <= f, 0 <= w, and one of them is 0.
 #pragma once
@@ -20,7 +20,7 @@ namespace tailwater {
 /// A degree of freedom of a body.
 struct Freedom {
   std::size_t body;
-  int entry;  ///< of a Twist
+  int entry;  ///< index into a Twist
 };
 
 struct OneSidedForce {
@@ -31,11 +31,11 @@ struct OneSidedForce {
   double force = 0.0;                                        ///< N
 
   bool is_rigid() const { return damping == std::numeric_limits<double>::infinity(); }
-  /// After dt with the acceleration A.
+  /// Speed [m/s] after dt with the acceleration A.
   double speed_after(double dt, const Eigen::VectorXd& A) const { return speed + dt * direction.dot(A); }
 };
 
-/// What a unit force along `direction` at x of body b is, per degree of freedom.
+/// The entries of a unit force along `direction` at x of body b, per degree of freedom.
 template <int Dim>
 Eigen::VectorXd on_body(std::span<const Freedom> freedoms, const std::vector<BodyState<Dim>>& bodies, int b,
                         const Vec<Dim>& x, const Vec<Dim>& direction) {
@@ -50,8 +50,8 @@ Eigen::VectorXd on_body(std::span<const Freedom> freedoms, const std::vector<Bod
   return entries;
 }
 
-/// The acceleration that `wanted` becomes with these forces, which are found with it; `inertia` is the force per
-/// acceleration. Fills `sum`, of the forces on each degree of freedom.
+/// Computes the forces and returns the acceleration `wanted` corrected by them; `inertia` is the force per
+/// acceleration. Sets `sum` to the total on each degree of freedom.
 Eigen::VectorXd find_one_sided(std::vector<OneSidedForce>& forces, const Eigen::MatrixXd& inertia, double dt,
                                double spacing, const Eigen::VectorXd& wanted, Eigen::VectorXd& sum);
 

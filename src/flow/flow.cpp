@@ -14,21 +14,21 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; how far lists reach beyond the support. Half of it is the distance the fastest particle moves in a step, so a
-/// list lasts for about one step with all passes of the implicit iteration. Wider lists cost more at each evaluation
-/// than they save in searches (docs/theory/neighbours.md).
+/// [dx]; margin of neighbour lists beyond the support. Half of it is the distance that the fastest particle moves in a
+/// step, so a list lasts for about one step with all passes of the implicit iteration. Wider lists cost more at each
+/// evaluation than they save in searches (docs/theory/neighbours.md).
 constexpr double skin_over_spacing = 0.6;
 
-/// How far [m] water feels walls, and moves in a step. Rows of walls that hold pairs with each other need the walls
-/// around those that the water touches.
+/// Distance [m] within which water interacts with walls, including its motion in a step. If rows of walls form pairs
+/// with each other, they also need the walls around those in reach of the water.
 template <int Dim>
 double reach_of_walls(const Setup<Dim>& setup) {
   const double supports = setup.formulation.walls->traits().pairs == WallRows::all ? 2.0 : 1.0;
   return supports * kernel_radius(setup.scale.kernel) + setup.scale.spacing;
 }
 
-/// An equal share of all particles for each rank, wherever they stand: first its part of the fluid, then of the walls
-/// that move; the others come later. Ids are in the order of the fluid and of the walls' numbers.
+/// Makes equal numbers of particles on each rank, wherever they are: first its part of the fluid, then of the moving
+/// walls; the particles of other walls follow later. Ids are in the order of the fluid and of the walls' numbers.
 template <int Dim>
 Particles<Dim> make_particles(const Setup<Dim>& setup, const FluidParticles<Dim>& fluid, const Walls<Dim>& walls) {
   const auto fluid_count = static_cast<std::size_t>(fluid.all);
@@ -123,7 +123,7 @@ bool Flow<Dim>::restore(SavedFlow<Dim> saved) {
   surroundings = {};
   [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
   TAILWATER_ASSERT(are_found, "the state is of this case");
-  // As after a repartition, so that a run that goes on asks for the same rows as one that never stopped.
+  // Same state as after a repartition, so that a resumed run requests the same rows as an uninterrupted one.
   shared_rows.drop_halo_rows(walls, state.particles);
   near_walls.restore(walls, state.particles);
   assign_roles(*this);

@@ -1,6 +1,6 @@
-// A flow by lifetime: the setup, which does not change; the state, which a checkpoint saves; tools, which keep memory
-// between steps and can be rebuilt; and what is known about the present positions. Work fields of one step are values
-// that its stages pass to each other (stages.h).
+// A flow, grouped by lifetime: the setup, which does not change; the state, which a checkpoint saves; tools, which keep
+// memory between steps and can be rebuilt; and data of the present positions. Work fields of one step are values that
+// its stages pass to each other (stages.h).
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ namespace tailwater {
 
 template <int Dim>
 struct Flow {
-  /// Builds the particles, walls and parts of a case (published/make_flow.h). Each rank keeps its share of the
+  /// Builds the particles, walls and parts of a case (published/make_flow.h). Each rank keeps its fraction of the
   /// particles and of the rows of walls; all ranks have the faces of all walls. Collective. Throws InputError for an
   /// impossible geometry.
   Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
@@ -37,8 +37,8 @@ struct Flow {
 
   Setup<Dim> setup;
   State<Dim> state;
-  std::vector<std::unique_ptr<Part<Dim>>> parts;  ///< those that the case has, in the order of their calls
-  const Pores<Dim>* pores = nullptr;              ///< of one of them; null: water can fill all of space
+  std::vector<std::unique_ptr<Part<Dim>>> parts;  ///< the parts of the case, in the order of their calls
+  const Pores<Dim>* pores = nullptr;              ///< belongs to one of the parts; null: water can fill all of space
 
   // Tools.
   Decomposition<Dim> decomposition;
@@ -47,19 +47,19 @@ struct Flow {
   LinearSystem pressure_rows;
   LinearSolver pressure_solver;
 
-  // Now.
+  // Data of the present positions.
   Walls<Dim> walls;                ///< at their present positions
-  SharedRows<Dim> shared_rows;     ///< where other rows are, if there are other ranks
-  NearWalls<Dim> near_walls;       ///< which rows are among the particles
-  Surroundings<Dim> surroundings;  ///< as `locate` found them
-  bool is_located = false;         ///< whether no particle has moved since
+  SharedRows<Dim> shared_rows;     ///< locates other rows, if there are other ranks
+  NearWalls<Dim> near_walls;       ///< the rows that have particles
+  Surroundings<Dim> surroundings;  ///< as computed by `locate`
+  bool is_located = false;         ///< whether no particle has moved since `locate`
   bool has_matrix = false;         ///< whether a second projection has left the matrix of these positions
-  WallForces<Dim> wall_forces;     ///< of the last step; empty if no probe asks for them
+  WallForces<Dim> wall_forces;     ///< of the last step; empty if neither a probe nor a part needs them
   std::vector<Role> role;          ///< of owned particles in this step
   std::vector<Vec<Dim>>
       wall_turn_acceleration;  ///< m/s^2; of water along walls that turn, for owned particles; or empty
 
-  /// Builds a case that is already drawn.
+  /// Builds a case whose walls and water have already been made.
   Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
        const Communicator& ranks, Drawing<Dim> drawing);
 
@@ -86,16 +86,16 @@ struct Flow {
            std::ranges::none_of(parts, [](const auto& part) { return part->changes_rows(); });
   }
 
-  /// Frees the matrix of the pressure equation and what solvers have made of it.
+  /// Frees the matrix of the pressure equation and the solver's data derived from it.
   void forget_matrix() {
     has_matrix = false;
     pressure_solver.forget();
     pressure_rows.forget_weights();
   }
 
-  /// Saves the state and that of the parts, from which `restore` goes on. Uses the memory of what was saved before.
+  /// Saves the state and that of the parts for `restore`. Reuses the memory of `saved`.
   void save(SavedFlow<Dim>& saved) const;
-  /// Continues from a saved flow of the same case. Returns false if its parts are of another one. Collective.
+  /// Continues from a saved flow of the same case. Returns false if its parts belong to another case. Collective.
   bool restore(SavedFlow<Dim> saved);
 
   const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
@@ -108,14 +108,14 @@ struct Flow {
     return {setup.liquid.density, setup.gravity, acceleration, wall_turn_acceleration};
   }
 
-  /// Whether statistics of the bulk count particle i.
+  /// Whether statistics of the bulk include particle i.
   bool is_inside(std::size_t i) const { return role[i] == Role::water && surroundings.interior[i] > 0.5; }
-  /// m^Dim; of the water of particle i, which is its volume unless it shares it with grains.
+  /// m^Dim; volume of water of particle i: its volume, except where grains take part of it.
   double water_volume_of(std::size_t i) const {
     const double volume = state.particles.volume[i];
     return pores == nullptr ? volume : volume * pores->at(state.particles.position[i]).fraction;
   }
-  /// m/s; of all particles: discharge over area, which is the velocity where water can fill all of space.
+  /// m/s; of all particles: discharge over area, which equals the velocity where water can fill all of space.
   std::vector<Vec<Dim>> filter_velocity() const;
   /// Sums over a full lattice of particles like particle i.
   LatticeSums lattice_of(std::size_t i) const {
@@ -131,9 +131,10 @@ struct Flow {
     const PoreSpace space = pores->at(state.particles.position[i]);
     return space.fraction * space.inertia * energy;
   }
-  /// The box around all walls, where they are now, and what parts have of the case's edges; empty if there is nothing.
+  /// The box around all walls at their present positions and the edges of the case that parts define; empty if there is
+  /// nothing.
   Box<Dim> box() const;
-  /// Relative to the origin; there is none along periodic directions.
+  /// J; relative to the origin; periodic directions do not contribute.
   double potential_energy_of(std::size_t i) const {
     return -setup.liquid.density * water_volume_of(i) * setup.gravity_across.dot(state.particles.position[i]);
   }

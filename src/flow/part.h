@@ -1,9 +1,9 @@
 // A part of a flow: one feature, such as open ends, floating bodies or enclosed air, with its setup, its state and its
-// work fields of a step. The stages call the parts of a flow in the order of the list and know nothing else of them.
-// A run without a feature does not construct its part.
+// work fields of a step. The stages call the parts of a flow in the order of the list, only through this interface. A
+// run without a feature does not construct its part.
 //
-// The functions below stand in the order in which a run calls them. Each does nothing unless a part overrides it. Each
-// is called once per loop, never per particle, and on all ranks, so that it may be collective.
+// The functions below are listed in the order in which a run calls them. Each does nothing unless a part overrides it.
+// Each is called once per loop, never per particle, and on all ranks, so that it may be collective.
 #pragma once
 
 #include <cstdint>
@@ -33,22 +33,22 @@ struct FrictionWall;
 template <int Dim>
 struct Setup;
 
-/// What a part asks of the time step.
+/// Limits of the time step that a part requires.
 struct StepLimits {
   double speed = 0.0;                                     ///< m/s; the largest that it gives the water in the step
   double viscosity = 0.0;                                 ///< m^2/s; the largest that it adds to the water's
-  double step = std::numeric_limits<double>::infinity();  ///< s; no step is longer, whatever the water does
+  double step = std::numeric_limits<double>::infinity();  ///< s; upper limit of the step, independent of the water
 
   void include(const StepLimits& other);
 };
 
-/// How the indices of owned particles have changed.
+/// Kind of a change of the indices of owned particles.
 enum class Reordering {
-  sorted,  ///< all of them; particles may have gone to other ranks
-  removed  ///< some particles were taken out, the others keep their order
+  sorted,  ///< all indices; particles may have gone to other ranks
+  removed  ///< some particles were removed, the others keep their order
 };
 
-/// Which of the projections of a step: the one that finds its velocity, or a second one, where the particles arrived.
+/// Projections of a step: the one that computes its velocity, and a second one at the new positions.
 enum class Projection { of_step, again };
 
 /// A number of one step, for a column of steps.csv.
@@ -61,9 +61,9 @@ struct StepColumn {
 class CoupledUnknowns {
  public:
   virtual ~CoupledUnknowns() = default;
-  /// Solves the flow's pressure rows and the unknowns to a tolerance, for a guess. Collective.
+  /// Solves the flow's pressure rows and the unknowns to a tolerance, as an initial guess. Collective.
   virtual SolveReport solve_roughly(double tolerance) = 0;
-  /// The same until pressure and unknowns agree. Collective.
+  /// Solves them until pressure and unknowns agree. Collective.
   virtual SolveReport solve(double tolerance) = 0;
   /// Called when the pressure is final. Collective.
   virtual void finish() {}
@@ -74,130 +74,133 @@ class Part {
  public:
   virtual ~Part() = default;
 
-  // A run.
+  // The run as a whole.
 
-  /// Its name in checkpoints.
+  /// Name of the part in checkpoints.
   virtual std::string_view name() const = 0;
-  /// Whether water can leave or enter the domain through it, so that rows of the pressure change between steps.
+  /// Whether water can leave or enter the domain through the part, so that rows of the pressure change between steps.
   virtual bool is_open() const { return false; }
-  /// Whether it changes rows of the pressure between a second projection and the next step.
+  /// Whether the part changes rows of the pressure between a second projection and the next step.
   virtual bool changes_rows() const { return is_open(); }
-  /// Whether it needs the forces of friction and of the last guard on the walls.
+  /// Whether the part needs the forces of friction and of the last guard on the walls.
   virtual bool needs_wall_forces() const { return false; }
-  /// Extends the box around the case [m] by what the part has of it, where it is now.
+  /// Extends the box around the case [m] by the part's own geometry at its present position.
   virtual void extend_box(Box<Dim>& box) const;
-  /// Called when the particles of the start are there. Throws InputError.
+  /// Called when the initial particles have been made. Throws InputError.
   virtual void begin(Flow<Dim>& flow);
-  /// All that it needs to go on in a resumed run; the same on all ranks.
+  /// The part's state for a resumed run; the same on all ranks.
   virtual Json save() const;
-  /// Goes on from there. Returns whether it is of the same case; throws Json::exception where it is of none.
+  /// Continues from a saved state. Returns whether it belongs to the same case; throws Json::exception if it belongs to
+  /// none.
   virtual bool restore(const Json& saved);
 
   // Between steps.
 
-  /// Replaces particles by others of the same water. The pairs are those of the particles where they are now, except on
-  /// ranks where is_located or has_pairs is false.
+  /// Replaces particles by others of the same water. The pairs are those of the present positions, except on ranks
+  /// where is_located or has_pairs is false.
   virtual void adapt(Flow<Dim>& flow);
-  /// Marks the owned particles that leave the flow, of those not marked yet, and counts them.
+  /// Marks the owned particles that leave the flow, unless they are marked already, and adds them to the part's
+  /// records.
   virtual void take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leaves);
-  /// Adds particles. Returns whether there were any, on any rank.
+  /// Adds particles. Returns whether any rank added some.
   virtual bool bring_in(Flow<Dim>& flow);
   virtual void reordered(Reordering how);
-  /// At the present velocities.
+  /// Limits at the present velocities.
   virtual StepLimits step_limits(const Flow<Dim>& flow) const;
 
   // The beginning of a step.
 
-  /// Sets the role of the owned particles that are not solved for, since the part gives them velocity and pressure.
+  /// Sets the role of the owned particles whose velocity and pressure the part prescribes, so that they are not solved
+  /// for.
   virtual void claim(const Flow<Dim>& flow, std::span<Role> role);
-  /// At the positions where a step of `dt` begins; dt is 0 where only the pressure of the start is wanted.
+  /// Called at the positions where a step of `dt` begins; dt is 0 where only the initial pressure is computed.
   virtual void begin_step(Flow<Dim>& flow, double dt);
 
-  /// Called when particles have moved, before their neighbours are found.
+  /// Called when particles have moved, before the search for neighbours.
   virtual void arrive(Flow<Dim>& flow);
 
   // The prediction.
 
   /// Called before the velocity is predicted, and before a second projection. The part may change the velocity of owned
-  /// particles, which it changes back in `correct`, `stay` or `project_again`.
+  /// particles; `correct`, `stay` or `project_again` must then change it back.
   virtual void begin_projection(Flow<Dim>& flow, Projection projection, double dt);
 
   /// Adds to the viscosity [m^2/s] of all particles.
   virtual void add_viscosity(const Flow<Dim>& flow, std::span<double> viscosity) const;
-  /// Called with the walls that rub each owned particle, which have friction, and the gradient of the present velocity.
+  /// Called with the wall friction of each owned particle, and with the gradient of the present velocity.
   virtual void follow_friction(Flow<Dim>& flow, std::span<const FrictionWall<Dim>> walls,
                                std::span<const Mat<Dim>> velocity_gradient, double dt);
   /// Adds to the rate [1/s] at which owned particles lose the velocity with which the step starts. `rate` is empty
   /// until a part adds to it. The step ends with (u + dt a)/(1 + rate dt), which is stable for any rate.
   virtual void add_damping_rate(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<double>& rate) const;
-  /// Adds rate times target [m/s^2] where a damping rate approaches a target velocity instead of rest: that of the time
-  /// at which the step starts, so that a flow that is the target stays so. `drive` is empty until a part adds to it.
+  /// Adds rate times target [m/s^2] where a damping rate leads to a target velocity instead of rest. The target is that
+  /// at the start of the step, so that a flow equal to the target stays so. `drive` is empty until a part adds to it.
   /// The step ends with (u + dt a + dt drive)/(1 + rate dt).
   virtual void add_relaxation(const Flow<Dim>& flow, const StepStart<Dim>& start, std::vector<Vec<Dim>>& drive) const;
   /// Adds to the acceleration [m/s^2] of owned particles.
   virtual void add_acceleration(const Flow<Dim>& flow, std::span<Vec<Dim>> acceleration) const;
 
-  /// Changes the velocity [m/s] that owned particles have after a step of this acceleration [m/s^2] without pressure.
+  /// Changes the velocity [m/s] of owned particles after a step with this acceleration [m/s^2] and without pressure.
   virtual void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
                                  std::span<Vec<Dim>> predicted);
 
   // The pressure.
 
-  /// Changes the divergence [1/s] at which the projection of a step aims, for which the gradient of the velocity was
-  /// used.
+  /// Changes the target divergence [1/s] of the projection of a step, which was computed from the velocity gradient.
   virtual void change_target(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient, double dt,
                              std::span<double> target) const;
-  /// Writes the rows of the particles that it claims. Those of other water have been written and may be changed.
+  /// Writes the rows of the particles that the part claims. Rows of other water have been written and may be changed.
   virtual void write_rows(Flow<Dim>& flow);
-  /// Called when all rows have weights and sources, with the predicted velocity. May overwrite the sources and must put
-  /// them back. Returns the iterations of its own solves.
+  /// Called when all rows have weights and sources, with the predicted velocity. May overwrite the sources and must
+  /// restore them. Returns the iterations of its own solves.
   virtual int pose(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt);
-  /// Adds to the tension [Pa] that particles keep near the surface, ghosts too. `tension` is empty until a part adds.
+  /// Adds to the tension [Pa] that particles sustain near the surface, ghosts too. `tension` is empty until a part
+  /// adds.
   virtual void add_allowed_tension(const Flow<Dim>& flow, std::vector<double>& tension) const;
-  /// The unknowns that it solves for with the pressure in this step; null: none. `drive` may follow them.
+  /// The unknowns that the part solves for with the pressure in this step; null: none. `drive` may follow them.
   virtual std::unique_ptr<CoupledUnknowns> couple(Flow<Dim>& flow, const PosedEquation& equation,
                                                   WallDrive<Dim>& drive);
   /// Called when the rows have been solved.
   virtual void finish_solve(Flow<Dim>& flow, double dt);
-  /// Adds to the pressure [Pa] of owned particles what the part made of it in the last solve, beside the rows. Returns
-  /// whether there was anything, on all ranks alike.
+  /// Adds the part's own contribution from the last solve to the pressure [Pa] of owned particles. Returns whether
+  /// there was any, the same on all ranks.
   virtual bool add_pressure(std::span<double> pressure) const;
-  /// Takes that out.
+  /// Subtracts the contribution of `add_pressure`.
   virtual void subtract_pressure(std::span<double> pressure) const;
 
   // The correction, and the end of a step.
 
   /// Called when the pressure has corrected the velocity, before anything moves.
   virtual void correct(Flow<Dim>& flow, double dt);
-  /// Takes what pushes walls without the water out of a pressure [Pa], ghosts too.
+  /// Subtracts the contribution that acts on walls directly, not through the water, from a pressure [Pa], ghosts too.
   virtual void subtract_from_walls(const Flow<Dim>& flow, std::vector<double>& pressure) const;
-  /// Adds its work [J] on this rank's water in a step of dt; `on_walls` is the pressure that pushes walls through
-  /// water. Called when the pressure has corrected the velocity, and again, with what walls and ends work set to 0,
-  /// after a second projection.
+  /// Adds the part's work [J] on this rank's water in a step of dt; `on_walls` is the pressure that acts on walls
+  /// through water. Called when the pressure has corrected the velocity. Called again after a second projection, with
+  /// the works of walls and ends set to 0.
   virtual void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const;
   /// Called when a second projection has added `correction` [Pa] to the pressure, where the particles arrived.
   virtual void project_again(Flow<Dim>& flow, const std::vector<double>& correction, double dt);
-  /// Called after the pressure of the start was found: nothing has moved.
+  /// Called after the initial pressure was computed: nothing has moved.
   virtual void stay(Flow<Dim>& flow);
   /// Called when particles and walls have arrived, before the time advances.
   virtual void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-  // Results, the same on all ranks.
+  // Results; the same on all ranks.
 
-  /// Its columns of steps.csv, which are always the same, with their values in the last step.
+  /// The part's columns of steps.csv, always the same ones, with their values in the last step.
   virtual std::vector<StepColumn> step_columns() const;
-  /// Adds its blocks to summary.json.
+  /// Adds the part's blocks to summary.json.
   virtual void add_to_summary(const Flow<Dim>& flow, Json& summary) const;
-  /// Adds the water that it took out and brought in since the start.
+  /// Adds the water that the part has removed and added since the start.
   virtual void add_passed_water(WaterAmount& departed, WaterAmount& arrived) const;
-  /// Warns, once in a run, of what it does not do as the case prescribes. Called after each step of a run that writes
-  /// a folder; only the root's warnings are shown.
+  /// Warns, once in a run, where the part deviates from the case. Called after each step of a run that writes a folder;
+  /// only the root's warnings are shown.
   virtual void warn(const Flow<Dim>& flow);
   /// Warns at the end of such a run.
   virtual void warn_at_end(const Flow<Dim>& flow) const;
 };
 
-/// Makes a part of a case; null if the case has nothing of it. Throws InputError.
+/// Makes a part of a case; null if the case does not use the feature. Throws InputError.
 template <int Dim>
 using PartMaker = std::unique_ptr<Part<Dim>> (*)(const CaseSpec& spec, const Setup<Dim>& setup,
                                                  const Boundary<Dim>& boundary);

@@ -1,5 +1,5 @@
-// What a particle is for the pressure equation and the shifts, in one step. Parts of the flow (flow/part.h) claim the
-// particles whose velocity they give.
+// Role of a particle in the pressure equation and the shifts, in one step. Parts of the flow (flow/part.h) claim the
+// particles whose velocity they prescribe.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@ namespace tailwater {
 
 enum class Role : std::uint8_t {
   water,          ///< is solved for
-  prescribed,     ///< water whose velocity and pressure a part gives
-  following,      ///< water whose velocity a part gives; its pressure follows that of the water around it
-  stagnant,       ///< water at rest in a gap too narrow to be resolved; a part gives its pressure
-  wall,           ///< its row says how its pressure follows from the water's (walls/wall_model.h)
+  prescribed,     ///< water whose velocity and pressure a part prescribes
+  following,      ///< water whose velocity a part prescribes; its pressure follows that of the water around it
+  stagnant,       ///< water at rest in a gap too narrow to be resolved; a part prescribes its pressure
+  wall,           ///< its row relates its pressure to that of the water (walls/wall_model.h)
   solved_on_wall  ///< wall particle on the wall, where the water's equation is solved too
 };
 
@@ -20,10 +20,10 @@ constexpr bool is_claimed(Role role) {
   return role == Role::prescribed || role == Role::following || role == Role::stagnant;
 }
 
-/// Whether its pressure is solved for by the water's equation.
+/// Whether the particle's pressure is solved for by the water's equation.
 constexpr bool is_solved_for(Role role) { return role == Role::water || role == Role::solved_on_wall; }
 
-/// Whether its row of the pressure equation is written by the water's stages or a part, not by the wall model.
+/// Whether the water's stages or a part write the particle's row of the pressure equation, and not the wall model.
 constexpr bool has_equation(Role role) { return role != Role::wall; }
 
 }  // namespace tailwater

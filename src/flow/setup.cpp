@@ -28,11 +28,11 @@ PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
   return periodic;
 }
 
-/// [dx]; edge of the cubes of space of which each rank makes the walls. Around a cube rows are made, and thrown away,
-/// to find out which have room at its border.
+/// [dx]; edge of the cubes of space in which each rank makes the walls. Rows around a cube are made as well, and then
+/// removed, to decide which rows at its border are free of others.
 constexpr double cube_over_spacing = 32.0;
 
-/// The drawn walls, those of ducts, and the rows in this rank's share of space.
+/// The drawn walls, those of ducts, and the rows in this rank's part of space.
 template <int Dim>
 Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks,
                       const SpacingField<Dim>& field, Boundary<Dim> drawn) {
@@ -69,8 +69,8 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   return walls;
 }
 
-/// The water at the start: that of the case file, and in ducts. `drawn` are the walls without ducts, if there are
-/// ducts. Collective.
+/// The water at the start: that of the case file, and that in ducts. `drawn` are the walls without ducts; it is used
+/// only if there are ducts. Collective.
 template <int Dim>
 FluidParticles<Dim> make_fluid(const CaseSpec& spec, const Walls<Dim>& walls, Boundary<Dim>& drawn,
                                const Communicator& ranks) {
@@ -86,7 +86,7 @@ FluidParticles<Dim> make_fluid(const CaseSpec& spec, const Walls<Dim>& walls, Bo
   return fluid;
 }
 
-/// What of `v` is across the directions that are periodic.
+/// The components of `v` in directions that are not periodic.
 template <int Dim>
 Vec<Dim> across(const PeriodicDomain<Dim>& domain, Vec<Dim> v) {
   for (int d = 0; d < Dim; ++d) {
@@ -95,8 +95,8 @@ Vec<Dim> across(const PeriodicDomain<Dim>& domain, Vec<Dim> v) {
   return v;
 }
 
-/// Whether water fills a domain that is periodic in every direction, by the number of its particles. Water beside walls
-/// there is full if it has no neighbours missing, as in any closed space (pressure/full_water.h).
+/// Whether water fills a domain that is periodic in every direction, according to the number of its particles. A domain
+/// with walls in it is full if no particle lacks neighbours, as in any closed space (pressure/full_water.h).
 template <int Dim>
 bool fills_domain(const PeriodicDomain<Dim>& domain, const FluidParticles<Dim>& fluid, double spacing) {
   double cells = 1.0;
@@ -135,7 +135,7 @@ template <int Dim>
 Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks)
     : Drawing(spec, model, ranks, make_boundary<Dim>(spec)) {}
 
-/// The drawn walls are kept for the water only where open ends may add ducts to them.
+/// Keeps a copy of the drawn walls for the water only where open ends may add ducts to them.
 template <int Dim>
 Drawing<Dim>::Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks, Boundary<Dim> drawn)
     : spacing_field(spec, drawn),

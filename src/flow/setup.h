@@ -1,4 +1,4 @@
-// What does not change during a run: the case as the steps need it.
+// Data that do not change during a run, derived from the case for the steps.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@
 
 namespace tailwater {
 
-/// The walls of a case, of which all ranks have the faces, and this rank's part of their rows and of the water at the
-/// start.
+/// The initial geometry of a case: the faces of all walls on every rank, and this rank's part of the rows of walls and
+/// of the water.
 template <int Dim>
 struct Drawing {
   /// Throws InputError for an impossible geometry. Collective.
@@ -36,7 +36,7 @@ struct Drawing {
   Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks, Boundary<Dim> drawn);
 };
 
-/// Depth of the water [m] that there may be: at the start, and by what open ends bring. Collective.
+/// Largest possible depth of the water [m]: the initial depth or that of open ends. Collective.
 template <int Dim>
 double largest_depth(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
@@ -44,7 +44,7 @@ bool has_force_probe(const CaseSpec& spec);
 
 template <int Dim>
 struct Setup {
-  /// Takes the motion of the walls out of `drawing`.
+  /// Moves the motion of the walls out of `drawing`.
   Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, const Communicator& all_ranks, Drawing<Dim>& drawing);
 
   Communicator ranks;
@@ -52,11 +52,11 @@ struct Setup {
   Liquid liquid;
   Scale<Dim> scale;
   std::shared_ptr<const GradedSums<Dim>> graded;  ///< null: all particles have the spacing of `scale`
-  std::int64_t first_wall_id;                     ///< of a wall particle of number 0
+  std::int64_t first_wall_id;                     ///< id of the wall particle with number 0
   Vec<Dim> gravity;                               ///< m/s^2
   double length;  ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   PeriodicDomain<Dim> domain;
-  Vec<Dim> gravity_across;  ///< m/s^2; across the periodic directions: along them water falls without end
+  Vec<Dim> gravity_across;  ///< m/s^2; without the periodic directions, along which water falls without end
   bool is_closed;           ///< water fills a domain periodic in every direction: no surface, pressure up to a constant
   WallMotion<Dim> wall_motion;
   FrictionLaw friction_law;
@@ -65,17 +65,17 @@ struct Setup {
   /// of `liquid` and `friction_law` are then 0.
   bool has_implicit_viscosity = false;
 
-  /// Whether missing neighbours count as air, so that nothing pulls near the surface.
+  /// Whether missing neighbours count as air, so that there is no tension near the surface.
   bool has_air() const { return formulation.surface_is_air && !is_closed; }
-  /// Spacing of particles at a place over that of the case.
+  /// Local spacing of particles relative to that of the case.
   double relative_spacing(const Vec<Dim>& x) const { return graded == nullptr ? 1.0 : graded->field().at(x); }
-  /// The least that there is.
+  /// The least relative spacing.
   double finest_spacing() const { return graded == nullptr ? 1.0 : graded->field().finest(); }
-  /// Weight of a particle of this volume [m^Dim] in statistics of the water: 1 if all have one spacing.
+  /// Weight of a particle of this volume [m^Dim] in statistics of the water: 1 if all particles have one spacing.
   double weight_in_statistics(double volume) const {
     return graded == nullptr ? 1.0 : volume / power<Dim>(scale.spacing);
   }
-  /// At the case's spacing: viscosity [m^2/s] of the noise dissipation when the largest speed is `speed`.
+  /// Viscosity [m^2/s] of the noise dissipation at the case's spacing, when the largest speed is `speed` [m/s].
   double noise_viscosity(double speed) const {
     return formulation.noise_viscosity * scale.spacing * std::max(speed, time_step_rule.reference_speed);
   }

@@ -1,4 +1,4 @@
-// What the stages of one step hand to each other, and what a step reports.
+// Data that the stages of one step pass to each other, and the report of a step.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace tailwater {
 
-/// Where a step started; owned particles.
+/// State at the start of a step; owned particles.
 template <int Dim>
 struct StepStart {
   std::vector<Vec<Dim>> position;       ///< m; r^n
@@ -19,14 +19,14 @@ struct StepStart {
   double energy = 0.0;                  ///< J; of this rank's fluid
 };
 
-/// Where the walls are driven in a step, by row of walls that move.
+/// Prescribed motion of the walls in a step, by row of moving walls.
 template <int Dim>
 struct WallDrive {
-  std::vector<Vec<Dim>> velocity;      ///< m/s; that the projection gives the fluid beside them
-  std::vector<Vec<Dim>> acceleration;  ///< m/s^2; that leads there, in the directions that the wall blocks
+  std::vector<Vec<Dim>> velocity;      ///< m/s; that the projection imposes on the fluid beside them
+  std::vector<Vec<Dim>> acceleration;  ///< m/s^2; that leads to it, in the directions that the wall blocks
 };
 
-/// What `predict` finds.
+/// Results of `predict`.
 template <int Dim>
 struct Prediction {
   std::vector<Vec<Dim>> velocity;           ///< m/s; u_star, walls and ghosts too
@@ -34,7 +34,7 @@ struct Prediction {
   std::vector<Mat<Dim>> velocity_gradient;  ///< 1/s; of u^n; empty where no term needs it
 };
 
-/// Things a step did that the equations do not ask for. A sound run needs few.
+/// Counts of corrections that are not part of the equations. A sound run has few.
 struct Interventions {
   std::size_t stopped_at_walls = 0;  ///< moves that would have ended behind a wall
   std::size_t capped_shifts = 0;     ///< shifts that would have been longer than their bound
@@ -44,25 +44,25 @@ struct Interventions {
   Interventions& operator+=(const Interventions& other);
 };
 
-/// Of the pressure in one pass.
+/// Report of the pressure in one pass.
 struct PressureReport {
   int iterations = 0;
   double residual = 0.0;  ///< of the last solve
   Interventions interventions;
 };
 
-/// The equation that stands in the flow's pressure rows.
+/// The equation in the flow's pressure rows.
 struct PosedEquation {
   std::size_t fallback_rows = 0;
   int iterations = 0;                  ///< of the solves that parts needed to pose it
   std::vector<double> density_source;  ///< Pa/m^2; PressureSource::density
   double dt = 0.0;                     ///< s
-  double fullness = 0.0;               ///< 1 where water fills its walls, 0 where a particle or more is beside air
+  double fullness = 0.0;               ///< 1 where water fills the space between walls, 0 beside air
 };
 
-/// Works [J] of one step on the water: of the pressure on what the density source expands, of the pressure of moving
-/// walls, of what is prescribed at open ends, of viscosity and friction, of the gas in pockets of air, and of gravity
-/// along periodic directions.
+/// Works [J] of one step on the water: of the pressure on the expansion by the density source, of the pressure of
+/// moving walls, of the conditions at open ends, of viscosity and friction, of the gas in pockets of air, and of
+/// gravity along periodic directions.
 struct Works {
   double density = 0.0;
   double walls = 0.0;
@@ -72,31 +72,31 @@ struct Works {
   double slope = 0.0;
 };
 
-/// What a step leaves of the divergence: the rms of div u in the bulk [1/s].
+/// Divergence that remains after a step: rms of div u in the bulk [1/s].
 struct DivergenceReport {
   double at_old_positions;  ///< those of the last solve
   double at_new_positions;
-  double moved;  ///< rms of the difference: the part that comes from the old positions
+  double moved;  ///< rms of the difference: the part caused by the change of positions
 };
 
-/// What one step reports.
+/// Report of one step.
 struct StepReport {
   double dt = 0.0;
   int passes = 0;                              ///< of the implicit iteration; 1 for the explicit projection
   int iterations = 0;                          ///< of the pressure solves, all passes
   double residual = 0.0;                       ///< of the last solve
   double pressure_change = 0.0;                ///< rms change of p in the last pass over rms p; 0 for one pass
-  std::optional<DivergenceReport> divergence;  ///< of some steps only
+  std::optional<DivergenceReport> divergence;  ///< in some steps only
   Works work;
-  double density_share = 1.0;  ///< share of the density source that lifts which the energy left to the next step
+  double density_share = 1.0;  ///< fraction of the lifting density source in the next step
   Interventions interventions;
 
   void add(const PressureReport& pressure);
-  /// J; what viscosity and friction brought: moving walls drag the water by more than is dissipated.
+  /// J; work of viscosity and friction where it is positive: moving walls drag the water by more than is dissipated.
   double dragged() const { return std::max(0.0, work.viscous); }
-  /// J; what moving walls gave the water.
+  /// J; energy that moving walls have given the water.
   double brought_by_walls() const { return work.walls + dragged(); }
-  /// J; what moving walls, open ends, gas and a slope without end gave it.
+  /// J; energy that moving walls, open ends, gas and an endless slope have given the water.
   double brought() const { return brought_by_walls() + work.ends + work.air + work.slope; }
 };
 

@@ -9,16 +9,16 @@
 namespace tailwater {
 namespace {
 
-/// [s]; a wall must not move out and back within a step unseen, so a longer one is looked at as often as this. Without
-/// gravity nothing may limit the step, and it is no longer.
+/// [s]; interval at which the positions of walls are sampled within a longer step, so that no wall moves out and back
+/// undetected. Without gravity, where nothing else may limit the step, it is the longest step.
 constexpr double time_between_looks = 0.01;
 
-/// [dx]; how much nearer two particles may come in a step. Those that would meet at one place gain energy
-/// (docs/theory/robustness.md).
+/// [dx]; largest reduction of the distance between two particles in a step. Particles that would meet at one point gain
+/// energy (docs/theory/robustness.md).
 constexpr double largest_approach_in_step = 0.9;
 
-/// The largest speed [m/s] of the water where particles have several spacings: over the spacing where the water is,
-/// times the finest one.
+/// The largest speed [m/s] of the water where particles have several spacings: each speed is divided by the local
+/// spacing and multiplied by the finest one.
 template <int Dim>
 double largest_speed_over_spacing(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
@@ -30,7 +30,7 @@ double largest_speed_over_spacing(const Flow<Dim>& flow) {
   }));
 }
 
-/// The largest distance [m] that a corner of a wall is from where it was, within `dt` [s] from now on.
+/// The largest distance [m] of a corner of a wall from its present position, within the next `dt` [s].
 template <int Dim>
 double largest_displacement_within(const Flow<Dim>& flow, double dt) {
   const double time = flow.state.time;
@@ -47,7 +47,7 @@ double largest_displacement_within(const Flow<Dim>& flow, double dt) {
 
 template <int Dim>
 double largest_approach(Flow<Dim>& flow) {
-  // Of two particles that come nearer so fast that it matters one has at least half of that speed.
+  // If two particles approach each other fast enough to matter, one of them has at least half of that speed.
   const TimeStepRule& rule = flow.setup.time_step_rule;
   const double speed = largest_speed(flow);
   const double least_speed = 0.5 * largest_approach_in_step / rule.courant * rule.limiting_speed(speed);
@@ -84,7 +84,7 @@ double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
       setup.liquid.viscosity.at_speed(speed) + setup.finest_spacing() * setup.noise_viscosity(speed) + limits.viscosity;
   const double limiting = setup.graded == nullptr ? speed : std::max(largest_speed_over_spacing(flow), limits.speed);
   const double dt = setup.time_step_rule.largest(limiting, viscosity);
-  // The rule counts no speed above its `fastest`, so two particles do not come together at more than twice that.
+  // The rule counts no speed above its `fastest`, so two particles approach each other at no more than twice that.
   const double approach = std::min(flow.state.approach, 2.0 * setup.time_step_rule.limiting_speed(speed));
   return approach > 0.0 ? std::min(dt, largest_approach_in_step * setup.time_step_rule.spacing / approach) : dt;
 }
