@@ -23,8 +23,8 @@
 
 namespace tailwater {
 
-/// Name of a block of fluid, a wall, an inlet or an outlet that was not given one: fluid1, fluid2, ..., wall1, ...;
-/// `index` counts from 0.
+/// Default name of a block of fluid, a wall, an inlet or an outlet: fluid1, fluid2, ..., wall1, ...; `index` counts
+/// from 0.
 inline std::string default_name(const std::string& table, std::size_t index) {
   return table + std::to_string(index + 1);
 }
@@ -38,11 +38,11 @@ inline constexpr std::array<std::string_view, 1> time_name{"t"};
 /// Name of the height above an open end's lowest point, over the depth of the water, in profiles of velocity.
 inline constexpr std::array<std::string_view, 1> height_name{"s"};
 
-/// Names of the time and of the discharge that leaves through an open end, in expressions of its level. Where a
-/// parameter has the name of the discharge, the name stands for the parameter.
+/// Names of the time and of the discharge through an open end, in expressions of its level. A parameter with the name
+/// of the discharge takes precedence.
 inline constexpr std::array<std::string_view, 2> level_names{"t", "q"};
 
-/// What an expression may depend on besides the named numbers.
+/// Variables of an expression, besides the named numbers.
 enum class Variables { position, time, height, level };
 
 /// A number, or an expression that varies in space or time.
@@ -73,11 +73,10 @@ struct Range {
   }
 };
 
-/// Whether a key must be given. One that is `written` is given only by a run, in the case that it writes beside its
-/// results.
+/// Whether a key must be given. A `written` key is given only by a run, in the case that it writes beside its results.
 enum class Presence { optional, required, written };
 
-/// Of the format of case files that this program writes and reads; it reads all earlier ones.
+/// Version of the case-file format that this program writes; it reads all earlier ones.
 inline constexpr int case_format = 1;
 
 struct CaseTable {
@@ -125,7 +124,7 @@ struct PhysicsTable {
   }
 };
 
-/// A liquid that resists shear otherwise than water. Its law of viscosity is rheology.h.
+/// A liquid that is not water, with its own density and law of viscosity (rheology.h).
 struct LiquidTable {
   std::string name;
   double density = 1000.0;
@@ -185,7 +184,8 @@ struct ParticlesTable {
   }
 };
 
-/// Air that water and walls enclose. Air that reaches the open has the pressure 0 of the water's equations.
+/// Air enclosed by water and walls. Air that is connected to the atmosphere has the pressure 0 of the water's
+/// equations.
 struct AirTable {
   AirPockets pockets = AirPockets::none;
   double pressure = 101325.0;
@@ -201,7 +201,7 @@ struct AirTable {
   }
 };
 
-/// An enclosed space whose air is not at the atmosphere's pressure at the start.
+/// An enclosed space with an initial air pressure that differs from the atmosphere's.
 struct PocketTable {
   std::string name;  ///< no key: pocket1, pocket2, ...
   Coordinates at;
@@ -218,7 +218,7 @@ struct PocketTable {
   }
 };
 
-/// An opening through which the air of an enclosed space comes and goes, and no water.
+/// An opening through which the air of an enclosed space passes, but no water.
 struct VentTable {
   std::string name;  ///< no key: vent1, vent2, ...
   Coordinates at;
@@ -241,7 +241,7 @@ struct VentTable {
   }
 };
 
-/// Directions in which the domain repeats itself; an empty range: not periodic.
+/// Periodic directions of the domain; an empty range: not periodic.
 struct DomainTable {
   std::vector<double> periodic_x;
   std::vector<double> periodic_y;
@@ -258,7 +258,7 @@ struct DomainTable {
   }
 };
 
-/// A mesh from a file, and where it stands in the case.
+/// A mesh from a file, and its placement in the case.
 struct PlacedFile {
   std::string file;
   std::string checksum;
@@ -316,7 +316,7 @@ struct FluidTable : PlacedFile {
   }
 };
 
-/// Which table says how a wall moves: its own, or that of a gate, a wave maker or a floating body.
+/// The table that determines the motion of a wall: its own, or that of a gate, a wave maker or a floating body.
 struct Drive {
   enum class By { wall, gate, wave_maker, body };
   By by = By::wall;
@@ -345,7 +345,7 @@ struct WallTable : PlacedFile {
   Coordinates pivot;
   Coordinates axis;
 
-  TimeSeries series;  ///< what the file `motion` holds: t, x, y, z, angle
+  TimeSeries series;  ///< contents of the file `motion`: t, x, y, z, angle
   Drive drive;
 
   bool operator==(const WallTable&) const = default;
@@ -395,7 +395,7 @@ struct WallTable : PlacedFile {
   }
 };
 
-/// A flat plate that is pulled out of the water: after the case has been read it is one of the walls.
+/// A flat plate that is pulled out of the water. After the case has been read, it is one of the walls.
 struct GateTable {
   std::string name;
   Coordinates from;
@@ -410,7 +410,7 @@ struct GateTable {
   std::string checksum;
   double travel = 0.0;
 
-  TimeSeries series;  ///< what the file holds: t, displacement
+  TimeSeries series;  ///< contents of the file: t, displacement
 
   bool operator==(const GateTable&) const = default;
 
@@ -481,7 +481,7 @@ struct WaveKeys {
   }
 };
 
-/// A flat upright plate that makes or absorbs waves: after the case has been read it is one of the walls.
+/// A flat upright plate that makes or absorbs waves. After the case has been read, it is one of the walls.
 struct WaveMakerTable : WaveKeys {
   std::string name;
   MakerType type = MakerType::piston;
@@ -512,11 +512,11 @@ struct WaveMakerTable : WaveKeys {
   }
 };
 
-/// Names of a body's degrees of freedom; in 2D it turns about its one axis, "rotation".
+/// Names of a body's degrees of freedom; in 2D "rotation" is about the only axis.
 inline constexpr std::array<std::string_view, 7> freedom_names{"x",          "y",          "z",         "rotation",
                                                                "rotation_x", "rotation_y", "rotation_z"};
 
-/// A rigid body that the water moves: after the case has been read its walls are driven by it.
+/// A rigid body that the water moves. After the case has been read, it drives its walls.
 struct BodyTable {
   std::string name;
   std::vector<std::string> walls;
@@ -543,7 +543,7 @@ struct BodyTable {
   }
 };
 
-/// A line that holds a body, or ties it to another.
+/// A line that holds a body, or connects it to another.
 struct MooringTable {
   std::string name;  ///< no key: mooring1, mooring2, ...
   std::vector<std::string> bodies;
@@ -570,7 +570,7 @@ struct MooringTable {
   }
 };
 
-/// A stretch of water in which the velocity is relaxed: to rest, so that waves decay, or to that of given waves.
+/// A zone of the water in which the velocity is relaxed: to rest, so that waves decay, or to that of given waves.
 struct DampingTable : WaveKeys {
   std::string name;  ///< no key: damping1, damping2, ...
   Coordinates min;
@@ -625,7 +625,7 @@ struct RefinementTable {
   }
 };
 
-/// A region filled with stones or grains that rest. What the law makes of the grains is porous/porous_law.h.
+/// A region filled with stones or grains at rest. porous/porous_law.h has the laws of resistance.
 struct PorousTable : PlacedFile {
   std::string name;
   RegionShape shape = RegionShape::box;
@@ -675,8 +675,8 @@ struct PorousTable : PlacedFile {
   }
 };
 
-/// Default of `absorbing` at an inlet and an outlet: a disturbance of the level loses half of its height at each
-/// reflection, and the level lags by a third of what a fully absorbing end lags by (docs/theory/open_ends.md).
+/// Default of `absorbing` at an inlet and an outlet. A disturbance of the level loses half of its height at each
+/// reflection, and the level lags by a third of the lag at a fully absorbing end (docs/theory/open_ends.md).
 inline constexpr double default_absorbing = 0.3;
 
 template <class Self, class Visitor>
@@ -686,8 +686,8 @@ void describe_absorbing(Self& self, Visitor& v) {
            "wave passes through the case and lets waves out");
 }
 
-/// The section of an inlet or outlet: a segment in 2D; in 3D a rectangle, a polygon, a disc, or what the walls leave
-/// open of a plane.
+/// The section of an inlet or outlet: a segment in 2D; in 3D a rectangle, a polygon, a disc, or the region between the
+/// walls of a plane.
 struct Section {
   Coordinates from;
   Coordinates to;
@@ -728,7 +728,7 @@ struct InletTable : Section {
   std::string water_from;
   double reserve = 0.0;
 
-  TimeSeries series;  ///< what the file holds: t, discharge, velocity, level
+  TimeSeries series;  ///< contents of the file: t, discharge, velocity, level
 
   bool operator==(const InletTable&) const = default;
 
@@ -774,7 +774,7 @@ struct OutletTable : Section {
   std::string file;
   std::string checksum;
 
-  TimeSeries series;  ///< what the file holds: t, level
+  TimeSeries series;  ///< contents of the file: t, level
 
   bool operator==(const OutletTable&) const = default;
 
@@ -804,7 +804,7 @@ struct OutletTable : Section {
   }
 };
 
-/// Whether water may come in through it, from beyond.
+/// Whether water can enter through the outlet.
 inline bool may_bring_water(const OutletTable& outlet) { return outlet.level || !outlet.file.empty(); }
 
 struct TimeTable {
@@ -822,8 +822,8 @@ struct TimeTable {
   }
 };
 
-/// The scheme. `name`, `formulation` and `integrator` decide the default of `courant` (formulation.h); the initialisers
-/// are those of farzin2014, robust.
+/// The scheme. `name`, `formulation` and `integrator` determine the default of `courant` (formulation.h); the
+/// initialisers are those of farzin2014, robust.
 struct SchemeTable {
   SchemeName name = SchemeName::farzin2014;
   Formulation formulation = Formulation::robust;
@@ -854,8 +854,8 @@ struct SchemeTable {
   }
 };
 
-/// What a study changes in the robust formulation to see what a part of it is worth. No case needs these keys, and the
-/// reference does not list them.
+/// Changes of the robust formulation by which a study measures the effect of its components. No case needs these keys,
+/// and the reference does not list them.
 struct StudyTable {
   double support = 3.0;
   double length = 0.0;
@@ -898,7 +898,7 @@ struct StudyTable {
 };
 
 struct PressureSolverTable {
-  KrylovMethod method = KrylovMethod::automatic;  ///< no key: it goes with the preconditioner
+  KrylovMethod method = KrylovMethod::automatic;  ///< no key: the preconditioner determines it
   PreconditionerName preconditioner = PreconditionerName::automatic;
   double tolerance = 1e-4;
   int max_iterations = 500;
@@ -930,7 +930,7 @@ struct ParallelTable {
   }
 };
 
-/// When a run warns of its own results, or gives up.
+/// Thresholds at which a run warns of its own results, or stops.
 struct LimitsTable {
   double energy_warning = 1e-3;
   double energy_stop = 0.0;
@@ -1031,7 +1031,7 @@ struct ProbeTable {
   }
 };
 
-/// What a laboratory has measured, to be compared with what a probe has written.
+/// Laboratory measurements for comparison with the output of a probe.
 struct MeasurementTable {
   std::string name;  ///< no key: measurement1, measurement2, ...
   std::string probe;
@@ -1041,7 +1041,7 @@ struct MeasurementTable {
   double shift = 0.0;
   double scatter = 0.0;
 
-  TimeSeries series;  ///< what the file holds: t, and one column in the unit of the probe's
+  TimeSeries series;  ///< contents of the file: t, and one column in the unit of the probe's
 
   bool operator==(const MeasurementTable&) const = default;
 
@@ -1075,7 +1075,7 @@ struct Parameter {
   bool operator==(const Parameter&) const = default;
 };
 
-/// A whole case, each key read and validated; the geometry as a whole is checked in checks/check.h.
+/// A whole case, each key read and validated; checks/check.h checks the geometry as a whole.
 struct CaseSpec {
   std::vector<Parameter> parameters;
   CaseTable general;
@@ -1087,7 +1087,7 @@ struct CaseSpec {
   ParticlesTable particles;
   DomainTable domain;
   std::vector<FluidTable> fluid;
-  std::vector<WallTable> walls;  ///< and, behind those of the file, what gates and wave makers are
+  std::vector<WallTable> walls;  ///< after those of the file: the walls of gates and wave makers
   std::vector<GateTable> gates;
   std::vector<WaveMakerTable> wave_makers;
   std::vector<BodyTable> bodies;
@@ -1108,7 +1108,7 @@ struct CaseSpec {
   StudyTable study;
   CaseSources sources;
 
-  // Compiled once, in spec.cpp: that of some twenty tables was in two dozen objects.
+  // Compiled once, in spec.cpp: otherwise two dozen objects would contain the code for some twenty tables.
   CaseSpec();
   CaseSpec(const CaseSpec&);
   CaseSpec(CaseSpec&&) noexcept;

@@ -3,10 +3,10 @@
 //   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j dW e_ij,    M_i = sum_j w_j r (-dW) e_ij e_ij
 //   crowding_i = sum_j w_j (1 + 0.2 (W_ij/W(dx))^4) dW e_ij
 //
-// C is the share of space around the particle that is filled: 1 (up to quadrature, see lattice.h) inside and smaller at
-// a surface; -grad C points out of the fluid. M, the first moment, is what the kernel's gradient makes of a linear
-// field: I on a full lattice, and with the eigenvalue 1/2 across a flat surface. The crowding is grad C with a weight
-// of Lind et al. (2012) against pairs: it points to where particles are too close together.
+// C is the filled fraction of the space around the particle: 1 inside (up to quadrature, see lattice.h) and smaller at
+// a surface; -grad C points out of the fluid. M, the first moment, is the result of the kernel's gradient for the
+// linear field x: I on a full lattice, and with the eigenvalue 1/2 across a flat surface. The crowding is grad C with
+// the weight of Lind et al. (2012) against pairing: it points to where particles are too close together.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct KernelSums {
   Vec<Dim> crowding;      ///< 1/m
 };
 
-/// Values of the kernel [1/m^Dim] where particles have the case's spacing.
+/// Values of the kernel [1/m^Dim] for particles with the case's spacing.
 struct KernelValues {
   double W_0;        ///< W(0)
   double W_spacing;  ///< W(dx)

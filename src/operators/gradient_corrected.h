@@ -3,8 +3,8 @@
 //   grad v_i = [ sum_j w_j (v_j - v_i) dW e_ij ] . L_i,    L_i = M_i^-1,   M_i of concentration.h
 //
 // Exact for linear fields where the neighbours span space. M is I on a full lattice and has the eigenvalue 1/2 across a
-// flat surface; where its smallest eigenvalue falls below 0.5 the correction fades, and below 0.3 (spray) there is
-// none, and the uncorrected derivative is too small rather than too large. Continuous in the positions.
+// flat surface. Where its smallest eigenvalue falls below 0.5 the correction decreases, and below 0.3 (spray) there is
+// none; the uncorrected derivative is then too small rather than too large. Continuous in the positions.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,13 @@
 
 namespace tailwater {
 
-/// Share of the correction that is applied where M has this smallest eigenvalue.
+/// Fraction of the correction that is applied where M has this smallest eigenvalue.
 inline double correction_share(double least_eigenvalue_M) {
   return std::clamp((least_eigenvalue_M - 0.3) / 0.2, 0.0, 1.0);
 }
 
-/// The same of M itself. Inside the water it is 1 already by what Gershgorin's circles leave of the eigenvalue.
+/// Fraction of the correction for M. Inside the water the bound of the eigenvalue by Gershgorin's circles suffices for
+/// 1.
 template <int Dim>
 double share_of_correction(const Mat<Dim>& first_moment) {
   const Vec<Dim> off_diagonal = first_moment.cwiseAbs() * Vec<Dim>::Ones() - first_moment.diagonal().cwiseAbs();
@@ -29,7 +30,7 @@ double share_of_correction(const Mat<Dim>& first_moment) {
   return correction_share(least_eigenvalue<Dim>(first_moment));
 }
 
-/// A sum over pairs with this share of the correction by M.
+/// A sum over pairs with the fraction `share` of the correction by M.
 template <int Dim>
 Mat<Dim> corrected(const Mat<Dim>& sum, const Mat<Dim>& M, double share) {
   if (share == 0.0) return sum;
@@ -50,9 +51,9 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
   return corrected<Dim>(sum_of(sums), first_moment, share_of_correction<Dim>(first_moment));
 }
 
-/// The same over fluid neighbours alone, with M of the same sum, so exact for linear fields: for water that sticks to a
-/// wall, whose dummies glide along. M has 0.45 across a wall or a surface; the correction is full from 0.25 on, and
-/// there is none below 0.1 (a single row).
+/// Gradient as above over fluid neighbours alone, with M of the same sum, and so exact for linear fields. For water at
+/// a no-slip wall, whose dummies show a slip velocity. M has the eigenvalue 0.45 across a wall or a surface; the
+/// correction is full from 0.25 on, and there is none below 0.1 (a single row).
 template <int Dim>
 Mat<Dim> gradient_in_water(const Pairs<Dim>& pairs, std::size_t i, std::span<const Float4> field) {
   MatLanes<Dim> sums{};

@@ -12,11 +12,11 @@
 namespace tailwater {
 namespace {
 
-/// Least eigenvalue of a first moment that is divided by, over its largest: that of half a support.
+/// Least eigenvalue of a first moment in divisions, over its largest: that of half a support.
 constexpr double least_share = 0.5;
 
-/// T = lambda_min M^-1: T M has no direction, and T is I across a surface, where lambda is least. Eigenvalues of M
-/// below half of its largest count as that, so T is between 1/2 and 1 for any set.
+/// T = lambda_min M^-1: T M is isotropic, and T is I across a surface, where lambda is least. Eigenvalues of M below
+/// half of its largest one are raised to that value, so T is between 1/2 and 1 for any set.
 template <int Dim>
 Mat<Dim> equalising_correction(const Mat<Dim>& moment) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen;
@@ -29,14 +29,14 @@ Mat<Dim> equalising_correction(const Mat<Dim>& moment) {
   return vectors * scale.asDiagonal() * vectors.transpose();
 }
 
-/// What the mean of first moments reads of a neighbour.
+/// Data that the mean of first moments reads from a neighbour.
 template <int Dim>
 struct alignas(Dim == 2 ? 16 : 32) InteriorMoment {
   float interior;
   std::array<float, symmetric_size<Dim>> first_moment;  ///< M, packed
 };
 
-/// B_i of owned particles, and the mean of `interior`.
+/// Computes B_i of owned particles, and the mean of `interior`.
 template <int Dim>
 void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input, CorrectionReach reach,
                              std::span<Packed<Dim>> correction, std::span<double> mean_interior) {
@@ -59,8 +59,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     }
     correction[i] = (1.0 - share) * packed<Dim>(at_surface);
     if (share == 0.0) return;
-    // Weights 1 - (r/R)^2, and by volume where volumes differ: a mean over as many neighbours as there are, and
-    // continuous.
+    // Weights 1 - (r/R)^2, times the volume where volumes differ: a continuous mean over all neighbours in the support.
     std::array<Lanes, symmetric_size<Dim>> sums{};
     Lanes weight_sums{};
     Lanes interiors{};
@@ -89,12 +88,12 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
   });
 }
 
-/// The equation for l, row by row.
+/// The linear equation for l, row by row.
 template <int Dim>
 struct ClosingEquation {
-  std::span<float> F;           ///< 1/m^(Dim+2); of each pair of a row with an equation, kept for the sweeps
+  std::span<float> F;           ///< 1/m^(Dim+2); of each pair of a row with an equation, stored for the sweeps
   std::vector<double> weights;  ///< 1/m^2; sum_j w_j F_ij; 0: no equation
-  std::vector<double> share;    ///< of l; the divisor is `weights` over it
+  std::vector<double> share;    ///< fraction of l that is applied; the divisor is `weights` over it
   std::vector<Vec<Dim>> open;   ///< 1/m; b = -sum_j w_j a_ij with l = 0
   std::vector<Vec<Dim>> rhs;    ///< 1/m
 
@@ -102,8 +101,8 @@ struct ClosingEquation {
       : F(room), weights(count, 0.0), share(count), open(count), rhs(count) {}
 };
 
-/// Poses the equation for l. With b = -sum_j w_j a_ij of a_ij = -F (B_i + B_j)/2 d_ij, half of the faces are closed by
-/// the right-hand side b/2, and the force of the kernel's gradients is found by b - sum_j w_j F_ij d_ij.
+/// Writes the equation for l. With b = -sum_j w_j a_ij of a_ij = -F (B_i + B_j)/2 d_ij, the right-hand side b/2 closes
+/// half of the faces. The right-hand side b - sum_j w_j F_ij d_ij gives the force of the kernel's gradients.
 template <int Dim>
 ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input,
                                            CorrectionReach reach, const PairVectorField<Dim>& unclosed,
@@ -136,7 +135,7 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
   return equation;
 }
 
-/// sum_j w_j F_ij l_j [1/m], of w_j l_j
+/// sum_j w_j F_ij l_j [1/m], from w_j l_j.
 template <int Dim>
 Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, const ClosingEquation<Dim>& equation,
                              std::span<const Float4> weighted_l, std::size_t i) {
@@ -146,7 +145,7 @@ Vec<Dim> sum_over_neighbours(const Pairs<Dim>& pairs, const ClosingEquation<Dim>
   return sum_of(sums);
 }
 
-/// Places and corrections of all particles, with l = 0.
+/// Stores places and corrections of all particles, with l = 0.
 template <int Dim>
 void begin(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_vectors, auto&& correction) {
   pair_vectors.ends.resize(pairs.position.size());
@@ -177,7 +176,7 @@ void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo,
   begin(pairs, pair_vectors, [&](std::size_t i) { return correction[i]; });
   const ClosingEquation<Dim> equation = pose_closing_equation<Dim>(pairs, input, reach, pair_vectors, room);
 
-  // Jacobi; the first sweep starts from 0, where the sum is 0.
+  // Jacobi iteration; the first sweep starts from 0, where the sum is 0.
   std::vector<Vec<Dim>> l(size, Vec<Dim>::Zero());
   std::vector<Vec<Dim>> next(size, Vec<Dim>::Zero());
   std::vector<Float4> weighted_l(size);

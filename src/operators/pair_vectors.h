@@ -1,37 +1,36 @@
-// Pair vectors: how gradient and divergence see a pair of particles.
+// Pair vectors: the weights of a pair of particles in gradient and divergence.
 //
 //   grad p_i = sum_j w_j (p_i + p_j) a_ij          (gradient_conservative.h)
 //   div u_i  = sum_j w_j (u_j - u_i) . a_ij        (divergence.h)
 //
 // Any a_ij = -a_ji conserves momentum, and makes gradient and divergence negative adjoints of each other: the pressure
-// of a divergence-free velocity does no work. The kernel's gradient, a_ij = dW e_ij, is the usual choice. Its linear
-// fields are scaled by the first moment M_i = sum_j w_j r (-dW) e e, which is not I on a strained or disordered set:
-// waves then see an elastic medium. Within the two bonds there is room to do better:
+// of a divergence-free velocity does no work. The kernel's gradient, a_ij = dW e_ij, is the usual choice. It scales
+// linear fields by the first moment M_i = sum_j w_j r (-dW) e e, which is not I on a strained or disordered set: water
+// then acts on waves like an elastic medium. Better vectors with the same two properties are
 //
 //   a_ij = -F [ (B_i + B_j)/2 d_ij - (l_i - l_j) ],    d_ij = r_i - r_j,  F = -(dW/dr)/r
 //
-// B_i    corrects the first moment: B_i = <M>_i^-1 inside, I at the surface and at walls, blended by `interior`. The
-//        mean <M> over the neighbours follows the strain of the set; the M of single particles does not enter. With
-//        it, the force of a uniform pressure would have a curl from particle to particle, which drives rolls in water
-//        at rest.
-// l_i    closes half of the faces: a uniform pressure p has the force -2 p sum_j w_j a_ij, which orders the particles
-//        and hinders the flow. A graph Laplacian, sum_j w_j F_ij (l_i - l_j) = -1/2 sum_j w_j a_ij, takes half of it
-//        away (the idea of Trask, Bochev & Perego 2020). `closing_sweeps` of Jacobi solve it as far as it matters: what
-//        varies from particle to particle. The row is divided by `interior`, so l is 0 at the surface.
+//   B_i    corrects the first moment: B_i = <M>_i^-1 inside, I at the surface and at walls, blended by `interior`. The
+//          mean <M> over the neighbours follows the strain of the set. M of single particles is not used: the force of
+//          a uniform pressure would have a curl from particle to particle, which drives rolls in water at rest.
+//   l_i    closes half of the faces. A uniform pressure p has the force -2 p sum_j w_j a_ij, which orders the particles
+//          and hinders the flow. A graph Laplacian, sum_j w_j F_ij (l_i - l_j) = -1/2 sum_j w_j a_ij, removes half of
+//          it (the idea of Trask, Bochev & Perego 2020). `closing_sweeps` Jacobi sweeps solve it sufficiently: they
+//          remove variations from particle to particle. The row is divided by `interior`, so l is 0 at the surface.
 //
-// This is the reach `inside`. It leaves the outermost rows an elastic skin. With the reach `surface` they are corrected
+// This is the reach `inside`. The outermost rows then behave like an elastic skin. The reach `surface` corrects them
 // too:
 //
-// B_i    tends to T_i = lambda_min M_i^-1 at the surface, so that B_i M_i has no direction: stretching the surface is
-//        not taken for a compression, and across it the kernel's gradient stays, which fits the air (robust/rows.cpp).
-// l_i    gives there the force of a uniform pressure the potential that it has with the kernel's gradients,
-//        sum_j w_j a_ij -> sum_j w_j dW e_ij, or water at rest would roll. The share of both equations is `interior`.
+//   B_i    tends to T_i = lambda_min M_i^-1 at the surface, so that B_i M_i is isotropic and a stretched surface is not
+//          treated as compressed. Across the surface the kernel's gradient stays, which fits the air (robust/rows.cpp).
+//   l_i    at the surface makes the force of a uniform pressure that of the kernel's gradients, which has a potential,
+//          sum_j w_j a_ij -> sum_j w_j dW e_ij. Otherwise water at rest would roll. `interior` blends both equations.
 //
-// The corrections are continuous in the positions and need no surface detection. Where they come from, what is exact
-// and what each is worth: docs/theory/operators.md.
+// The corrections are continuous in the positions and need no surface detection. docs/theory/operators.md derives them,
+// with their exactness and the effect of each.
 //
-// Only B and l are kept, of each particle. A pair vector is computed from those of its two ends wherever it is needed:
-// an array with an entry per pair would be the largest of all.
+// Only B and l are stored, per particle. A pair vector is computed from the data of its two ends where needed: an array
+// with an entry per pair would be the largest of all.
 #pragma once
 
 #include <cstddef>
@@ -45,13 +44,13 @@
 
 namespace tailwater {
 
-/// Where pair vectors are corrected.
+/// Region in which pair vectors are corrected.
 enum class CorrectionReach { inside, surface };
 
-/// Sweeps after which the equation for l is left alone.
+/// Number of sweeps for the equation for l.
 constexpr int closing_sweeps(CorrectionReach reach) { return reach == CorrectionReach::inside ? 3 : 10; }
 
-/// What the corrections go by. All arrays have an entry per particle, ghosts included and up to date.
+/// Input of the corrections. All arrays have an entry per particle, ghosts included and up to date.
 template <int Dim>
 struct CorrectionInput {
   double radius;                              ///< m; of the support at the case's spacing
@@ -61,16 +60,16 @@ struct CorrectionInput {
   std::span<const Packed<Dim>> first_moment;  ///< M; I at walls
 };
 
-/// What a particle brings to its pair vectors, in one piece, so that a neighbour is read in one place.
+/// Data of a particle for its pair vectors, stored together so that a loop reads a neighbour in one place.
 template <int Dim>
 struct alignas(Dim == 2 ? 32 : 64) PairVectorEnd {
-  std::array<std::uint32_t, Dim> at;                  ///< of its Place
-  float signed_volume;                                ///< likewise
+  std::array<std::uint32_t, Dim> at;                  ///< as in Place
+  float signed_volume;                                ///< as in Place
   std::array<float, Dim> l;                           ///< m
   std::array<float, symmetric_size<Dim>> correction;  ///< B, packed
 };
 
-/// What is known of several pairs of a particle.
+/// Data of several pairs of a particle.
 template <int Dim>
 struct PairVectorLanes {
   PlaceLanes<Dim> place;
@@ -111,10 +110,10 @@ struct PairVectorField {
 template <int Dim>
 void find_kernel_gradients(const Pairs<Dim>& pairs, PairVectorField<Dim>& pair_vectors);
 
-/// The corrected vectors, and of each owned particle what they leave open of its faces, sum_j w_j a_ij [1/m], after so
-/// many sweeps; with the reach `inside` only where `interior` is not 0, elsewhere 0. Found on the way, where `interior`
-/// is not 0: its mean over the fluid neighbours, weighted with the kernel. `room` has an entry per pair, of which
-/// nothing is read but what was written here. Collective.
+/// Computes the corrected vectors with `sweeps` sweeps. `open_faces` receives the remaining sum_j w_j a_ij [1/m] of
+/// each owned particle; with the reach `inside` it is 0 where `interior` is 0. `mean_interior` receives the
+/// kernel-weighted mean of `interior` over the fluid neighbours, where `interior` is not 0. `room` is a workspace with
+/// an entry per pair. Collective.
 template <int Dim>
 void find_corrected_pair_vectors(const Pairs<Dim>& pairs, const Halo<Dim>& halo, const CorrectionInput<Dim>& input,
                                  CorrectionReach reach, int sweeps, std::span<float> room,
