@@ -91,7 +91,7 @@ struct CaseTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.integer("format", self.format, "", Range::at_least(1),
-              "Version of the format that the case is written in; a program refuses one that is newer than its own");
+              "Version of the case-file format; a program rejects a version that is newer than its own");
     v.text("title", self.title, "Title of the case in summaries and reports, one line");
     v.integer("dimension", self.dimension, "", Range::between(2, 3), "Number of space dimensions");
     v.text("datum", self.datum, "Vertical datum of heights and levels, such as \"DHHN2016 - 84.2 m\", for reports");
@@ -195,8 +195,8 @@ struct AirTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.choice("pockets", self.pockets,
-             "What air is that water and walls enclose: nothing, as the open air; or a gas whose pressure follows from "
-             "its volume, and which keeps its heat (adiabatic) or its temperature (isothermal) (docs/theory/air.md)");
+             "Model of enclosed air: none, with the pressure of open air; or a gas whose pressure follows from its "
+             "volume without heat exchange (adiabatic) or at constant temperature (isothermal) (docs/theory/air.md)");
     v.number("pressure", self.pressure, "Pa", Range::above(0.0), "Absolute pressure of the atmosphere");
   }
 };
@@ -213,8 +213,7 @@ struct PocketTable {
   static void describe(Self& self, Visitor& v) {
     v.coordinates("at", self.at, "m", "Point in the air of the space at the start", Presence::required);
     v.number("overpressure", self.overpressure, "Pa", Range::any(),
-             "Pressure of this air at the start, above that of the atmosphere; below 0: less than the atmosphere's",
-             Presence::required);
+             "Initial gauge pressure of this air: above 0 it exceeds the atmospheric pressure", Presence::required);
   }
 };
 
@@ -230,14 +229,14 @@ struct VentTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.coordinates("at", self.at, "m",
-                  "Where the opening is: a point in the air of the space, or on the wall around it. While water is "
-                  "there, nothing passes",
+                  "Position of the opening: a point in the air of the space, or on the wall around it. While water "
+                  "covers it, no air passes",
                   Presence::required);
     v.number("area", self.area, "m^2", Range::above(0.0), "Area of the opening; in 2D m^2 per metre of width",
              Presence::required);
     v.number("loss", self.loss, "", Range::above(0.0),
-             "Loss coefficient zeta: the pressure difference over that of the air's mean velocity in the opening, rho "
-             "u^2/2 (2.7: a sharp-edged hole; 1.5: a short pipe)");
+             "Loss coefficient zeta: pressure difference over the dynamic pressure rho u^2/2 of the mean velocity in "
+             "the opening (2.7: a sharp-edged hole; 1.5: a short pipe)");
   }
 };
 
@@ -252,9 +251,9 @@ struct DomainTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.numbers("periodic_x", self.periodic_x, "m",
-              "[low, high]: range of x that repeats itself: what leaves at one end enters at the other");
-    v.numbers("periodic_y", self.periodic_y, "m", "[low, high]: the same for y");
-    v.numbers("periodic_z", self.periodic_z, "m", "[low, high]: the same for z");
+              "[low, high]: periodic range of x; water that leaves at one end enters at the other");
+    v.numbers("periodic_y", self.periodic_y, "m", "[low, high]: periodic range of y");
+    v.numbers("periodic_z", self.periodic_z, "m", "[low, high]: periodic range of z");
   }
 };
 
@@ -300,8 +299,8 @@ struct FluidTable : PlacedFile {
     v.text("name", self.name, "Name used in messages (default: fluid1, fluid2, ...)");
     v.choice("shape", self.shape,
              "Shape of the block: an axis-parallel box, a polygon (2D), the inside of a closed mesh from a file (3D), "
-             "or all that water poured in at a seed point fills up to a level (fill); bodies that stand in the block "
-             "are left out of it");
+             "or the region that water from a seed point fills up to a level (fill). The volume of bodies in the block "
+             "is left out");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.points("points", self.points, "m", "Corners of a polygon, in order; the last is joined to the first");
@@ -359,20 +358,20 @@ struct WallTable : PlacedFile {
              "segments (2D), a rectangle or the open mesh of a file (3D)");
     v.points("points", self.points, "m", "Corners of a polyline, polygon or plate, in order");
     v.text("points_file", self.points_file,
-           "Instead of points: CSV file of them, relative to the case file (docs/theory/geometry.md); a run keeps the "
-           "points in its case");
+           "Instead of points: CSV file with the points, relative to the case file (docs/theory/geometry.md); a run "
+           "stores the points in its case");
     v.coordinates("min", self.min, "m", "Lowest corner of a box");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
     v.texts("open", self.open, box_face_names, "Faces of a box that are left open");
     PlacedFile::describe(self, v);
     v.choice(
         "fluid_side", self.fluid_side,
-        "Side on which the water is: left or right of a polyline, seen in the order of its points; inside or outside a "
-        "polygon, box or closed mesh; above or below an open mesh, or in front or at the back of it, where the front "
-        "sees the corners of triangles counter-clockwise (default: left; inside; needed for a mesh; a plate has none)");
+        "Side on which the water is: left or right of a polyline, in the direction of its points; inside or outside a "
+        "polygon, box or closed mesh; above, below, front or back of an open mesh, where the corners of triangles run "
+        "counter-clockwise as seen from the front (default: left; inside; required for a mesh; not for a plate)");
     v.choice("slip", self.slip,
-             "Friction on the wall: none (free), that of water that sticks to it (no-slip), or a fraction of that of a "
-             "smooth wall (partial)");
+             "Wall friction: none (free), that of the no-slip condition (no-slip), or a fraction of that of a smooth "
+             "wall (partial)");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),
              "With slip = \"partial\": fraction of the no-slip wall stress");
     v.number("roughness", self.roughness, "m", Range::at_least(0.0),
@@ -382,16 +381,16 @@ struct WallTable : PlacedFile {
     v.field("displacement", self.displacement, Variables::time, "m",
             "Displacement of the wall from its drawn position (default: none); expressions may use the time t");
     v.varying("rotation", self.rotation, Variables::time, "rad",
-              "Angle by which the wall has turned about its pivot, counter-clockwise as seen against the axis; the "
-              "displacement is added to it");
+              "Rotation of the wall about its pivot, counter-clockwise as seen against the axis; the displacement is "
+              "added to it");
     v.text("motion", self.motion,
-           "Instead of displacement and rotation: CSV file of them over time, relative to the case file, with a line "
+           "Instead of displacement and rotation: CSV file with both over time, relative to the case file, with a line "
            "that names the columns, as in \"t [s], x [mm], angle [deg]\" (docs/theory/moving_walls.md)");
     v.text("motion_checksum", self.motion_checksum,
            "CRC-32 of the motion's file, which a run writes into its case; a file with another one is refused",
            Presence::written);
-    v.coordinates("pivot", self.pivot, "m", "Point about which the wall turns (default: the origin)");
-    v.coordinates("axis", self.axis, "", "Direction of the axis through the pivot about which a box turns (3D)");
+    v.coordinates("pivot", self.pivot, "m", "Point about which the wall rotates (default: the origin)");
+    v.coordinates("axis", self.axis, "", "Direction of the axis through the pivot about which a box rotates (3D)");
   }
 };
 
@@ -428,10 +427,10 @@ struct GateTable {
              "Thickness of the gate; 0: none, as a plate (4 dx with a published formulation)");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the gate begins to move");
     v.choice("motion", self.motion,
-             "How it moves up, against gravity: at a constant speed, with a constant acceleration, or as a file says; "
-             "its seal has no friction");
-    v.number("speed", self.speed, "m/s", Range::above(0.0), "The constant speed");
-    v.number("acceleration", self.acceleration, "m/s^2", Range::above(0.0), "The constant acceleration");
+             "Upward motion of the gate, against gravity: at constant speed, with constant acceleration, or with the "
+             "displacement of a file; its seal has no friction");
+    v.number("speed", self.speed, "m/s", Range::above(0.0), "Speed of the gate");
+    v.number("acceleration", self.acceleration, "m/s^2", Range::above(0.0), "Acceleration of the gate");
     v.text("file", self.file,
            "CSV file of the gate's displacement over the time since `start`, relative to the case file, with a line "
            "that names the columns, as in \"t [s], displacement [mm]\"");
@@ -459,9 +458,9 @@ struct WaveKeys {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.choice("waves", self.waves,
-             "regular: of one period; solitary: one wave of Rayleigh's shape; jonswap: irregular, of the JONSWAP "
-             "spectrum; focused: a group of that spectrum whose crests meet at one place; none: the plate or zone only "
-             "absorbs");
+             "regular: waves of one period; solitary: one wave of Rayleigh's shape; jonswap: irregular waves with a "
+             "JONSWAP spectrum; focused: a group with this spectrum whose crests meet at one place; none: the plate or "
+             "zone only absorbs");
     v.number("height", self.height, "m", Range::above(0.0),
              "Height of a regular or solitary wave; significant height Hm0 of irregular ones; twice the crest of a "
              "focused group by linear theory");
@@ -470,14 +469,14 @@ struct WaveKeys {
              "absorbed best (0: long waves at a plate, those of the wave maker in a zone)");
     v.number("peak_enhancement", self.peak_enhancement, "", Range::at_least(1.0),
              "gamma of the JONSWAP spectrum; 1: Pierson-Moskowitz");
-    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of their phases and frequencies");
+    v.integer("seed", self.seed, "", Range::at_least(0), "Seed of the random phases and frequencies");
     v.numbers(
         "focus", self.focus, "",
         "[distance in m, time in s] at which the crests of a focused group meet: in front of the plate at rest or "
         "of the inner end of the zone, and after `start`");
     v.number("start", self.start, "s", Range::at_least(0.0), "Time at which the waves begin");
     v.number("ramp", self.ramp, "s", Range::at_least(0.0),
-             "Time in which the waves grow to their full height, but for solitary ones (default: two periods)");
+             "Time in which the waves grow to their full height; not for solitary waves (default: two periods)");
   }
 };
 
@@ -496,19 +495,19 @@ struct WaveMakerTable : WaveKeys {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages (default: wave_maker1, wave_maker2, ...)");
-    v.choice("type", self.type, "A piston, which keeps upright, or a flap, which turns about its foot on the bed");
+    v.choice("type", self.type, "A piston, which stays upright, or a flap, which rotates about its foot on the bed");
     v.coordinates("from", self.from, "m",
                   "Foot of the plate on the bed: one end of an upright segment (2D), a corner of a flat axis-parallel "
                   "rectangle (3D)",
                   Presence::required);
     v.coordinates("to", self.to, "m", "Top of the plate, above the waves: the other end (2D), the opposite corner (3D)",
                   Presence::required);
-    v.choice("side", self.side, "Side of the plate that has no water");
+    v.choice("side", self.side, "Side of the plate without water");
     v.number("depth", self.depth, "m", Range::above(0.0), "Depth of the still water at the plate", Presence::required);
     WaveKeys::describe(self, v);
     v.choice(
         "absorption", self.absorption,
-        "active: the plate gives way to waves that come, as the elevation in front of it says (docs/theory/waves.md)");
+        "active: the plate absorbs incoming waves, controlled by the elevation in front of it (docs/theory/waves.md)");
   }
 };
 
@@ -531,15 +530,17 @@ struct BodyTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and by moorings (default: body1, body2, ...)");
-    v.texts("walls", self.walls, {}, "Names of the walls that are its surface: closed, with the water outside");
-    v.number("mass", self.mass, "kg", Range::above(0.0), "Its mass; in 2D per metre of width", Presence::required);
-    v.coordinates("centre", self.centre, "m", "Its centre of mass, where it is drawn", Presence::required);
+    v.texts("walls", self.walls, {},
+            "Names of the walls that form the surface of the body, which is closed and has the water outside");
+    v.number("mass", self.mass, "kg", Range::above(0.0), "Mass of the body; in 2D per metre of width",
+             Presence::required);
+    v.coordinates("centre", self.centre, "m", "Centre of mass of the body as drawn", Presence::required);
     v.numbers(
         "inertia", self.inertia, "kg m^2",
-        "Its moments of inertia about the centre: [I] in 2D, per metre of width; [Ixx, Iyy, Izz] in 3D, about axes "
-        "along x, y and z as it is drawn, which must be its principal axes (needed where it is free to turn)");
+        "Moments of inertia about the centre: [I] in 2D, per metre of width; [Ixx, Iyy, Izz] in 3D, about axes along "
+        "x, y and z in the drawn position, which must be the principal axes (required if the body can rotate)");
     v.texts("free", self.free, freedom_names, "Degrees of freedom (default: all; in 2D [\"x\", \"y\", \"rotation\"])");
-    v.coordinates("velocity", self.velocity, "m/s", "Its velocity at the start (default: at rest)");
+    v.coordinates("velocity", self.velocity, "m/s", "Initial velocity of the body (default: at rest)");
   }
 };
 
@@ -557,16 +558,18 @@ struct MooringTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.texts("body", self.bodies, {}, "Name of the body that it holds, or names of the two that it ties together");
-    v.coordinates("at", self.at, "m", "Where it is fastened to the first body, as that is drawn", Presence::required);
-    v.coordinates("anchor", self.anchor, "m", "Its other end, which rests, or is on the second body, as that is drawn",
-                  Presence::required);
+    v.texts("body", self.bodies, {},
+            "Name of the body that the line holds, or names of the two bodies that it connects");
+    v.coordinates("at", self.at, "m", "Fastening point on the first body as drawn", Presence::required);
+    v.coordinates("anchor", self.anchor, "m",
+                  "Other end of the line: a fixed point, or a point on the second body as drawn", Presence::required);
     v.number("stiffness", self.stiffness, "N/m", Range::above(0.0),
-             "Force per stretch beyond its length; in 2D per metre of width", Presence::required);
-    v.number("length", self.length, "m", Range::at_least(0.0),
-             "Length at which it begins to pull; it never pushes. 0: a spring that always pulls");
+             "Force per elongation beyond the length of the line; in 2D per metre of width", Presence::required);
+    v.number(
+        "length", self.length, "m", Range::at_least(0.0),
+        "Length of the slack line, which pulls only when it is longer and never pushes. 0: a spring that always pulls");
     v.number("damping", self.damping, "N s/m", Range::at_least(0.0),
-             "Force per speed of stretching while it is stretched; in 2D per metre of width");
+             "Force per rate of elongation while the line is taut; in 2D per metre of width");
   }
 };
 
@@ -787,8 +790,8 @@ struct OutletTable : Section {
         "Direction in which the water leaves; a rough one with from and to, where it tells the two sides apart "
         "(default: +x)");
     v.choice("beyond", self.beyond,
-             "Without a level: a channel that goes on, or air, as below a hole or a brink, which the water enters as a "
-             "free jet");
+             "Without a level: a channel that continues, or air, as below a hole or a brink, which the water enters as "
+             "a free jet");
     v.varying(
         "level", self.level, Variables::level, "m",
         "Level of the tailwater, as a coordinate; water then comes back when it is low inside (default: what beyond "
@@ -844,9 +847,9 @@ struct SchemeTable {
     v.choice("integrator", self.integrator,
              "explicit: derivatives at the old positions (F14-F17); implicit: at the new positions (F20-F27)");
     v.choice("pair_vectors", self.pair_vectors,
-             "Vectors of the pressure gradient and the divergence: the kernel's gradient, or corrected to first order "
-             "and still antisymmetric, inside the water or up to its surface (waves then keep their height, and "
-             "jittered water takes longer to come to rest)");
+             "Vectors of the pressure gradient and the divergence: the kernel's gradient, or vectors corrected to "
+             "first order and still antisymmetric, inside the water or up to its surface (waves then keep their "
+             "height, and jittered water takes longer to come to rest)");
     v.number("courant", self.courant, "", Range::above_up_to(0.0, 1.0), "alpha of the time-step rule (F40, F41, B20)");
     v.choice("turbulence", self.turbulence,
              "Mixing of momentum in the boundary layers of walls with friction: by the viscosity alone, or by the eddy "
@@ -886,11 +889,11 @@ struct StudyTable {
              "Fraction of the density error that the source of the pressure equation corrects while water at the speed "
              "of the time-step rule goes dx");
     v.number("energy_slack", self.energy_slack, "", Range::above(0.0),
-             "The density source expands water less and less as the energy rises by more than the walls' work, and not "
-             "at all when the rise reaches this fraction of m g L/2 plus the kinetic energy");
+             "The expansion by the density source decreases as the energy rises by more than the walls' work. It is 0 "
+             "when the rise reaches this fraction of m g L/2 plus the kinetic energy");
     v.choice("divergence_free", self.divergence_free,
-             "Where the projection makes the velocity divergence-free: midway along the displacement, which is second "
-             "order in time, or at the start of the step as published (F18)");
+             "Position at which the projection makes the velocity divergence-free: midway along the displacement, "
+             "which is second order in time, or at the start of the step as published (F18)");
     v.choice("displacement", self.displacement,
              "Velocity that moves the particles of farzin2014: the new one, or as published the mean of the old and "
              "the new (F17); farmani2020 always takes the mean (B19)");
@@ -941,11 +944,10 @@ struct LimitsTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.number(
-        "energy_warning", self.energy_warning, "", Range::at_least(0.0),
-        "The run warns when the energy has risen, apart from what walls brought, by more than this fraction of m "
-        "g L/2 plus the kinetic energy and the work of open ends, and by more than lifts the water's surface by dx/10 "
-        "and than a tenth of that work; 0: never");
+    v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
+             "The run warns when the energy, without the work of walls, has risen by more than this fraction of m g "
+             "L/2 plus the kinetic energy and the work of open ends. A smaller rise than the energy of lifting the "
+             "water by dx/10 plus a tenth of that work does not count. 0: never");
     v.number("energy_stop", self.energy_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
     v.number("volume_warning", self.volume_warning, "", Range::at_least(0.0),
              "The run warns when the mean density of the water away from the surface is off by more than this "
@@ -967,12 +969,12 @@ struct OutputTable {
     v.number("fields_interval", self.fields_interval, "s", Range::at_least(0.0),
              "Time between field files; 0: a hundredth of the end time");
     v.number("view_interval", self.view_interval, "s", Range::at_least(0.0),
-             "Time between the small frames that `tailwater view` plays; 0: a four-hundredth of the end time, and at "
-             "least eight steps");
+             "Time between the small frames for `tailwater view`; 0: a four-hundredth of the end time, and at least "
+             "eight steps");
     v.texts("fields", self.fields, field_names, "Fields to write");
     v.number("checkpoint_interval", self.checkpoint_interval, "s", Range::at_least(0.0),
-             "Wall-clock time between checkpoints, from which `tailwater resume` goes on; 0: only when a run ends or "
-             "is asked for one");
+             "Wall-clock time between checkpoints, from which `tailwater resume` continues; 0: only at the end of a "
+             "run and on request");
   }
 };
 
@@ -999,25 +1001,24 @@ struct ProbeTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name of the CSV file, probes/NAME.csv", Presence::required);
-    v.choice("type", self.type, "What is measured", Presence::required);
+    v.choice("type", self.type, "Measured quantity", Presence::required);
     v.coordinates("at", self.at, "m",
                   "Position of a depth or velocity-profile probe (its height is ignored) or of a wall-pressure, "
                   "pressure or velocity probe");
     v.coordinates("from", self.from, "m",
                   "Start of a stretch of wall, of a profile, of a level map (its height is ignored) or of a section; "
-                  "of what overtops a crest: the crest");
+                  "for overtopping, the crest");
     v.coordinates("to", self.to, "m",
-                  "End of a stretch of wall or of a profile; of a level map or a section: that of a segment (2D), or "
-                  "the opposite corner of a flat axis-parallel rectangle (3D)");
+                  "End of a stretch of wall or of a profile. For a level map or a section: end of a segment (2D), or "
+                  "opposite corner of a flat axis-parallel rectangle (3D)");
     v.coordinates("direction", self.direction, "",
                   "Direction in which a front probe looks, or in which a discharge counts as positive (default: +x)");
-    v.texts("walls", self.walls, {},
-            "Names of the walls that a force, pressure-map or run-up probe is for (default: all)");
+    v.texts("walls", self.walls, {}, "Names of the walls of a force, pressure-map or run-up probe (default: all)");
     v.coordinates("region_min", self.region_min, "m",
-                  "Lowest corner of a box; only what is inside of these walls, as drawn, counts");
+                  "Lowest corner of a box; only the parts of these walls inside it, as drawn, count");
     v.coordinates("region_max", self.region_max, "m", "Highest corner of this box");
     v.coordinates("moment_about", self.moment_about, "m",
-                  "Point, which does not move, that the moment is taken about (default: no moment is written)");
+                  "Fixed point about which the moment is taken (default: no moment is written)");
     v.text("body", self.body, "Name of the body whose motion is written");
     v.number(
         "diameter", self.diameter, "m", Range::at_least(0.0),
@@ -1025,7 +1026,7 @@ struct ProbeTable {
     v.number("width", self.width, "m", Range::at_least(0.0),
              "Width of the rectangle in the wall, half on each side of the stretch (3D); 0: a line");
     v.number("step", self.step, "m", Range::at_least(0.0),
-             "Distance between the places of a level map or a velocity profile; 0: dx");
+             "Distance between the points of a level map or a velocity profile; 0: dx");
     v.numbers("times", self.times, "s", "Times at which a profile or velocity profile is taken");
     v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two readings; 0: every step");
   }
@@ -1047,23 +1048,22 @@ struct MeasurementTable {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.text("probe", self.probe, "Name of the probe whose table it is compared with", Presence::required);
+    v.text("probe", self.probe, "Name of the probe to compare with", Presence::required);
     v.text("column", self.column,
-           "Column of that table, without its unit, as in \"highest\" (default: the first that the probe has)");
+           "Column of the probe's table, without its unit, as in \"highest\" (default: the first one)");
     v.text("file", self.file,
            "CSV file of the measured values over time, relative to the case file, with a line that names the columns, "
-           "as in \"t [s], depth [mm]\"; of several columns the one that is named as the probe, as `column` or "
-           "\"value\" counts (docs/theory/probes.md)",
+           "as in \"t [s], depth [mm]\". If there are several columns, the one named like the probe, like `column` or "
+           "\"value\" is used (docs/theory/probes.md)",
            Presence::required);
     v.text("checksum", self.checksum,
            "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
            Presence::written);
     v.number("shift", self.shift, "s", Range::at_least(0.0),
-             "Largest shift in time, either way, with which the fit may become best: how well the instant t = 0 of the "
-             "measurement is known");
+             "Largest time shift, in either direction, for the best fit: the uncertainty of the instant t = 0 of the "
+             "measurement");
     v.number("scatter", self.scatter, "", Range::at_least(0.0),
-             "How far the measurement, repeated, is from itself (standard deviation), in the SI unit of the column; 0: "
-             "not known");
+             "Standard deviation of repeated measurements, in the SI unit of the column; 0: not known");
   }
 };
 
@@ -1122,9 +1122,9 @@ struct CaseSpec {
   static void describe(Self& self, Visitor& v) {
     v.table("case", self.general, "The case as a whole");
     v.table("physics", self.physics, "Fluid and gravity");
-    v.table("air", self.air, "Air that water and walls enclose");
+    v.table("air", self.air, "Air enclosed by water and walls");
     v.tables("pocket", self.pockets,
-             "An enclosed space that starts at another pressure than the atmosphere's; one table each");
+             "An enclosed space whose initial air pressure differs from the atmosphere's; one table each");
     v.tables("vent", self.vents, "An opening between an enclosed space and the atmosphere; one table each");
     v.tables("liquid", self.liquids, "A thick or yielding liquid, such as mud or fresh concrete; one table each");
     v.table("particles", self.particles, "Resolution and initial arrangement");
@@ -1145,11 +1145,10 @@ struct CaseSpec {
     v.table("scheme", self.scheme, "Numerical scheme");
     v.table("pressure_solver", self.pressure_solver, "Linear solver of the pressure equation");
     v.table("parallel", self.parallel, "Runs on several ranks (-n)");
-    v.table("limits", self.limits, "When a run warns of its own errors, or gives up");
+    v.table("limits", self.limits, "Thresholds at which a run warns of its own errors, or stops");
     v.table("output", self.output, "Field files for ParaView, frames for `tailwater view`, and checkpoints");
     v.tables("probe", self.probes, "A measurement written during the run; one table each");
-    v.tables("measurement", self.measurements,
-             "Measured values over time, which a probe's are compared with; one table each");
+    v.tables("measurement", self.measurements, "Measured values over time for comparison with a probe; one table each");
     v.table("study", self.study, "For studies: the robust formulation without one of its parts");
   }
 };
