@@ -26,7 +26,7 @@ RUNS = ROOT / "out" / "gallery"
 WIDTH = 900  # pixels of a picture
 # s; the moment that is shown, where it is not the end.
 MOMENTS = {"dam-break": 0.8, "pier": 0.6, "run-up": 3.4, "solitary-wave": 2.0, "sloshing": 4.5, "floating-box": 0.1}
-NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "What its gauges", "What the gauges", "seconds")
+NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "seconds")
 HEAD = """\
 # Gallery
 
@@ -101,7 +101,7 @@ def section(name, run):
     told = [textwrap.fill(f"- `{probe}`: {result['words']}", 120, subsequent_indent="  ", break_on_hyphens=False)
             for probe, result in run.results.items()]
     particles = summary["particles"]
-    coarse = " Shown is a run with twice the template's spacing." if run.path.name.endswith("-coarse") else ""
+    coarse = " The picture is of a run with twice the template's spacing." if run.path.name.endswith("-coarse") else ""
     return "\n".join([
         f"\n## {name}\n", textwrap.fill(what_it_shows(name) + coarse, 118) + "\n", f"![{name}](images/gallery/{name}.webp)\n",
         f"{run.dimension}D, {particles['fluid'] + particles['wall']} particles (dx = {run.spacing:.3g} m), "
