@@ -69,7 +69,7 @@ AirWatch<Dim>::AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, 
         {"{}: air is searched for in cells of half a particle spacing, and the walls and openings, wherever "
          "they move, span more than {:g} of them",
          CaseLabel("air").with_key("pockets"), most_cells_of_map},
-        {"leave out what is far away, use a larger particles.spacing, or choose \"none\""});
+        {"leave out distant parts, use a larger particles.spacing, or choose \"none\""});
   }
   grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing_, domain);
 }

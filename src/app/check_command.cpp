@@ -157,7 +157,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   fmt::print("particles: {:.0f} fluid, {:.0f} wall, spacing {:g} m\n", estimate.particles.fluid,
              estimate.particles.wall, spec.particles.spacing);
   if (estimate.largest_fluid > 1.1 * estimate.particles.fluid) {
-    fmt::print("           with what comes in about {:.2g} fluid at the most\n", estimate.largest_fluid);
+    fmt::print("           with the inflow at most about {:.2g} fluid\n", estimate.largest_fluid);
   }
   print_refinement(spec, flow, estimate.water);
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
@@ -166,7 +166,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
       "and smaller steps)\n",
       estimate.steps, readable_duration(estimate.seconds),
       !estimate.is_from_tank ? "the case"
-      : estimate.grows_much  ? "a tank of as much water, because most of it comes in later: a first guess"
+      : estimate.grows_much  ? "a tank of as much water, because most of it enters later: a first guess"
                              : "a tank of about 10000 particles, because the case is large: a first guess");
   if constexpr (Dim == 3) print_sections(spec);
   if (options.draws_nothing) return;

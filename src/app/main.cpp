@@ -108,7 +108,7 @@ class Ranks {
     MPI_Comm_dup(communicator_.handle(), &meeting_);
     if (communicator_.size() == count) return;
     throw InputError(
-        "{} processes were started, but MPI knows {} of them as ranks of one program; remedy: start them with the "
+        "{} processes were started, but MPI reports {} of them as ranks of one program; remedy: start them with the "
         "mpirun of the MPI of this program, or srun --mpi=pmix",
         count, communicator_.size());
   }

@@ -126,7 +126,7 @@ ExitCode run_here(const RunArguments& arguments, const Communicator& ranks, cons
   if (code == ExitCode::done) {
     tell("done: results in {}", out);
   } else {
-    tell("interrupted: results in {}; to go on: tailwater resume {}", out, out);
+    tell("interrupted: results in {}; to continue: tailwater resume {}", out, out);
   }
   if (arguments.pictures > 0) draw_pictures(out, arguments.pictures, ranks);
   return code;

@@ -46,7 +46,8 @@ ExitCode execute_run(NewRunArguments arguments, const Communicator& ranks, const
       throw InputError("--pictures and --sweep: remedy: tailwater pictures DIR/MEMBER, when a member is done");
     }
     if (arguments.run.force) {
-      throw InputError("--force and --sweep: a sweep goes on with what is not done; remedy: another --out");
+      throw InputError(
+          "--force and --sweep: a sweep continues with the members that are not done; remedy: another --out");
     }
     return run_sweep(arguments.run.case_file, arguments.overrides, arguments.sweep,
                      {.out = arguments.run.out,

@@ -229,8 +229,8 @@ class Sweep {
       tell("done: {} members; table: {}", done, table);
       return ExitCode::done;
     }
-    tell("{} of {} members are done; table: {}; to go on with the others: tailwater resume {}", done, members_.size(),
-         table, options_.out.string());
+    tell("{} of {} members are done; table: {}; to continue with the others: tailwater resume {}", done,
+         members_.size(), table, options_.out.string());
     if (is_asked_to_stop_) return ExitCode::interrupted;
     return first_failure_ ? static_cast<ExitCode>(*first_failure_) : ExitCode::interrupted;
   }
@@ -333,7 +333,7 @@ ExitCode resume_sweep(const SweepOptions& options) {
     std::error_code error;
     if (!fs::exists(case_file, error)) {
       throw InputError(
-          "the sweep in '{}' has no {}; remedy: give the command again that began it, which makes what is missing",
+          "the sweep in '{}' has no {}; remedy: repeat the command that began it, which restores the missing file",
           options.out.string(), (fs::path(member.folder) / effective_case_name).string());
     }
     cases.push_back(read_effective_case(case_file));

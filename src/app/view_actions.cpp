@@ -93,10 +93,10 @@ Json sweep_info(const fs::path& sweep) {
 bool ask_sweep(const fs::path& sweep, const std::string& what) {
   const bool is_at_work = FolderLock::is_held(sweep);
   if (what == "resume") {
-    if (is_at_work) throw InputError("the sweep is at work");
+    if (is_at_work) throw InputError("the sweep is in progress");
     resume(sweep, sweep_table_name);
   } else if (what == "stop") {
-    if (!is_at_work) throw InputError("nobody is at work in this sweep");
+    if (!is_at_work) throw InputError("no process is running this sweep");
     write_text_file(sweep / stop_file_name, "");
   } else {
     return false;

@@ -33,7 +33,7 @@ void keep_linked(std::string& file, std::string& checksum, std::string_view chec
   const std::string found = checksum_of_file(path);
   if (!checksum.empty() && checksum != found) {
     throw InputError(
-        "{} has changed: its checksum is {}, and the case asks for {}; put the file back that the case was made for, "
+        "{} has changed: its checksum is {}, and the case requires {}; restore the file for which the case was made, "
         "or start a new run without {}",
         path.string(), found, checksum, checksum_key);
   }
@@ -142,7 +142,7 @@ void read_linked_files(InletTable& inlet, TableReader& reader) {
   check_given_once(std::array{discharge, velocity, level}, reader);
   const bool has_wrong_key = reader.is_wrong("discharge") || reader.is_wrong("velocity") || reader.is_wrong("level");
   if (!has_wrong_key && !discharge.anywhere() && !velocity.anywhere() && !level.anywhere()) {
-    reader.missing("discharge", "say what enters: give a discharge, a velocity or a level, or a file with one of them");
+    reader.missing("discharge", "give a discharge, a velocity or a level, or a file with one of them");
   }
   if (discharge.anywhere() && velocity.anywhere()) {
     const std::string_view key = velocity.in_case ? "velocity" : discharge.in_case ? "discharge" : "file";

@@ -713,9 +713,10 @@ struct Section {
     v.coordinates("centre", self.centre, "m",
                   "In 3D, instead of from and to: centre of a disc at right angles to direction");
     v.number("radius", self.radius, "m", Range::at_least(0.0), "With centre: radius of the disc");
-    v.coordinates("through", self.through, "m",
-                  "In 3D, instead of from and to: a point; the opening is what the walls leave open around it of the "
-                  "plane at right angles to direction. Where they are open above, it ends at the height of the point");
+    v.coordinates(
+        "through", self.through, "m",
+        "In 3D, instead of from and to: a point of the opening, which is the region between the walls in the plane at "
+        "right angles to direction. Where the walls are open above, it ends at the height of the point");
   }
 };
 
@@ -739,10 +740,9 @@ struct InletTable : Section {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and in summary.json (default: inlet1, inlet2, ...)");
     Section::describe(self, v);
-    v.coordinates(
-        "direction", self.direction, "",
-        "Direction in which the water enters; a rough one with from and to, where it tells the two sides apart "
-        "(default: +x)");
+    v.coordinates("direction", self.direction, "",
+                  "Direction in which the water enters; with from and to an approximate one, which distinguishes the "
+                  "two sides (default: +x)");
     v.varying("discharge", self.discharge, Variables::time, "m^3/s",
               "Discharge that enters; in 2D m^3/s per metre of width; below 0 it is taken out");
     v.varying("velocity", self.velocity, Variables::time, "m/s",
@@ -762,8 +762,7 @@ struct InletTable : Section {
            "CRC-32 of the file, which a run writes into its case; a file with another one is refused",
            Presence::written);
     v.text("water_from", self.water_from,
-           "Name of the outlet whose water circulates: what has left there enters here, and nothing else (default: new "
-           "water enters)");
+           "Name of the outlet whose water circulates: only the outflow there enters here (default: new water enters)");
     v.number("reserve", self.reserve, "m^3", Range::at_least(0.0),
              "With water_from: volume of the water that waits to enter at the start; in 2D m^3 per metre of width");
   }
@@ -785,18 +784,16 @@ struct OutletTable : Section {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name used in messages and in summary.json (default: outlet1, outlet2, ...)");
     Section::describe(self, v);
-    v.coordinates(
-        "direction", self.direction, "",
-        "Direction in which the water leaves; a rough one with from and to, where it tells the two sides apart "
-        "(default: +x)");
+    v.coordinates("direction", self.direction, "",
+                  "Direction in which the water leaves; with from and to an approximate one, which distinguishes the "
+                  "two sides (default: +x)");
     v.choice("beyond", self.beyond,
              "Without a level: a channel that continues, or air, as below a hole or a brink, which the water enters as "
              "a free jet");
-    v.varying(
-        "level", self.level, Variables::level, "m",
-        "Level of the tailwater, as a coordinate; water then comes back when it is low inside (default: what beyond "
-        "says). An expression of q, the discharge that leaves in m^3/s (in 2D per metre of width), is a "
-        "stage-discharge relation, such as 0.3 + 0.5*q^(2/3)");
+    v.varying("level", self.level, Variables::level, "m",
+              "Level of the tailwater, as a coordinate; water enters where the level inside is lower (default: given "
+              "by beyond). An expression of q, the outgoing discharge in m^3/s (in 2D per metre of width), is a "
+              "stage-discharge relation, such as 0.3 + 0.5*q^(2/3)");
     describe_absorbing(self, v);
     v.text("file", self.file,
            "Instead of level: CSV file of it over time, relative to the case file, with a line that names the columns, "

@@ -186,7 +186,7 @@ std::filesystem::path TableReader::linked(const std::string& file) const {
   if (file.empty()) throw InputError("names no file; give its name, relative to the case file");
   std::error_code error;
   const std::filesystem::path path = std::filesystem::absolute(context_.folder / file, error);
-  if (error) throw InputError("cannot tell which file that is: {}", error.message());
+  if (error) throw InputError("cannot identify this file: {}", error.message());
   if (!is_printable(path.string())) {
     throw InputError(
         "the name of its folder, {}, has letters that are not UTF-8, or that cannot be shown; move the case into "

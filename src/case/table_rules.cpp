@@ -248,14 +248,14 @@ void check_section(const Section& section, TableReader& reader) {
   }
   const bool has_ends = given.empty() || given[0] == "from";
   if (has_ends && section.from.empty() && !reader.is_wrong("from")) {
-    reader.missing("from", "say where the opening starts");
+    reader.missing("from", "give the start of the opening");
   }
-  if (has_ends && section.to.empty() && !reader.is_wrong("to")) reader.missing("to", "say where the opening ends");
+  if (has_ends && section.to.empty() && !reader.is_wrong("to")) reader.missing("to", "give the end of the opening");
   if (!section.polygon.empty() && section.polygon.size() < 3 && !reader.is_wrong("polygon")) {
     reader.wrong("polygon", "has {} corners; give three or more", section.polygon.size());
   }
   if (!section.centre.empty() && section.radius == 0.0 && !reader.is_wrong("radius")) {
-    reader.missing("radius", "say how large the disc around centre is");
+    reader.missing("radius", "give the radius of the disc around centre");
   }
   if (section.radius > 0.0 && section.centre.empty() && !reader.is_wrong("radius")) {
     reader.wrong("radius", "is that of a disc; give its centre as well");
@@ -268,7 +268,7 @@ void check(const InletTable& inlet, TableReader& reader) {
   check_section(inlet, reader);
   if (inlet.reserve > 0.0 && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
     reader.wrong("reserve",
-                 "is water that waits to circulate; say with water_from which outlet's water enters, or remove it");
+                 "is water that waits to circulate; give water_from, the outlet whose water enters, or remove it");
   }
 }
 

@@ -107,7 +107,7 @@ double ColumnFile::number_at(const std::vector<std::string_view>& fields, std::s
   if (!value) {
     const bool has_comma = field.find(',') != std::string_view::npos;
     const std::string what =
-        is_like_a_number(field) ? fmt::format("\"{}\"", field) : fmt::format("what is in column {}", column + 1);
+        is_like_a_number(field) ? fmt::format("\"{}\"", field) : fmt::format("the entry in column {}", column + 1);
     wrong("{} is not a number; {}", what,
           has_comma ? "write decimals with a point" : "correct it, or begin comments with #");
   }

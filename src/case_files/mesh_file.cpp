@@ -135,7 +135,7 @@ MeshTriangles read_stl(Source& source) {
           source.size(), count, binary_size);
     }
     if (source.size() >= binary_size + per_triangle) {
-      source.refuse("holds {} triangles, and says that it has {}: it is damaged; export the mesh again",
+      source.refuse("holds {} triangles, but its header says {}: it is damaged; export the mesh again",
                     (source.size() - header - 4) / per_triangle, count);
     }
     for (std::size_t k = 0; k < header + 4; k += 4) source.binary<std::uint32_t>();

@@ -158,10 +158,10 @@ std::string study_reference_markdown() {
       "# Keys for studies\n\n"
       "Made by `tailwater run --help-case=study > docs/reference/study-keys.md`; change `src/case/spec.h`, not this "
       "page.\n\n"
-      "The keys of [study] change parts of the robust formulations, so that a study can show what each is worth "
+      "The keys of [study] change parts of the robust formulations, so that a study can show the effect of each "
       "([devices.md](../theory/devices.md)). No case needs them, and the [reference](case-file.md) does not list them. "
-      "The published formulations have none of them. [limits] says at which errors of its energy and volume a run "
-      "warns or ends; [parallel] is for who measures runs on several ranks.\n");
+      "The published formulations have none of them. [limits] sets the errors of energy and volume at which a run "
+      "warns or stops; [parallel] is for measurements of runs on several ranks.\n");
   for (const TableInfo& table : case_tables()) {
     if (is_for_studies(table)) text += markdown_of(table);
   }

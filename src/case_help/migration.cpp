@@ -76,7 +76,7 @@ class Migrator {
   Migration result() {
     const auto format = root_["case"]["format"].value<std::int64_t>();
     if (format && *format > case_format) {
-      throw InputError("{}: its format is {}, and this program knows formats up to {}; use a newer version", file_,
+      throw InputError("{}: its format is {}, and this program reads formats up to {}; use a newer version", file_,
                        *format, case_format);
     }
     for (const RemovedKey& key : removed_keys()) {
@@ -180,11 +180,10 @@ class Migrator {
     for (std::size_t k = 0; outlets != nullptr && k < outlets->size(); ++k) {
       const toml::table* outlet = (*outlets)[k].as_table();
       if (outlet == nullptr || outlet->contains("level") || outlet->contains("file")) continue;
-      changes_.push_back(
-          {outlet->source().begin.line,
-           fmt::format("outlet[{}] is a channel that goes on, as before; if it is a hole in a wall, give beyond = "
-                       "\"air\", or the level beyond, and leave the pit out",
-                       k)});
+      changes_.push_back({outlet->source().begin.line,
+                          fmt::format("outlet[{}] is a channel that continues, as before; if it is a hole in a wall, "
+                                      "give beyond = \"air\", or the level beyond, and leave the pit out",
+                                      k)});
     }
   }
 

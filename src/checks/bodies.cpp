@@ -36,12 +36,12 @@ Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const B
   const double dx = spec.particles.spacing;
   const double draught = body.mass / per_draught;
   if (draught >= least_draught * dx) return {};
-  return {Finding::error(
-      {"{} = {:.4g} is so light that it floats with a draught of {:.3g} m, less than {} spacings: its motion cannot be "
-       "found from the pressure of the particles",
-       CaseLabel("body", body.name).with_key("mass"), Amount{body.mass, "kg"}, draught, least_draught},
-      {"give a mass of at least {:.3g} kg, or a spacing of at most {:.3g} m", 1.01 * least_draught * dx * per_draught,
-       0.99 * draught / least_draught})};
+  return {
+      Finding::error({"{} = {:.4g} is so light that it floats with a draught of {:.3g} m, less than {} spacings: its "
+                      "motion cannot be computed from the pressure of the particles",
+                      CaseLabel("body", body.name).with_key("mass"), Amount{body.mass, "kg"}, draught, least_draught},
+                     {"give a mass of at least {:.3g} kg, or a spacing of at most {:.3g} m",
+                      1.01 * least_draught * dx * per_draught, 0.99 * draught / least_draught})};
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, con
     walls.insert(wall_label(boundary, wall).text());
   }
   findings.push_back(Finding::error(
-      {"{} brings {:.3g} by t = {:.6g} s into a space without a way out that has room for {:.3g} m^{} more at most, "
-       "closed by {}",
+      {"{} adds {:.3g} by t = {:.6g} s to a space without an outlet, which can hold at most {:.3g} m^{} more, closed "
+       "by {}",
        end.opening.label(), Amount{inflow, fmt::format("m^{}", Dim)}, last, room, Dim, fmt::join(walls, " and ")},
       {"open it (of a box: open = [...]), give it an outlet, or let less enter"}));
 }

@@ -28,9 +28,9 @@ Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurf
   }
   const double water_length = water.isEmpty() ? 0.0 : water.sizes().maxCoeff() + dx;
   if (water_length == 0.0 || length <= largest_share_of_water * water_length) return {};
-  return {
-      Finding::error({"{} is {:.6g} long and the water {:.6g} m", label, Amount{length, "m"}, water_length},
-                     {"give scale = 0.001 if its file is in millimetres, else cut off what the water does not reach"})};
+  return {Finding::error(
+      {"{} is {:.6g} long and the water {:.6g} m", label, Amount{length, "m"}, water_length},
+      {"give scale = 0.001 if its file is in millimetres, otherwise cut off the parts that the water does not reach"})};
 }
 
 /// The box around the water and all walls but one.
@@ -60,13 +60,12 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
   const double length = own.sizes().maxCoeff();
   const double length_of_others = others.sizes().maxCoeff();
   if (length <= largest_share_of_case * length_of_others) return {};
-  return {
-      Finding::warning({"{}: file {} is a body {:.6g} long among water and walls of {:.6g} m, of which it takes what "
-                        "it encloses",
-                        label, table.file, Amount{length, "m"}, length_of_others},
-                       {"correct scale = {:g} (0.001 for a file in millimetres), or cut off what the water does not "
-                        "reach",
-                        table.scale})};
+  return {Finding::warning(
+      {"{}: file {} is a body {:.6g} long, and water and walls have a length of {:.6g} m: it would displace the water "
+       "inside it",
+       label, table.file, Amount{length, "m"}, length_of_others},
+      {"correct scale = {:g} (0.001 for a file in millimetres), or cut off the parts that the water does not reach",
+       table.scale})};
 }
 
 Findings check_size_and_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const MeshSurface& surface,

@@ -156,7 +156,7 @@ void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, con
           Finding::error({"{} stands beyond {} at {}: the space up to {:.6g} m outside of it must be free, because the "
                           "program {} there",
                           label, end.label(), place(wall.point), depth,
-                          end.meets_air ? "follows the jet" : "adds a duct, in which what is prescribed holds,"},
+                          end.meets_air ? "follows the jet" : "adds a duct with the prescribed flow"},
                          {"end the walls at the {}, or move it out to where they end", end.label().table}));
     }
     return;
@@ -181,8 +181,8 @@ void check_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const Cha
   const auto is_cut = [&](const Vec<Dim>& x) { return is_cut_into_wall(boundary, mouth, x, dx); };
   if (!std::ranges::all_of(whole_rim(mouth, dx), is_cut)) return;
   findings.push_back(Finding::error(
-      {"{} at {} is a hole in a wall, and the case does not say what is beyond it", mouth.label(), place(mouth.corner)},
-      {"give beyond = \"air\" for a free jet, or the level of the water beyond"}));
+      {"{} at {} is a hole in a wall, and the case does not define the far side", mouth.label(), place(mouth.corner)},
+      {"give beyond = \"air\" for a free jet, or the level of the water there"}));
 }
 
 /// Checks that the ducts of two openings do not meet.

@@ -36,7 +36,7 @@ double height_without_inflow(const CaseSpec& spec, const FluidParticles<Dim>& fl
 Finding too_rough(const CaseLabel& label, const WallTable& wall, double roughness, double largest, Clause why) {
   return Finding::error(
       {"{}: {} {}", label, roughness_text(wall, roughness), why},
-      {"give {}, and draw what is larger as a shape of the wall", bound_on_key(wall, roughness, largest)});
+      {"give {}, and draw larger roughness elements as the shape of the wall", bound_on_key(wall, roughness, largest)});
 }
 
 /// Checks the side walls, whose law is a mean over half of the width.
@@ -77,7 +77,7 @@ Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary, co
                             "particles between "
                             "its grains",
                             label, roughness_text(wall, roughness), dx},
-                           {"draw what sticks out of the wall and give a smaller roughness, or a larger spacing"}));
+                           {"draw the roughness elements and give a smaller roughness, or a larger spacing"}));
     }
   }
   return findings;

@@ -188,7 +188,7 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
   }
   const double upward = up.dot(sum) / area;
   if (std::abs(upward) < least_upward_share) {
-    refuse({"neither side of the mesh is above the other, because as much of it looks up as down"},
+    refuse({"neither side of the mesh is above the other, because as much of it faces up as down"},
            {"give fluid_side = \"front\" or \"back\""});
   }
   if (upward < 0.0) turn_over(mesh);

@@ -37,7 +37,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
 void CsvWriter::go_on(const std::string& first_line, std::int64_t kept) {
   std::string found(first_line.size(), '\0');
   if (std::fread(found.data(), 1, found.size(), file_.get()) != found.size() || found != first_line) {
-    throw IoError("cannot go on with '{}': it does not begin with the columns of this run; {}", path_.string(),
+    throw IoError("cannot continue '{}': it does not begin with the columns of this run; {}", path_.string(),
                   remedy_for_other_file);
   }
   cut_file(path_, kept);
@@ -77,7 +77,7 @@ void cut_file(const std::filesystem::path& path, std::int64_t kept) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) throw_io_error("read", path, errno);
   if (found.st_size < kept) {
-    throw IoError("cannot go on with '{}': it has {} bytes, and had {} at the checkpoint; {}", path.string(),
+    throw IoError("cannot continue '{}': it has {} bytes, and had {} at the checkpoint; {}", path.string(),
                   found.st_size, kept, remedy_for_other_file);
   }
   if (truncate(path.c_str(), kept) != 0) throw_io_error("write", path, errno);

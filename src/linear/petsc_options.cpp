@@ -177,9 +177,9 @@ void take_petsc_options(const PressureSolverTable& settings) {
   }
   const std::vector<std::string> unused = unused_options(settings);
   if (unused.empty()) return;
-  throw CaseError({"{} = \"{}\": PETSc's solver asks for no option {}", options_key, settings.petsc_options,
-                   fmt::join(unused, ", ")},
-                  {"give options of its KSP and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\""});
+  throw CaseError(
+      {"{} = \"{}\": PETSc's solver has no option {}", options_key, settings.petsc_options, fmt::join(unused, ", ")},
+      {"give options of its KSP and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\""});
 }
 
 }  // namespace tailwater

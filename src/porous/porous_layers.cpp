@@ -42,7 +42,7 @@ void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim
       throw CaseError(
           {"{}: a porous layer is at {}, beyond the opening, where water enters and leaves as in open water",
            opening.label(), place<Dim>(x)},
-          {"end the layer there"});
+          {"end the layer at the opening"});
     }
   }
 }

@@ -156,8 +156,8 @@ void ProbeSet<Dim>::restore(std::span<const double> memory, const std::filesyste
   const auto require = [&](bool fits) {
     if (fits) return;
     throw IoError(
-        "what the checkpoint has for the memory of the probes is not of these probes; remedy: remove the newest file "
-        "in '{}', to go on from the one before",
+        "the probe data of the checkpoint do not belong to these probes; remedy: remove the newest file in '{}', to "
+        "continue from the one before",
         checkpoints.string());
   };
   for (const Instrument& instrument : instruments_) {

@@ -155,7 +155,7 @@ UprightGauge<Dim>::UprightGauge(const ProbeTable& probe, const Vec<Dim>& at, con
   const auto is_bed = [&](const Crossing<Dim>& crossing) { return crossing.normal.dot(drawn_.up) > 0.0; };
   const auto bed = std::find_if(drawn_.crossings.rbegin(), drawn_.crossings.rend(), is_bed);  // the lowest
   if (bed == drawn_.crossings.rend()) {
-    throw CaseError({"{}: the vertical line through {} meets no wall that looks up", label(probe), place(at)},
+    throw CaseError({"{}: the vertical line through {} meets no wall that faces up", label(probe), place(at)},
                     {"move it over a bed"});
   }
   path_ = path_of_bed(probe, spec, boundary, bed->wall);

@@ -27,9 +27,9 @@ constexpr double worth_telling = 1.5;
 
 template <int Dim>
 ResultLimits::ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow)
-    : energy_{"the energy rose, apart from what walls brought, by {:.3g} % of m g L/2 plus the kinetic energy",
-              "the energy rose, apart from what walls brought, by {:.3g} % of m g L/2, the kinetic energy of the start "
-              "and the work of open ends",
+    : energy_{"the energy rose, without the work of walls, by {:.3g} % of m g L/2 plus the kinetic energy",
+              "the energy rose, without the work of walls, by {:.3g} % of m g L/2, the kinetic energy of the start and "
+              "the work of open ends",
               "energy", limits.energy_warning, limits.energy_stop},
       volume_{"the mean density of the water away from the surface was off by {:.3g} %",
               "the mean density of the water away from the surface was off by {:.3g} %", "volume",

@@ -97,7 +97,7 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
       lines.push_back({"air", pockets_in_words(value("pockets"), value("pockets_volume_m3"),
                                                value("pocket_pressure_Pa"), per_metre(summary))});
     }
-    lines.push_back({"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", value("density_error_mean"),
+    lines.push_back({"density", fmt::format("error {:.2g} on average, {:.2g} rms", value("density_error_mean"),
                                             value("density_error_rms"))});
     lines.push_back({"solver", fmt::format("{:.0f} iterations in the last step", value("iterations"))});
     lines.push_back(
@@ -145,7 +145,8 @@ Json info_from(const fs::path& run, const Json& summary) {
   const double time = step.contains("time_s") ? step.at("time_s") : number_of(summary.at("time_s"), "reached");
   std::vector<InfoLine> lines = is_live ? live_digest(summary, step) : summary_digest(summary);
   if (is_live && !is_at_work) {
-    lines.insert(lines.begin(), InfoLine{"status", fmt::format("killed; to go on: tailwater resume {}", run.string())});
+    lines.insert(lines.begin(),
+                 InfoLine{"status", fmt::format("killed; to continue: tailwater resume {}", run.string())});
   }
   Json shown = Json::array();
   for (const InfoLine& line : lines) shown.push_back({{"label", line.label}, {"text", line.text}});
@@ -237,7 +238,7 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
                                          number_of(energy, "largest_rise_J"))});
   const Json& volume = summary.at("volume");
   lines.push_back(
-      {"density", fmt::format("error {:.2g} in the mean, {:.2g} rms", number_of(volume, "density_error_mean"),
+      {"density", fmt::format("error {:.2g} on average, {:.2g} rms", number_of(volume, "density_error_mean"),
                               number_of(volume, "density_error_rms"))});
   const Json& solver = summary.at("pressure_solver");
   const Json& interventions = summary.at("interventions");

@@ -150,7 +150,7 @@ double available_memory() {
     std::getline(file, unit);
     if (key == "MemAvailable:") return 1024.0 * kibibytes;
   }
-  throw IoError("/proc/meminfo has no line MemAvailable: cannot tell whether the case fits into memory");
+  throw IoError("/proc/meminfo has no line MemAvailable: it is unknown whether the case fits into memory");
 }
 
 template <int Dim>

@@ -138,7 +138,7 @@ void add_gates(const CaseSpec& spec, std::vector<std::string>& sentences) {
     const std::string how = gate.motion == GateMotion::speed ? fmt::format("at {:.4g} m/s", gate.speed)
                             : gate.motion == GateMotion::acceleration
                                 ? fmt::format("with {:.4g} m/s^2", gate.acceleration)
-                                : "as " + gate.file + " says";
+                                : "with the motion of " + gate.file;
     sentences.push_back(fmt::format("Gate '{}' begins to move at {:.4g} s, {}.", gate.name, gate.start, how));
   }
 }
@@ -192,16 +192,16 @@ void add_open_ends(const CaseSpec& spec, std::vector<std::string>& sentences) {
     if (inlet.discharge) parts.push_back("a discharge of " + told(*inlet.discharge, discharge));
     if (inlet.velocity) parts.push_back("a velocity of " + told(*inlet.velocity, "m/s"));
     if (inlet.level) parts.push_back("a level of " + told(*inlet.level, "m"));
-    if (!inlet.file.empty()) parts.push_back("what the file " + inlet.file + " says");
+    if (!inlet.file.empty()) parts.push_back("the values of the file " + inlet.file);
     const std::string source =
-        inlet.water_from.empty() ? "" : fmt::format(", from what left at '{}'", inlet.water_from);
-    sentences.push_back(fmt::format("Water comes in at '{}' with {}{}.", inlet.name, listed(parts), source));
+        inlet.water_from.empty() ? "" : fmt::format(", from the outflow at '{}'", inlet.water_from);
+    sentences.push_back(fmt::format("Water enters at '{}' with {}{}.", inlet.name, listed(parts), source));
   }
   for (const OutletTable& outlet : spec.outlets) {
-    const std::string how = outlet.level           ? "against a tailwater at " + told(*outlet.level, "m")
-                            : !outlet.file.empty() ? "against the tailwater that the file " + outlet.file + " says"
+    const std::string how = outlet.level                   ? "against a tailwater at " + told(*outlet.level, "m")
+                            : !outlet.file.empty()         ? "against the tailwater level of the file " + outlet.file
                             : outlet.beyond == Beyond::air ? "as a free jet into air"
-                                                           : "as if the channel went on";
+                                                           : "as if the channel continued";
     sentences.push_back(fmt::format("It leaves at '{}', {}.", outlet.name, how));
   }
 }
@@ -243,7 +243,7 @@ std::string about_cost(const CaseSpec& spec, const RunEstimate& estimate) {
   const double interval = spec.output.fields_interval > 0.0 ? spec.output.fields_interval : spec.time.end / 100.0;
   const std::string growth =
       estimate.largest_fluid > 1.1 * estimate.particles.fluid
-          ? fmt::format(" With what comes in there will be about {:.2g} particles of water.", estimate.largest_fluid)
+          ? fmt::format(" With the inflow there will be about {:.2g} particles of water.", estimate.largest_fluid)
           : "";
   return fmt::format(
       "It ends at {:.4g} s: about {:.0f} steps, {} on one core of this machine and {:.0f} MB; fields are written every "

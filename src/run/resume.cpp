@@ -85,7 +85,8 @@ void tell_of_another_writer(const SealedFile& file) {
 void require_same_case(const CaseSpec& spec, const CaseSpec& saved, const fs::path& path, const fs::path& case_file) {
   if (with_changeable_keys_of(spec, saved) == spec) return;
   throw InputError(
-      "checkpoint '{}' is of another case than '{}': {}; remedy: put back the case that was run, or start another run",
+      "checkpoint '{}' belongs to another case than '{}': {}; remedy: restore the case that was run, or start another "
+      "run",
       path.string(), case_file.string(), first_difference(with_changeable_keys_of(spec, saved), spec));
 }
 
@@ -93,8 +94,7 @@ void require_allowed(const CaseSpec& before, const CaseSpec& after) {
   const CaseSpec allowed = with_changeable_keys_of(after, before);
   if (allowed == after) return;
   throw InputError(
-      "--set: a run that goes on keeps its case, and here {}; it may change {}; remedy: tailwater run with another "
-      "--out",
+      "--set: a resumed run keeps its case, and here {}; it may change {}; remedy: tailwater run with another --out",
       first_difference(allowed, after), changeable_keys);
 }
 

@@ -83,8 +83,8 @@ ExitCode run_in(const CaseSpec& spec, const RunOptions& options, const Communica
     } catch (const Json::exception& error) {
       if (checkpoint == nullptr) throw;
       throw IoError(
-          "checkpoint '{}' does not say how far the output had come: {}; remedy: remove it, to go on from the one "
-          "before",
+          "checkpoint '{}' has no record of the progress of the output: {}; remedy: remove it, to continue from the "
+          "one before",
           checkpoint->path.string(), error.what());
     }
   };

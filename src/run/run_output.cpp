@@ -171,8 +171,9 @@ double RunOutput<Dim>::cpu_seconds() const {
 /// Also signals that the run is ready (RequestSender).
 template <int Dim>
 void RunOutput<Dim>::begin(const Flow<Dim>& flow) {
-  write_summary(flow, "running", std::nullopt,
-                fmt::format("The run goes on, or it was killed; then: tailwater resume {}", options_.out.string()));
+  write_summary(
+      flow, "running", std::nullopt,
+      fmt::format("The run is in progress, or it was killed; then: tailwater resume {}", options_.out.string()));
   frames_.begin(spec_, flow);
 }
 

@@ -148,7 +148,7 @@ class Fill {
       reached_.add(*first);
       return *first;
     }
-    throw CaseError({"{}: there is no room for a particle of spacing {:.6g} m at seed {}", owner_, dx_, place(seed_)},
+    throw CaseError({"{}: there is no space for a particle of spacing {:.6g} m at seed {}", owner_, dx_, place(seed_)},
                     {"move it away from the walls, or use a smaller spacing"});
   }
 

@@ -136,7 +136,7 @@ class ViewServer::Service {
     } catch (const UserError& error) {
       answer_error(response, error.code() == ExitCode::io_failed ? 500 : 400, error.what());
     } catch (const Json::exception&) {
-      answer_error(response, 400, "the request is not what it should be");
+      answer_error(response, 400, "the request is not valid");
     }
   }
 
@@ -305,7 +305,7 @@ class ViewServer::Service {
     const bool is_at_work = FolderLock::is_held(run.what.path);
     if (what == "stop" || what == "checkpoint") {
       if (!is_at_work) {
-        answer_error(response, 409, "nobody is at work in this folder");
+        answer_error(response, 409, "no process is running in this folder");
         return true;
       }
       const std::string_view file = what == "stop" ? stop_file_name : checkpoint_file_name;
@@ -315,7 +315,7 @@ class ViewServer::Service {
       }
     } else if (what == "resume") {
       if (is_at_work) {
-        answer_error(response, 409, "the run is at work");
+        answer_error(response, 409, "the run is in progress");
         return true;
       }
       actions_.resume(run.what.path);

@@ -374,7 +374,7 @@ Frame decode_frame(std::string_view bytes, const FramesBefore& before) {
   const FrameSummary summary = read_frame_head(bytes);
   if (bytes.size() - summary.payload_begin != summary.payload_size ||
       summary.raw_size > largest_inflation * (summary.payload_size + 1)) {
-    throw IoError("not a whole frame: it has another number of bytes than it says");
+    throw IoError("not a whole frame: its number of bytes differs from that in its header");
   }
   const std::string planes = inflated(bytes.substr(summary.payload_begin), summary.raw_size);
   return {summary.head, particles_from(planes, summary, before)};

@@ -85,7 +85,7 @@ TABLE = (
              ("[time]", '[air]\npockets = "adiabatic"\n[[vent]]\nat = [1, 9]\narea = 1e-4\n[time]')),
     BadInput("pressure of open air", ("pocket 'pocket1': at (1, 1) there is no air at the start that water and walls",),
              ("[time]", '[air]\npockets = "adiabatic"\n[[pocket]]\nat = [1, 1]\noverpressure = 500\n[time]')),
-    BadInput("gate that closes on the water", ("wall 'gate' comes nearer than a spacing", "at t = ", "crushed"),
+    BadInput("gate that closes on the water", ("wall 'gate' comes closer than a spacing", "at t = ", "compressed"),
              ("[time]", GATE + 'displacement = [0, "10*min(t, max(0.06 - t, 0))"]\n[time]')),
     BadInput("lid that crushes the water", ("wall 'lid' crushes the water at t = ", "0.5 m^2 of water"),
              (FLOOR + "\n", 'points = [[0, 2], [0, 0], [1, 0], [1, 2]]\n[[wall]]\nname = "lid"\nshape = "box"\n'

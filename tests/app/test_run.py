@@ -382,7 +382,8 @@ class LostTerminal(ProgramTest):
                 self.wait_for(lambda: len(list((self.folder / ranks / "fields").iterdir())) > fields + 2, process)
                 process.send_signal(signal.SIGTERM)
                 self.assertEqual(process.wait(timeout=PATIENCE), 130)
-                self.assertIn(f"interrupted: results in {ranks}; to go on: ", (self.folder / ranks / "log.txt").read_text())
+                log = (self.folder / ranks / "log.txt").read_text()
+                self.assertIn(f"interrupted: results in {ranks}; to continue: ", log)
                 process.stderr = None  # nothing to read at the end of the test
 
     def test_standard_output_that_takes_nothing_is_an_error(self):

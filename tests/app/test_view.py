@@ -373,7 +373,7 @@ class OfALiveRun(Viewed):
         self.assertEqual(indices, list(range(1, 1 + len(indices))))
         self.assertEqual(seen["info"][0]["controls"], ["stop", "checkpoint"])
         self.assertIn("steps.csv", [table["path"] for table in seen["table"]])
-        self.assertEqual(self.post("api/run/0/resume", expect=409)["error"], "the run is at work")
+        self.assertEqual(self.post("api/run/0/resume", expect=409)["error"], "the run is in progress")
         self.post("api/run/0/checkpoint")
         self.wait_for(lambda: list((self.folder / "run").glob("checkpoints/*.h5")), process)
         self.post("api/run/0/stop")
@@ -381,7 +381,7 @@ class OfALiveRun(Viewed):
         for name, data in self.events():
             if name == "info" and data["state"] == "stopped":
                 break
-        self.assertEqual(self.post("api/run/0/stop", expect=409)["error"], "nobody is at work in this folder")
+        self.assertEqual(self.post("api/run/0/stop", expect=409)["error"], "no process is running in this folder")
 
     def test_a_run_that_is_resumed_is_told_as_cut(self):
         process = self.start_endless_run("--set", "output.checkpoint_interval=0.001")

@@ -82,7 +82,7 @@ TEST_F(BedFile, IsRefusedWithPlaceAndRemedy) {
            Bad{"0,1\n", "case.toml:8", {"too few points", "at least 2"}},
            Bad{"x,z\n0,5,1,25\n", "bed.csv:2", {"has 4 columns, and the first line has 2", "decimals", "point"}},
            Bad{"x;z\n0;5;1\n", "bed.csv:2", {"has 3 columns", "name all columns"}},
-           Bad{"x z\n0 secret:$6$a\n", "bed.csv:2", {"what is in column 2 is not a number"}},
+           Bad{"x z\n0 secret:$6$a\n", "bed.csv:2", {"the entry in column 2 is not a number"}},
        }) {
     const std::string message = this->message(bad.text);
     EXPECT_NE(message.find("case.toml:8:15: wall[0].points_file = \"bed.csv\": "), std::string::npos) << message;

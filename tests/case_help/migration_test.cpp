@@ -59,7 +59,7 @@ TEST(Migration, ReportsOutletsWithoutALevel) {
       "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\n[[outlet]]\nfrom = [0, 0]\nto = [0, 1]\nlevel = 1\n";
   const Migration migration = migrate_case(required_keys + water + ends, "old.toml");
   ASSERT_EQ(migration.changes.size(), 2u);
-  EXPECT_NE(migration.changes[1].find("outlet[0] is a channel that goes on"), std::string::npos);
+  EXPECT_NE(migration.changes[1].find("outlet[0] is a channel that continues"), std::string::npos);
   EXPECT_NE(migration.changes[1].find("beyond = \"air\""), std::string::npos);
   EXPECT_EQ(migrate_case(migration.text, "new.toml").changes.size(), 0u);
 }

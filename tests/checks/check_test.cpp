@@ -445,7 +445,7 @@ TEST(CheckMotion, ThroughAWall) {
 TEST(CheckMotion, ClosingCrushesTheWater) {
   // Up by 0.3 m and down again: the foot is a spacing from the bed at t = 0.5 + 0.25/0.6.
   expect_only(check(gate_case({0.0, "0.6*min(t, 1 - t)"})), Severity::error,
-              {"wall 'gate'", "wall 'wall1'", "crushed", "t = 0.9"});
+              {"wall 'gate'", "wall 'wall1'", "compressed", "t = 0.9"});
   EXPECT_TRUE(check(gate_case({0.0, "0.6*min(t, max(1 - t, 0.1))"})).empty());
 }
 

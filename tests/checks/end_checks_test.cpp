@@ -47,7 +47,7 @@ CaseSpec tank_with_slot() {
 TEST(EndChecks, AHoleNeedsSomethingBeyond) {
   for (CaseSpec spec : {tank_over_slot(), tank_with_slot()}) {
     const std::string refused = errors_of(spec);
-    EXPECT_NE(refused.find("is a hole in a wall, and the case does not say what is beyond it"), std::string::npos)
+    EXPECT_NE(refused.find("is a hole in a wall, and the case does not define the far side"), std::string::npos)
         << refused;
     EXPECT_NE(refused.find("give beyond = \"air\""), std::string::npos) << refused;
     spec.outlets[0].beyond = Beyond::air;

@@ -58,7 +58,8 @@ TEST(CheckMeshes, WarnOfABodyBesideTheRestOrLongerThanIt) {
   findings = found();
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].severity, Severity::warning);
-  expect_words(findings[0].message(), {"is a body 8 m long among water and walls of 3 m", "0.001 for a file in mill"});
+  expect_words(findings[0].message(),
+               {"is a body 8 m long, and water and walls have a length of 3 m", "0.001 for a file in mill"});
 }
 
 TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {

@@ -54,7 +54,7 @@ TEST(MeshFile, ThatHasMoreTrianglesThanItSaysIsRefused) {
   const std::uint32_t claimed = 8;
   std::memcpy(bytes.data() + 80, &claimed, sizeof(claimed));
   const std::string message = refusal_of(MeshFolder::wall_of_file(folder.write("a.stl", bytes), FluidSide::outside));
-  EXPECT_NE(message.find("holds 12 triangles, and says that it has 8"), std::string::npos) << message;
+  EXPECT_NE(message.find("holds 12 triangles, but its header says 8"), std::string::npos) << message;
 }
 
 TEST(MeshFile, ThatIsNoFileIsRefused) {

@@ -117,7 +117,7 @@ class MadeUp(PackageTest):
                       self.first_line(water_balance=summary()["water_balance"] | {"outlets": [outlet]}))
 
     def test_energy_that_rose(self):
-        line = self.first_line(warnings=["at t = 1 s the energy rose, apart from what walls brought, by 1 %"],
+        line = self.first_line(warnings=["at t = 1 s the energy rose, without the work of walls, by 1 %"],
                                energy={"start_J": 100.0, "largest_rise_J": 2.0, "largest_rise_over_start": 0.02})
         self.assertIn("relied on: the energy rose (by 2 J, 2 % of the start)", line)
 

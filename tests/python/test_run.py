@@ -163,7 +163,7 @@ class Runs(PackageTest):
         self.assertEqual([longer.status, longer.case["time"]["end"]], ["done", 0.1])
         self.assertGreater(len(longer.probes["depth"]), before)
         self.assertEqual(longer.last().position.tolist(), self.case.run("whole").last().position.tolist())
-        with self.assertRaisesRegex(tw.InputError, "a run that goes on keeps its case"):
+        with self.assertRaisesRegex(tw.InputError, "a resumed run keeps its case"):
             run.resume({"particles.spacing": 0.2})
 
     def test_failed_step_is_a_solver_error(self):

@@ -51,7 +51,7 @@ TEST(ExplainCase, TellsWhatMovesComesInAndLeaves) {
       "[[outlet]]\nname = \"hole\"\nfrom = [0.2, 0]\nto = [0.3, 0]\ndirection = [0, -1]\nbeyond = \"air\"\n");
   for (const char* text :
        {"Gate 'g' begins to move at 1 s, at 2 m/s.", "Body 'b' of 20 kg per metre of width floats, free in y.",
-        "Water comes in at 'in' with a discharge of 0.1*t in m^3/s per metre of width.",
+        "Water enters at 'in' with a discharge of 0.1*t in m^3/s per metre of width.",
         "It leaves at 'out', against a tailwater at 0.45 m.", "It leaves at 'hole', as a free jet into air.",
         "Nothing is measured"}) {
     EXPECT_TRUE(tells(sentences, text)) << text;
