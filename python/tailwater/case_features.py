@@ -78,7 +78,7 @@ LIMITS = (
     ("docs/limits.md#accuracy", "The first contact of a thin front causes a pressure spike, whose impulse is right and whose "
      "height is not. Fronts a few millimetres thick are too fast.", {"released water", "gate"}),
     ("docs/theory/open_ends.md", "Open ends prescribe a level or a discharge and reflect part of what reaches them; the result "
-     "holds only as long as they do what is prescribed.", {"inlet", "outlet"}),
+     "holds only as long as they have the prescribed values.", {"inlet", "outlet"}),
     ("docs/limits.md#accuracy", "Travelling waves lose height, the more so the fewer particles resolve the height.",
      {"wave maker"}),
     ("docs/theory/floating_bodies.md", "No water flows through a gap under a body narrower than 0.75 spacings, and roll and heave "

@@ -77,7 +77,7 @@ def write_stations(writer, run, names):
     probes = {probe["name"]: probe for probe in run.case.get("probe", [])}
     writer.file.createDimension("station", len(names))
     writer.texts("station_name", names, cf_role="timeseries_id", long_name="name of the probe")
-    writer.texts("station_type", [probes[name]["type"] for name in names], long_name="what the probe measures")
+    writer.texts("station_type", [probes[name]["type"] for name in names], long_name="type of the probe")
     places = np.array([place_of(probes[name], run.dimension) for name in names])
     for axis in range(run.dimension):
         upward = {"axis": "Z", "positive": "up"} if axis == run.dimension - 1 else {"axis": AXES[axis]}

@@ -22,7 +22,7 @@ def parser():
     command.add_argument("--question", default="", metavar="TEXT", help="the question, as the page prints it")
     command.add_argument("--pictures", type=int, default=3, metavar="N", help="pictures of the finest run (3)")
     command.add_argument("--to", type=Path, metavar="FILE", help="page to write (DIR/dossier.html); the JSON file is beside it")
-    command.add_argument("--check", action="store_true", help="run again what a report names and compare bit for bit")
+    command.add_argument("--check", action="store_true", help="repeat the runs of a report and compare bit for bit")
     return command
 
 

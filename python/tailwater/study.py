@@ -76,8 +76,8 @@ class Study:
         probes. Throws DataError if a run has not ended."""
         for run in [*runs, *starts, *([step] if step else [])]:
             if run.summary.get("status") != "done":
-                raise DataError(f"{run.path}: has not ended; remedy: run the study again, it goes on with what is not "
-                                "done")
+                raise DataError(f"{run.path}: has not ended; remedy: repeat the study, which continues with the missing "
+                                "runs")
         self.runs = sorted(runs, key=lambda run: run.spacing)
         self.starts, self.step = list(starts), step
         self.spacings = [run.spacing for run in self.runs]
@@ -249,7 +249,7 @@ def done(members, what):
         if row["status"] != "done":
             message = row["message"] if isinstance(row["message"], str) else ""
             raise DataError(f"{members.path / member}: {row['status']}{': ' if message else ''}{message}; remedy: "
-                            f"another case, or {what}; the study then goes on with what is not done")
+                            f"another case, or {what}; the study then continues with the missing runs")
     return members.runs
 
 

@@ -241,7 +241,7 @@ def notes_on(found, order, is_hidden, step):
     half = 0.5 * (found.high - found.low)
     if half == 0:
         return ["all spacings give one value"]
-    notes = ["no order: the values do not come nearer to a limit"] if math.isnan(order) else []
+    notes = ["no order: the values do not converge"] if math.isnan(order) else []
     if is_hidden:
         notes.append("the values differ by no more than chance: longer means and more starts narrow the interval")
     elif found.chance > found.discretisation:
