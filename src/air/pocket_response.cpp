@@ -14,8 +14,8 @@ namespace {
 /// Number of passes of a response that begins.
 constexpr int passes_at_start = 4;
 
-/// Maximum change of a response in a pass. A larger change means that the air beside the water is different, since
-/// pockets have joined, parted or torn, and the response begins anew.
+/// Maximum change of a response in a pass. A larger change means that the air beside the water is different, because
+/// pockets have joined, parted or torn, and the response is initialised again.
 constexpr double largest_change = 0.2;
 
 /// Updates walls. Above the surface a wall has water on one side only, below. With the mean alone it would hold back

@@ -123,8 +123,8 @@ double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state) {
   return std::clamp(state.asked, passed - waiting, passed + waiting);
 }
 
-/// Adjusts the growth of the reference pockets of sealed spaces, so that all pockets together lose the volume that
-/// comes in.
+/// Adjusts the growth of the reference pockets of sealed spaces, so that all pockets together lose the volume of the
+/// inflow.
 template <int Dim>
 void settle_references(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt, std::vector<double>& growth) {
   const std::vector<double> brought = brought_by_ends(flow);

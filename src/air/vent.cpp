@@ -6,7 +6,7 @@
 namespace tailwater {
 namespace {
 
-/// gamma of the flow, which is adiabatic whatever the gas in the pocket does.
+/// gamma of the flow, which is adiabatic for any law of the gas in the pocket.
 constexpr double heat_ratio = 1.4;
 
 /// J/kg; p/rho of dry air at 20 degrees Celsius.

@@ -40,7 +40,7 @@ class VoidGrid {
   bool step(Cell& c, int axis, int direction) const;
   /// The row beside a row along one of the other axes; -1 if there is none.
   int row_beside(int row, int axis, int direction) const;
-  /// Puts a cell's index along an axis into the range if the direction repeats. Returns whether it is in the range.
+  /// Wraps a cell's index along an axis into the range if the direction repeats. Returns whether it is in the range.
   bool wrap(int axis, int& index) const {
     const int n = count_[axis];
     if (repeats_[axis]) index = ((index % n) + n) % n;

@@ -122,7 +122,7 @@ void print_sections(const CaseSpec& spec) {
   }
 }
 
-/// Prints what zones of refinement make of the case.
+/// Prints the effects of refinement zones on the case.
 template <int Dim>
 void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, double water) {
   if (flow.setup.graded == nullptr) return;

@@ -22,7 +22,7 @@ class AwaitedSignals {
   AwaitedSignals(const AwaitedSignals&) = delete;
   AwaitedSignals& operator=(const AwaitedSignals&) = delete;
 
-  /// Waits for a signal; returns 0 if none has come within `patience`.
+  /// Waits for a signal; returns 0 if none arrives within `patience`.
   int next(std::optional<std::chrono::milliseconds> patience = std::nullopt) const;
 
   /// Starts a program with its arguments, without standard input, with `standard_error` as its own. It has its own

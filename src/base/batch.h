@@ -32,7 +32,7 @@ unsigned bits_of(Truths holds) {
   return bits;
 }
 
-/// Numbers per batch, whatever the width of a register.
+/// Numbers per batch, for any width of a register.
 inline constexpr int batch_size = 8;
 using IndexBatch = std::int32_t __attribute__((vector_size(4 * batch_size)));
 using FloatBatch = float __attribute__((vector_size(4 * batch_size)));

@@ -10,7 +10,7 @@
 namespace tailwater {
 namespace {
 
-/// [1 over the frequency of a line with what hangs on it]; the force of a line is that of the start of the step.
+/// [1 over the frequency of a line with its load]; the force of a line is that of the start of the step.
 constexpr double longest_step_of_moorings = 0.5;
 
 /// Speed that a unit impulse gives the place x of a body as drawn, at most [1/kg].

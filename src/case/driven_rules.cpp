@@ -10,7 +10,8 @@ namespace tailwater {
 
 namespace {
 
-/// Checks that `from` and `to` span a flat axis-parallel plate with that side; `what` is its name in messages.
+/// Checks that `from` and `to` span a flat axis-parallel plate with that side; `what` is the name of the plate in
+/// messages.
 void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection side, std::string_view what,
                  TableReader& reader) {
   if (from.size() != to.size() || reader.is_wrong("from") || reader.is_wrong("to") || from.empty()) return;

@@ -46,7 +46,7 @@ CaseLabel nearest_label(const Boundary<Dim>& boundary, const std::vector<Opening
   return label;
 }
 
-/// Adds the lowest cells inside of the ends through which water comes in.
+/// Adds the lowest cells inside the ends through which water enters.
 template <int Dim>
 void add_cells_at_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, const CellSpace<Dim>& space,
                        std::vector<typename CellSpace<Dim>::Cell>& cells) {

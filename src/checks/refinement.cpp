@@ -76,7 +76,7 @@ Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename S
   return {};
 }
 
-/// Whether a zone, with what surrounds it, meets a box.
+/// Whether a zone and its border meet a box.
 template <int Dim>
 bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, Box<Dim> box) {
   const double margin = clearance * spec.particles.spacing;

@@ -17,7 +17,7 @@ Clause roughness_text(const WallTable& wall, double roughness) {
           wall.manning};
 }
 
-/// The largest value of the key for this roughness, as a remedy, which rounding must not put above the bound.
+/// The largest value of the key for this roughness, as a remedy, rounded so that it does not exceed the bound.
 std::string bound_on_key(const WallTable& wall, double roughness, double bound) {
   const double largest = 0.99 * bound;
   if (wall.manning == 0.0) return fmt::format("a roughness of at most {:.3g} m", largest);

@@ -11,9 +11,9 @@
 namespace tailwater {
 namespace {
 
-constexpr double reach = 4.0;         // dx, in front of a plate, where the water is looked at
-constexpr double most_error = 0.1;    // of the depth
-constexpr double most_columns = 1.0;  // dx; of the same
+constexpr double reach = 4.0;         // dx; distance in front of a plate at which the water is sampled
+constexpr double most_error = 0.1;    // error of the depth, as a fraction of it
+constexpr double most_columns = 1.0;  // dx; error of the depth
 constexpr double most_plate_reflection = 0.1;
 constexpr double most_zone_reflection = 0.05;
 
@@ -42,7 +42,7 @@ Findings check_height(const WaveKeys& waves, const CaseLabel& owner, double dx) 
       {"use a spacing of at most {:.3g} m, better a tenth of the height", 0.99 * waves.height / lowest_resolved_wave})};
 }
 
-/// A plate whose own theory says that it absorbs badly.
+/// Warns of a plate that absorbs badly according to linear theory.
 Findings check_absorption(const WaveMakerTable& maker, double gravity) {
   if (maker.absorption == Absorption::none || maker.period == 0.0) return {};
   const double omega = 2.0 * std::numbers::pi / maker.period;

@@ -25,7 +25,7 @@ std::vector<std::int32_t> hand_to_owners(Flow<Dim>& flow, std::vector<std::int32
   return own;
 }
 
-/// Makes particles of those of all ranks' rows that stand in this rank's part of space. Ghosts and lists are forgotten.
+/// Makes particles of the rows from all ranks that stand in this rank's part of space. Ghosts and lists are discarded.
 template <int Dim>
 void add_walls(Flow<Dim>& flow, std::vector<std::int32_t> rows) {
   Particles<Dim>& particles = flow.state.particles;

@@ -7,7 +7,7 @@
 namespace tailwater {
 namespace {
 
-/// C/C_0 of owned particles, and for fluid the first moment, the crowding and, where it is asked for, the gradient of
+/// Computes C/C_0 of owned particles, and for fluid the first moment, the crowding and, where needed, the gradient of
 /// C.
 template <int Dim>
 void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {

@@ -14,7 +14,7 @@ constexpr double least_closed = 2.0;
 constexpr double march = 0.25;         // dx; with which walls that lead on are followed
 constexpr double looking_away = -0.6;  // cosine between a wall's normal and the way inwards
 constexpr double led_straight = 1.0;   // dx; walls that lead to an opening are no farther from straight, a lead away
-constexpr double exact = 1e-9;         // dx; to which their ends are found: much finer than what counts as one corner
+constexpr double exact = 1e-9;         // dx; accuracy of their ends: much finer than the tolerance of corners
 
 /// Where walls are beside the rim of one opening, and how far they lead on along its normal.
 template <int Dim>
@@ -36,7 +36,7 @@ class Rim {
     return looks_away ? NearestWall<Dim>{} : wall;
   }
 
-  /// Whether walls lie beside an edge of the rim (3D). Its ends do not count: what lies there is beside the next edge.
+  /// Whether walls lie beside an edge of the rim (3D). Its ends do not count: walls there are beside the next edge.
   bool is_closed(const Vec<Dim>& from, const Vec<Dim>& to) const {
     const double length = (to - from).norm();
     const Vec<Dim> inwards = inwards_of(from, to);
@@ -76,7 +76,7 @@ class Rim {
   const Opening<Dim>& mouth() const { return mouth_; }
 
  private:
-  /// Whether the walls beside the rim come to it straight, from a lead inside: water that leaves does not turn there.
+  /// Whether the walls beside the rim lead straight to it from inside, so that outflow does not turn there.
   bool is_led_to() const {
     std::vector<Vec<Dim>> places = mouth_.rim();
     if constexpr (Dim == 3) {
@@ -162,7 +162,7 @@ void append_walls(const Rim<2>& rim, int wall, double /*spacing*/, Boundary<2>& 
   for (const WallFace<2>& face : walls_of(rim, wall)) boundary.faces.push_back(face);
 }
 
-/// A rectangle's duct is a box, whose particles go on with the lattice of boxes before it; others are meshes.
+/// A rectangle's duct is a box, whose particles continue the lattice of boxes in front of it; other ducts are meshes.
 void append_walls(const Rim<3>& rim, int wall, double spacing, Boundary<3>& boundary) {
   TriangleMesh mesh = tube(rim);
   if (mesh.triangles.empty()) return;

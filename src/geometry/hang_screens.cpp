@@ -61,7 +61,8 @@ Screen<3> triangle_screen(const TriangleMesh& mesh, int t, const Vec<3>& moved, 
   return screen;
 }
 
-/// A free end of a chain of faces: what its screens hide fades out there, also on a screen beyond the end.
+/// A free end of a chain of faces: the hidden fraction of its screens decreases to 0 there, also on a screen beyond the
+/// end.
 void fade_out(const Vec<2>& end, const Vec<2>& out, const Screen<2>& last, double fade,
               std::vector<Screen<2>>& screens) {
   for (Screen<2>& screen : screens) {
@@ -313,7 +314,7 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
       for (RimPiece<3>& piece : screens.back().rim) piece = {piece[0] + moved, piece[1] + moved};
     }
   }
-  // Places exactly behind the rim, such as places of a lattice, are hidden whatever the rounding.
+  // Points exactly behind the rim, such as lattice points, are hidden for any rounding.
   for (Screen<Dim>& screen : screens) {
     for (std::array<double, 2>& range : screen.range) {
       range[0] -= corner_tolerance * lengths.gap();

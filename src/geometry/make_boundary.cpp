@@ -231,7 +231,7 @@ std::vector<std::shared_ptr<const MeshSurface>> water_meshes(const CaseSpec& spe
   return water;
 }
 
-/// The openings beyond which walls go on, and the planes between which the case repeats itself, as far as the walls
+/// The openings beyond which walls continue, and the planes between which the case repeats itself, as far as the walls
 /// reach.
 template <int Dim>
 std::vector<WallFace<Dim>> places_where_walls_continue(const CaseSpec& spec, const Boundary<Dim>& boundary) {
@@ -291,7 +291,7 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
   }
   const double reach = dummy_layers(spec) * spec.particles.spacing;
   boundary.continued = places_where_walls_continue(spec, boundary);
-  // Particles on the wall itself would be felt from both of its sides.
+  // Particles on the wall itself would act on both of its sides.
   if (!traits_of(spec).walls.on_wall) boundary.find_free_ends(spec.particles.spacing, reach);
   boundary.hang_screens(spec.particles.spacing, reach);
   if constexpr (Dim == 3) boundary.water = water_meshes(spec, boundary);

@@ -73,8 +73,8 @@ struct MeshSurface::Tree {
     boxes.init(triangles.begin(), triangles.end(), around.begin(), around.end());
   }
 
-  /// Calls visit(triangle) for the triangles in branches whose box is wanted: `order(box)` is their order, and those
-  /// where it is above `limit()` when their turn comes are left out.
+  /// Calls visit(triangle) for the triangles in the branches with `order(box)` up to `limit()`, the smaller of two
+  /// sibling branches first. The limit may decrease meanwhile, which excludes branches with a larger order.
   template <class Order, class Limit, class Visit>
   void walk(Order&& order, Limit&& limit, Visit&& visit) const {
     if (boxes.getRootIndex() < 0) return;

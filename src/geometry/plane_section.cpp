@@ -120,7 +120,7 @@ class Drawing2D {
     return found;
   }
 
-  /// Where the way that comes from one corner to the next goes on: as far left as it can.
+  /// Next corner of a path that arrives at `at` from `from`: the leftmost one.
   int next_corner(int from, int at) const {
     const Vec<2> back = corners_[from] - corners_[at];
     int best = from;

@@ -20,7 +20,7 @@ Polygon::Polygon(std::vector<Vec<2>> corners, double tolerance) : corners_(std::
   const auto band_at = [&](double y) { return std::clamp(static_cast<int>((y - low_) / band_), 0, count - 1); };
   for (int i = 0, last = count - 1; i < count; last = i++) {
     const auto [low, high] = std::minmax(corners_[last][1], corners_[i][1]);
-    // A band more on each side, whatever the rounding.
+    // One more band on each side, as a margin for rounding.
     const int first = std::max(0, band_at(low - tolerance_) - 1);
     const int end = std::min(count - 1, band_at(high + tolerance_) + 1);
     for (int band = first; band <= end; ++band) edges_[band].push_back(i);

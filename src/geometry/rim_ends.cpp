@@ -43,7 +43,7 @@ RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& 
   const auto is_closed = [&](double share) {
     return is_closed_by_wall(boundary, Vec<3>(from + share * (to - from)), out, lengths.gap(), own);
   };
-  // Beside a wall that it does not point at, as at the side wall of a flume, an edge goes on to be free.
+  // Beside a wall at which it does not point, such as the side wall of a flume, an edge stays free.
   const auto is_ended = [&](const Vec<3>& x) {
     const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
     return (beside.distance <= lengths.gap() && boundary.faces[beside.face].normal.dot(out) < faces_edge) ||

@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// How a piece of the rim of a wall ends. Screens end at once where the wall is continued by something else.
+/// How a piece of the rim of a wall ends. Screens end abruptly where the wall is continued by something else.
 enum class RimEnd { on_wall, continued, free };
 
 /// The spacing of the particles and the support of the kernel, m.
@@ -39,7 +39,7 @@ bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const V
 template <int Dim>
 bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths);
 
-/// How an edge of wall `own` ends, looked at in steps of dx.
+/// Determines how an edge of wall `own` ends, in steps of dx.
 RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
                  const Lengths& lengths);
 

@@ -34,7 +34,7 @@ constexpr double hopeless_guess = 1e4;
 constexpr double least_sure_tolerance = 1e-7;
 
 /// Maximum number of times that a method may report convergence. Each time its tolerance is halved, or reduced further.
-/// A method that has not reached the goal after so many attempts will not reach it.
+/// A method that has not reached the goal after this number of attempts will not reach it.
 constexpr int most_attempts = 30;
 
 /// A system, its current solution, and its residual. Its functions are collective.

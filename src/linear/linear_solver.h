@@ -21,7 +21,7 @@ struct SolveReport {
 class LinearSolver {
  public:
   /// `water` has the known properties of all systems, by which `auto` chooses. Throws InputError for petsc_options that
-  /// PETSc does not know, or that would change the criterion by which a solve ends.
+  /// do not exist in PETSc, or that would change the criterion by which a solve ends.
   explicit LinearSolver(const PressureSolverTable& settings, const SystemTraits& water = {});
   ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
@@ -33,7 +33,7 @@ class LinearSolver {
   SolveReport solve(LinearSystem& system, std::span<double> solution, double tolerance);
 
   /// Frees the data that belong to the pattern of the last solve. Call when no other solve has the same pattern,
-  /// because a new pattern needs all of them anew.
+  /// because a new pattern needs new data.
   void forget();
 
   /// Whether it solves by the multigrid on cells, which needs the cells of each system (LinearSystem::set_cells).

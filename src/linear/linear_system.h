@@ -124,7 +124,7 @@ class LinearSystem {
     }
     /// Completes the row. Every weight must have been set; `diagonal` must not be 0.
     void finish(double diagonal, double rhs);
-    /// Makes the row x_i = 0, whatever was set before.
+    /// Makes the row x_i = 0, for any earlier contents.
     void finish_as_zero();
 
    private:

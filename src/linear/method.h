@@ -35,7 +35,7 @@ struct MethodOutcome {
   End end = End::unfinished;
   std::string reason;                   ///< result of the method, for the user
   int iterations = 0;                   ///< number of iterations used
-  std::optional<double> residual = {};  ///< |b - A x|, if the method knows it
+  std::optional<double> residual = {};  ///< |b - A x|, if the method computes it
   /// residuals of the iterations, in a unit of the method; the first is that of the start
   std::vector<double> history = {};
 

@@ -126,7 +126,7 @@ void PetscMethod::set_up(const LinearSystem& system) {
   is_set_up_ = true;
 }
 
-/// Puts the shell around the system. Returns whether the pattern is new.
+/// Attaches the shell to the system. Returns whether the pattern is new.
 bool PetscMethod::take_matrix(const LinearSystem& system) {
   if (pattern_number_ == system.pattern_number()) return false;
   pattern_number_ = system.pattern_number();

@@ -11,7 +11,7 @@
 
 namespace tailwater {
 
-/// The prescribed flow at an open end. Without any of these the channel goes on beyond it.
+/// The prescribed flow at an open end. Without any of these the channel continues beyond it.
 struct EndFlow {
   std::optional<TimeFunction> discharge;  ///< m^3/s, in 2D per metre of width; into the case
   std::optional<TimeFunction> velocity;   ///< m/s; mean over the section, into the case
@@ -68,7 +68,7 @@ struct ChannelEnd {
   bool is_passed_by(const Vec<Dim>& x) const;
   /// A place on the opening as the place on the mouth before it.
   Vec<Dim> on_mouth(const Vec<Dim>& x) const { return x - duct * mouth.normal; }
-  /// Whether the case says more than that the channel goes on.
+  /// Whether the case prescribes a condition, instead of a channel that continues.
   bool is_driven() const { return flow.feeds() || flow.level; }
   /// Whether a level is prescribed, and the velocity follows.
   bool holds_level() const { return flow.level && !flow.feeds(); }

@@ -29,7 +29,7 @@ int body_named(const CaseSpec& spec, const std::string& name) {
 
 }  // namespace
 
-// A body is where its walls were placed, to the last bit: a run that goes on places them from the state.
+// A body is exactly where its walls were placed, to the last bit, because a resumed run places them from the state.
 template <int Dim>
 AffineMap<Dim> BodyState<Dim>::at(double t) const {
   if (t == time) return placement;

@@ -14,7 +14,7 @@ namespace {
 /// height.
 constexpr int harmonics = 24;
 
-/// Heights from 0 to the one wanted, each from the solutions of the two before it.
+/// Heights from 0 to the target, each from the solutions for the two before it.
 constexpr int height_steps = 12;
 
 constexpr int newton_steps = 30;

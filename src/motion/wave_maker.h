@@ -1,4 +1,4 @@
-// Plates that make or absorb waves: how they move, and what elevation their own waves have in front of them
+// Plates that make or absorb waves: their motion, and the elevation of their own waves in front of them
 // (docs/theory/waves.md).
 #pragma once
 
@@ -35,7 +35,7 @@ class SolitaryWave {
 /// A sum of sines, which grow from rest.
 class PeriodicWaves {
  public:
-  /// `gauge` [m] is the distance at which its elevation is asked for.
+  /// `gauge` [m] is the distance from the plate at which the elevation is evaluated.
   PeriodicWaves(const WaveMakerTable& maker, double gravity, double gauge);
 
   double stroke(double since) const;
@@ -61,7 +61,7 @@ class PeriodicWaves {
 /// The motion of one plate along itself, in the theory of its waves alone.
 class MakerLaw {
  public:
-  /// `gauge` [m] is the distance in front of the plate at which the elevation is asked for.
+  /// `gauge` [m] is the distance in front of the plate at which the elevation is evaluated.
   MakerLaw(const WaveMakerTable& maker, double gravity, double gauge);
 
   /// The displacement [m] of the plate at the still water's level, towards the water.
@@ -69,10 +69,10 @@ class MakerLaw {
   /// The elevation [m] of its own waves at the gauge.
   double elevation(double time) const;
 
-  /// The speed [m/s] at the still water's level with which the plate gives way per metre of elevation that is not its
-  /// own [1/s].
+  /// Gain of the absorption [1/s]: speed [m/s] of the plate at the still water level per metre of elevation of other
+  /// waves.
   double gain() const { return gain_; }
-  /// How fast it forgets how far it gave way [1/s].
+  /// Rate [1/s] at which the displacement by absorption decays.
   double forgetting() const { return forgetting_; }
 
  private:

@@ -24,7 +24,7 @@ constexpr double weakest = 0.5;
 constexpr double strongest = 16.0;
 constexpr int strengths = 41;
 
-/// A zone that makes waves may reflect this much for a higher strength, which also replaces what its waves lose.
+/// A zone that makes waves may reflect this much for a higher strength, which also compensates the losses of its waves.
 constexpr double allowed_reflection = 0.02;
 
 /// The wave number of waves that lose their velocity at `rate`: omega (omega + i rate) = g k tanh kh, continued from

@@ -1,5 +1,5 @@
-// Keeps neighbour rows, ghosts and cell grid valid for the particles' present positions. Ghosts reach a skin beyond the
-// support and are chosen anew only when some particle has moved half a skin.
+// Keeps neighbour rows, ghosts and cell grid valid for the particles' present positions. Ghosts extend a skin beyond
+// the support and are selected again only when some particle has moved half a skin.
 #pragma once
 
 #include <vector>
@@ -41,14 +41,14 @@ class Neighbourhood {
   /// The equivalent of `position` inside a periodic domain.
   Vec<Dim> wrapped(const Vec<Dim>& position) const { return tailwater::wrapped<Dim>(domain_, position); }
 
-  /// Wraps the owned particles, sorts them, so that particles near in space are near in memory, and forgets pairs and
+  /// Wraps the owned particles, sorts them, so that particles near in space are near in memory, and discards pairs and
   /// ghosts. Call between steps only: indices change.
   void reorder(Particles<Dim>& particles, ParticleOrder order);
 
-  /// Forgets pairs and ghosts; the next `update` finds them as if for the first time.
+  /// Discards pairs and ghosts; the next `update` computes them as if for the first time.
   void forget(Particles<Dim>& particles);
 
-  /// Keeps only these owned particles, in this order, and forgets pairs and ghosts. Call between steps only: indices
+  /// Keeps only these owned particles, in this order, and discards pairs and ghosts. Call between steps only: indices
   /// change.
   void keep(Particles<Dim>& particles, std::span<const std::int32_t> kept);
 
@@ -63,7 +63,7 @@ class Neighbourhood {
   /// All particles, ghosts included, as they were when the pairs were found.
   const CellGrid<Dim>& grid() const { return grid_; }
   const Kernel<Dim>& kernel() const { return kernel_; }
-  /// How often ghosts were chosen anew.
+  /// Number of times that ghosts were selected again.
   std::size_t renewals() const { return renewals_; }
 
  private:

@@ -12,8 +12,8 @@
 
 namespace tailwater {
 
-/// Gradient of a scalar at particle i. The terms are w_i w_j (p_i + p_j) a_ij, which is opposite for the two to the
-/// last bit in single precision too, whatever their volumes.
+/// Gradient of a scalar at particle i. The terms are w_i w_j (p_i + p_j) a_ij, which is opposite for the two particles
+/// to the last bit, in single precision too, for any volumes.
 template <int Dim>
 Vec<Dim> conservative_gradient(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
                                const PairVectorField<Dim>& pair_vectors, std::span<const double> field) {

@@ -16,7 +16,7 @@ void ScriptLoads<Dim>::add_to_bodies(std::span<Twist<Dim>> loads) const {
   for (std::size_t b = 0; b < on_bodies.size(); ++b) loads[b] += on_bodies[b];
 }
 
-/// Walls that were gathered after the loads were given stand behind all others, and feel none.
+/// Walls that were gathered after the loads were given stand behind all others, and have no loads.
 template <int Dim>
 void ScriptLoads<Dim>::add_acceleration(const Flow<Dim>& /*flow*/, std::span<Vec<Dim>> acceleration_of_water) const {
   for_each(acceleration.size(), [&](std::size_t i) { acceleration_of_water[i] += acceleration[i]; });

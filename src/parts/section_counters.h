@@ -16,7 +16,7 @@ class SectionCounters final : public Part<Dim> {
       : sections_(std::move(sections)), volumes_(sections_.size(), 0.0) {}
 
   const std::vector<Opening<Dim>>& sections() const { return sections_; }
-  /// m^Dim; what has passed each section since the start, less what came back.
+  /// m^Dim; net volume that has passed each section since the start
   const std::vector<double>& volumes() const { return volumes_; }
 
   std::string_view name() const override { return "sections"; }

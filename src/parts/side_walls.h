@@ -35,7 +35,7 @@ class SideWalls final : public Part<Dim> {
   SideWallLaw law_;
 };
 
-/// Throws InputError where the walls are so near to each other that water comes to rest within a step.
+/// Throws InputError where the walls are so close to each other that their friction stops the water within a step.
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_side_walls(const CaseSpec& spec, const Setup<Dim>& setup,
                                            const Boundary<Dim>& boundary);

@@ -1,7 +1,7 @@
-// Wave makers that absorb waves: the speed with which each gives way in a step to the waves that are not its own. It is
-// the difference between the elevation in front of the plate and the elevation of its own waves, times a gain
-// (docs/theory/waves.md). The plates' own motion is that of walls (motion/wave_maker.h), and how far they gave way is
-// part of its state.
+// Wave makers that absorb waves: the speed of each plate in a step, by which it absorbs waves that are not its own. It
+// is the difference between the elevation in front of the plate and the elevation of its own waves, times a gain
+// (docs/theory/waves.md). The plates' own motion is that of walls (motion/wave_maker.h), and the displacement by
+// absorption is part of its state.
 #pragma once
 
 #include <vector>

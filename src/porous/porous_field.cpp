@@ -175,7 +175,7 @@ template <int Dim>
 void PorousField<Dim>::smooth(const Boundary<Dim>& boundary, const Kernel<Dim>& kernel) {
   const double radius = kernel_radius(kernel);
   const std::vector<StencilNode> stencil = find_stencil(kernel);
-  std::vector<float> in_front(nodes_.size(), -1.0F);  // below 0: not looked at yet
+  std::vector<float> in_front(nodes_.size(), -1.0F);  // below 0: not computed yet
   const std::vector<Node> drawn = nodes_;
   for (const std::size_t k : nodes_near_surfaces(static_cast<int>(radius / step_))) {
     const Index centre = index_of(k);

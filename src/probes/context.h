@@ -169,7 +169,7 @@ struct Reading {
   /// a resumed run restores it.
   std::shared_ptr<std::vector<double>> memory = {};
   bool memory_grows = false;  ///< else its number of values is constant
-  /// Whether it sums over time: it is then taken at every step, whatever interval is between the lines of its table.
+  /// Whether it sums over time: it is then evaluated at every step, for any interval between the lines of its table.
   bool adds_up = false;
   /// The totals of its type (totals_of), from its memory; the last ones are left out as long as they are undefined.
   std::function<std::vector<double>()> totals = {};

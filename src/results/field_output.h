@@ -31,7 +31,7 @@ class FluidFields {
   std::vector<std::int64_t> id_;
 };
 
-/// The faces of all walls, corner by corner. Owns what `view` borrows.
+/// The faces of all walls, corner by corner. Owns the data that `view` borrows.
 template <int Dim>
 class WallFields {
  public:

@@ -25,7 +25,7 @@ struct Checkpoint {
   std::vector<double> probe_memory;  ///< state of the probes (ProbeSet::memory); on all ranks
   std::vector<double> rank_log;      ///< sums of this rank (RankLog::saved)
   double reference_step = 0.0;       ///< s (StepGuard); the same on all ranks
-  std::string cuts;                  ///< of this rank (SpaceCuts::bytes); empty if space must be divided anew
+  std::string cuts;                  ///< of this rank (SpaceCuts::bytes); empty if space must be divided again
   bool is_repartitioned = true;      ///< false where it was written by another number of ranks
 };
 

@@ -112,8 +112,8 @@ double memory_estimate(const ParticleCount& count, double neighbours) {
 
 namespace {
 
-/// The most particles that zones of refinement add to so many of the case's spacing: until they are full, or have all
-/// of the water.
+/// The most particles that zones of refinement add to a number of particles of the case's spacing: until they are full,
+/// or have all of the water.
 template <int Dim>
 double particles_of_zones(const CaseSpec& spec, const Boundary<Dim>& boundary, double fluid) {
   const SpacingField<Dim> field(spec, boundary);

@@ -33,7 +33,7 @@ struct RunEstimate {
   double steps = 0.0;         ///< steps to the end, if speeds stay near those of free fall through the fluid's height
   double seconds = 0.0;       ///< of CPU time on this machine, from trial steps
   bool is_from_tank = false;  ///< the trial steps were those of a tank, and `seconds` is only a first guess
-  bool grows_much = false;    ///< because far more water comes in than there is at the start
+  bool grows_much = false;    ///< because far more water enters than there is at the start
 };
 
 /// Pairs of neighbours with which a step takes about a second. Measured: a step of 190 000 particles in 2D, which is

@@ -36,7 +36,7 @@ class Simulation {
   /// Computes the pressure at the start. Throws SolverError.
   void start();
 
-  /// Whether the time has come to the end of the case, or its liquid is at rest where that ends it.
+  /// Whether the time has reached the end of the case, or its liquid is at rest where that ends the case.
   bool has_ended() const;
 
   /// Prepares the next step: particles are repartitioned, water leaves and enters at open ends. Returns its size [s].

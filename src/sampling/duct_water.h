@@ -16,9 +16,9 @@ struct WaterParticle {
   int block;      ///< index into CaseSpec::fluid
 };
 
-/// Goes on with the water before each mouth along its normal: copies of the particles within a spacing [m] of the
-/// mouth, a spacing apart, to the end of the duct. A duct without water at its mouth is dry. Collective; all of them on
-/// every rank.
+/// Continues the water in front of each mouth along its normal: copies of the particles within a spacing [m] of the
+/// mouth, a spacing apart, to the end of the duct. A duct without water at its mouth is dry. Collective; all particles
+/// on every rank.
 template <int Dim>
 std::vector<WaterParticle<Dim>> water_in_ducts(const std::vector<Duct<Dim>>& ducts, double spacing,
                                                const FluidParticles<Dim>& fluid);

@@ -13,7 +13,7 @@
 namespace tailwater {
 namespace {
 
-/// [dx]; what openings have farther beyond the box around all walls is of no use: they may be drawn far too large.
+/// [dx]; openings may be drawn far too large: parts farther than this beyond the box around all walls are ignored.
 constexpr double beyond_walls = 100.0;
 
 template <int Dim>

@@ -1,5 +1,5 @@
 // The lattice of the water along one axis: cells of equal width between the planes of walls, so that the first row of
-// particles stands half a cell from each of them, whatever their distance.
+// particles is half a cell from each of them, at any distance between them.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ class LatticeAxis {
   /// plane nearer than spacing/2 to the one before is left out, but not the last one.
   LatticeAxis(std::vector<double> planes, double spacing);
 
-  /// Cells between the first plane and the last: 0, ..., count() - 1. Outside they go on with the width of the
-  /// outermost.
+  /// Cells between the first plane and the last: 0, ..., count() - 1. Cells outside have the width of the outermost
+  /// ones.
   int count() const { return pieces_.back().first + pieces_.back().count; }
 
   double width(int cell) const { return piece_of(cell).width; }

@@ -48,7 +48,7 @@ Behind part_behind(const MeshSurface& surface, const Vec<3>& centre, const Vec<3
   return behind;
 }
 
-/// Whole cells behind the surface drawn on beyond its free rim. Water feels them only through the mesh.
+/// Whole cells behind the surface extended beyond its free rim. They act on water only through the mesh.
 void sample_beyond_rim(const WallMesh& mesh, const WallLayers& layers, const Lattice<3>& lattice,
                        WallParticleCollector<3>& collector) {
   if (mesh.free_edges.empty()) return;

@@ -1,4 +1,4 @@
-// The pressure of the first moment, by the order of a step that comes next. Nothing has moved in the end.
+// The initial pressure, computed in the order of the first step. Afterwards all particles are where they were.
 #pragma once
 
 #include "flow/flow.h"

@@ -1,6 +1,6 @@
-// The server behind `tailwater view`: a page, and its data about runs, for the browser of the user who started it
+// Server of `tailwater view`: a page, and its data about runs, for the browser of the user who started it
 // (docs/reference/view.md). It reads the folders of runs, and sends requests to runs by the files that any user can
-// make.
+// create.
 #pragma once
 
 #include <filesystem>

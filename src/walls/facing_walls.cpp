@@ -10,7 +10,7 @@ constexpr double like_cosine = 0.5;  // walls that turn by less than 60 degrees 
 constexpr double way_to_corner = 0.9;
 constexpr double on_wall = 1e-3;  // supports
 
-/// Whether a wall goes on from `from`, a point of it, to nearly where it would meet another at `corner`.
+/// Whether a wall continues from `from`, a point of it, to nearly its intersection with another wall at `corner`.
 template <int Dim>
 bool goes_on(const Boundary<Dim>& boundary, const Vec<Dim>& from, const Vec<Dim>& corner, double radius) {
   return boundary.nearest(from + way_to_corner * (corner - from), on_wall * radius).face >= 0;

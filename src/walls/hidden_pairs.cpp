@@ -8,7 +8,7 @@
 namespace tailwater {
 namespace {
 
-/// How water feels the wall particle of a row that stands at `x`.
+/// Visibility from water of the wall particle of a row that stands at `x`.
 template <int Dim>
 int felt_through(const Walls<Dim>& walls, std::int32_t row, const Vec<Dim>& x) {
   const Boundary<Dim>& boundary = walls.boundary;
@@ -51,7 +51,7 @@ void hide_pairs_behind_screens(const Walls<Dim>& walls, const Particles<Dim>& pa
     for (const int s : walls.boundary.screens_near(particles.position[i], radius)) {
       if (screens[s].distance(particles.position[i]) < radius) near.push_back(s);
     }
-    // Wall particles that are felt through a screen may be nearer than the screen.
+    // Wall particles that act through a screen may be nearer than the screen.
     return !near.empty() || pairs.sees_wall[i] != 0 || !particles.is_fluid(i);
   };
   neighbourhood.weigh_pairs(may_change, [&](std::size_t i, std::size_t k) {

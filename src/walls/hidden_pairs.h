@@ -1,7 +1,8 @@
-// Walls without thickness: water on one side does not feel the water on the other. The wall particles of a plate stand
-// on both of its sides. A particle of the water feels exactly those that the plate hides from it: they replace the
-// water behind the plate, so that the support is filled once, also beside the end of a plate. The same holds for the
-// particles of other walls beside their free ends. Beside the rim of a wall the pairs fade (geometry/screen.h).
+// Walls without thickness: water on one side does not interact with the water on the other. The wall particles of a
+// plate stand on both of its sides. A water particle interacts exactly with those that the plate hides from it: they
+// replace the water behind the plate, so that the support is filled once, also beside the end of a plate. The same
+// holds for the particles of other walls beside their free ends. Beside the rim of a wall the weights of the pairs
+// decrease to 0 (geometry/screen.h).
 #pragma once
 
 #include <vector>
@@ -12,7 +13,7 @@
 
 namespace tailwater {
 
-/// How water feels each particle, as in visible_fraction; empty if there are no screens.
+/// Visibility of each particle from water, as in visible_fraction; empty if there are no screens.
 template <int Dim>
 std::vector<int> find_felt_through(const Walls<Dim>& walls, const Particles<Dim>& particles);
 

@@ -18,8 +18,8 @@ enum class FarWalls { kept, dropped };
 template <int Dim>
 class NearWalls {
  public:
-  /// No wall is near yet, but for those that move, which always are. `reach` [m] is how far water feels walls, and how
-  /// far it moves in a step. Collective.
+  /// Starts without walls, except the moving ones, which always have particles. `reach` [m] is the distance within
+  /// which water interacts with walls, including its motion. Collective.
   NearWalls(const Communicator& ranks, const Walls<Dim>& walls, const PeriodicDomain<Dim>& domain, double reach);
 
   /// Finds which walls are near, and returns those of the rows kept here that were not before. Collective.

@@ -22,7 +22,7 @@ void keep_rows(std::span<const std::int32_t> kept, Walls<Dim>& walls) {
   walls.apply_to_rows([&](auto&... field) { (keep_entries(kept, field), ...); });
 }
 
-/// Sends the rows of walls at rest to the ranks that keep them, and keeps what comes.
+/// Sends the rows of walls at rest to the ranks that keep them, and stores the received rows.
 template <int Dim, class HomeOf>
 void take_home(const Communicator& ranks, Walls<Dim>& walls, HomeOf&& home_of) {
   const std::size_t made = walls.particles.size();
@@ -34,7 +34,7 @@ void take_home(const Communicator& ranks, Walls<Dim>& walls, HomeOf&& home_of) {
   }
   const ExchangePlan plan(ranks, made, sent);
   for (std::size_t k = 0; k < plan.ghosts(); ++k) kept.push_back(static_cast<std::int32_t>(made + k));
-  // One field after the other: all at once would be the most memory of the start.
+  // One field after the other, to limit the peak memory at the start.
   walls.apply_to_rows([&](auto&... field) { ((plan.exchange(field), keep_entries(kept, field)), ...); });
 }
 
@@ -136,7 +136,7 @@ std::vector<std::int64_t> SharedRows<Dim>::find_here(const Walls<Dim>& walls, Pa
   return missing;
 }
 
-/// Asks the homes of these numbers for their rows.
+/// Requests the rows with these numbers from their homes.
 template <int Dim>
 void SharedRows<Dim>::bring(Walls<Dim>& walls, std::vector<std::int64_t> numbers) {
   const auto size = static_cast<std::size_t>(ranks_.size());

@@ -1,7 +1,7 @@
-// Where a wall turns away from the water, the first row of particles may leave it by a part of dx. What opens behind it
-// is no surface: no air can enter there, and water that runs on round the wall has to be drawn to it. But a row that
-// misses neighbours behind it looks like one at a surface, which is not held. Beside such a wall water is therefore
-// taken to be as far inside as the water in front of it (docs/theory/closures.md).
+// Where a wall curves away from the water, the first row of particles may separate from it by a part of dx. The gap is
+// no surface: no air can enter there, and water that flows around the wall has to be drawn to it. A row without
+// neighbours behind it looks like one at a surface, where there is no tension. Beside such a wall, water is therefore
+// treated as being as far inside as the water in front of it (docs/theory/closures.md).
 #pragma once
 
 #include <span>
