@@ -1,11 +1,10 @@
 #!/usr/bin/python3
 """Checks the prose of the tree: documents, comments and subjects of commits.
 
-Usage: scripts/prose.py [--prune] [FILE ...]
+Usage: scripts/prose.py [FILE ...]
 
-Without FILE it checks every file that is not listed in tests/style/prose_unchecked.txt, and the subjects of all commits
-after the one that added this program. With FILEs it checks these, listed or not. A finding names file, line, rule and the
-better word. Exit code 1 if there is a finding, or if a listed file has none left: --prune removes such files from the list.
+Without FILE it checks all files, and the subjects of all commits after the one that added this program. A finding names
+file, line, rule and the better word. Exit code 1 if there is a finding.
 Text in backticks, formulas, links and code blocks are not prose.
 """
 import io
@@ -16,7 +15,6 @@ import sys
 import tokenize
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-UNCHECKED = ROOT / "tests" / "style" / "prose_unchecked.txt"
 TOPS = ("docs", "cases", "src", "tests", "validation", "scripts", "benchmarks", "python", "web/src", "packaging")
 # Dated records keep their text. Generated pages come from declarations in src/, generated tables from docs/validation.json.
 EXEMPT = ("docs/notebook/", "docs/reference/case-file.md", "docs/reference/study-keys.md", "docs/reference/probes.md",
@@ -224,40 +222,17 @@ def commit_findings():
     return [(f"commit {commit}", "subject", f'{fault}: "{subject}"') for commit, subject, fault in faults if fault]
 
 
-def unchecked():
-    lines = UNCHECKED.read_text(encoding="utf-8").splitlines() if UNCHECKED.is_file() else []
-    return [line for line in lines if line and not line.startswith("#")]
-
-
-def prune(clean):
-    lines = UNCHECKED.read_text(encoding="utf-8").splitlines()
-    UNCHECKED.write_text("\n".join(line for line in lines if line not in clean) + "\n", encoding="utf-8")
-
-
-def main(arguments):
-    names = [argument for argument in arguments if argument != "--prune"]
+def main(names):
     if any(name.startswith("-") for name in names):
         print(__doc__, file=sys.stderr)
         return 2
-    listed = set(unchecked())
     chosen = [str(pathlib.Path(name).resolve().relative_to(ROOT)) for name in names] or files()
-    found, clean = [], sorted(listed - set(files())) if not names else []
-    for name in chosen:
-        faults = findings(ROOT / name, (ROOT / name).read_text(encoding="utf-8"))
-        if not names and name in listed:
-            clean += [] if faults else [name]
-            continue
-        found += [(f"{name}:{number}", rule, what) for number, rule, what in faults]
+    found = [(f"{name}:{number}", rule, what) for name in chosen
+             for number, rule, what in findings(ROOT / name, (ROOT / name).read_text(encoding="utf-8"))]
     found += [] if names else commit_findings()
     for place, rule, what in found:
         print(f"{place}: {rule}: {what}")
-    if "--prune" in arguments:
-        prune(clean)
-    else:
-        for name in clean:
-            print(f"{name}: list: nothing to find in it; remedy: scripts/prose.py --prune")
-            found.append(name)
-    print(f"prose.py: {len(found)} findings; {len(listed) - len(clean)} files are not checked yet")
+    print(f"prose.py: {len(found)} findings")
     return 1 if found else 0
 
 
