@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Checks the prose of the tree: documents, comments and subjects of commits.
+"""Checks the prose of the tree: documents, comments, messages and subjects of commits.
 
 Usage: scripts/prose.py [FILE ...]
 
@@ -43,7 +43,7 @@ WORDS = [
     (r"at work", "running"),
     (r"books", "records, or balance"),
     (r"at hand", "available"),
-    (r"by the clock|clock time", "elapsed time"),
+    (r"by the clock|(?<!wall-)clock time", "elapsed time"),
     (r"in the mean", "on average"),
     (r"there shall be", "is"),
     (r"for want of", "because ... is missing"),
@@ -170,6 +170,21 @@ def comments_of_python(text):
             before = token.type
 
 
+def messages_of_c(text):
+    """(line, text) of each string of at least three words; adjacent literals are one, and commands in it are no prose."""
+    bare = re.sub(r'("(?:\\.|[^"\\\n])*")|//[^\n]*', lambda found: found[1] or "", text)
+    for found in re.finditer(r'"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*', bare):
+        joined = "".join(re.findall(r'"((?:\\.|[^"\\\n])*)"', found[0])).replace("\\n", "\n")
+        message = re.sub(r"tailwater [a-z].*", "CODE", joined)
+        if message.count(" ") >= 2:
+            yield bare.count("\n", 0, found.start()) + 1, " ".join(message.split())
+
+
+def check_messages(messages):
+    for number, message in messages:
+        yield from ((number, "word", what) for what in words_out(plain(message)))
+
+
 def check_comments(comments):
     for number, comment in comments:
         text = plain(comment)
@@ -182,7 +197,10 @@ def findings(path, text):
     """(line, rule, what) of a file."""
     if path.suffix == ".md":
         return list(check_markdown(text))
-    return list(check_comments(comments_of_python(text) if path.suffix == ".py" else comments_of_c(text)))
+    if path.suffix == ".py":
+        return list(check_comments(comments_of_python(text)))
+    messages = messages_of_c(text) if "src" in path.parts else []
+    return [*check_comments(comments_of_c(text)), *check_messages(messages)]
 
 
 def files():

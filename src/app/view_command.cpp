@@ -222,7 +222,7 @@ void add_view_command(CLI::App& app, ExitCode&) {
       "          tailwater view my_run other_run\n"
       "          tailwater view my.toml\n"
       "          tailwater view my_run --export my_run.html\n"
-      "The printed address contains a secret token. Anyone on this machine who has the\n"
+      "The printed address contains a secret token. Anyone on this machine with the\n"
       "address can view these runs and stop them. Requests without the token are\n"
       "refused, as are other machines. Runs continue when the viewer ends.");
   command->callback([options] { view(*options); });

@@ -30,7 +30,7 @@ std::string deflated(std::string_view raw, int level) {
   libdeflate_compressor* compressor = compressor_of(level);
   std::string bytes(libdeflate_zlib_compress_bound(compressor, raw.size()), '\0');
   bytes.resize(libdeflate_zlib_compress(compressor, raw.data(), raw.size(), bytes.data(), bytes.size()));
-  TAILWATER_ASSERT(!bytes.empty(), "a zlib stream has room within its bound");
+  TAILWATER_ASSERT(!bytes.empty(), "a zlib stream fits into its bound");
   return bytes;
 }
 

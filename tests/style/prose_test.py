@@ -60,6 +60,12 @@ class Prose(unittest.TestCase):
         text = '// Of walls only.\nint a;  // What it costs.\n// Speed of the wall, "of" rest.\nauto url = "http://of";\n'
         self.assertEqual(rules("bad.h", text), [(1, "start"), (2, "start"), (2, "word")])
 
+    def test_messages_of_the_program_are_prose(self):
+        text = ('throw InputError("the {} has no "\n                 "room for water", name);  // "a bar of it"\n'
+                'auto url = "http://a";\n')
+        self.assertEqual(rules("src/bad.cpp", text), [(1, "word")])
+        self.assertEqual(rules("src/good.cpp", 'tell("Examples: tailwater bench speed and more\\n");\n'), [])
+
     def test_comments_and_docstrings_of_python_begin_with_their_subject(self):
         text = '"""Of walls only."""\nx = "told"  # Likewise here.\n\ndef f():\n    """What it is: a bar."""\n'
         self.assertEqual(rules("bad.py", text), [(1, "start"), (2, "start"), (5, "start"), (5, "word"), (5, "word")])
