@@ -24,7 +24,7 @@ class Box {
   Vec<Dim> diagonal() const { return sizes(); }
   Vec<Dim> center() const { return (min_ + max_) / 2.0; }
   double volume() const { return isEmpty() ? 0.0 : sizes().prod(); }
-  /// A corner, whose bit d tells whether it lies at the upper end of direction d.
+  /// A corner: bit d is set for the upper end of direction d.
   Vec<Dim> corner(unsigned bits) const {
     return Vec<Dim>::NullaryExpr([&](int d) { return (bits >> d & 1U) != 0 ? max_[d] : min_[d]; });
   }

@@ -1,6 +1,6 @@
-// Small vectors and matrices, in Dim = 2 or 3 dimensions above all, with the names that Eigen gives to what they do.
-// Values only, no expression templates: they compile in a fraction of Eigen's time. What is decomposed or has a size
-// that is known late is Eigen's (base/eigen.h).
+// Small vectors and matrices of fixed size. Member functions have the names of Eigen's. These are plain values without
+// expression templates, because Eigen's took a quarter of the compile time. Decompositions, and sizes that are known only
+// at run time, remain with Eigen (base/eigen.h).
 #pragma once
 
 #include <algorithm>
@@ -60,7 +60,7 @@ class SmallMatrix {
   static constexpr SmallMatrix UnitX() { return Unit(0); }
   static constexpr SmallMatrix UnitY() { return Unit(1); }
   static constexpr SmallMatrix UnitZ() { return Unit(2); }
-  /// A vector of what a function of the index gives.
+  /// The vector of the values of a function of the index.
   template <typename Function>
   static constexpr SmallMatrix NullaryExpr(Function&& of_index) {
     SmallMatrix result;
