@@ -81,7 +81,10 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   const double breadth = std::max(end.breadth_at(water.depth), end.spacing);
   const bool was_wet = state.is_wet;
   state.is_wet = area > least_depth_over_spacing * end.spacing * breadth;
-  if (!state.is_wet) return {};
+  if (!state.is_wet) {
+    state.acceleration = 0.0;
+    return {};
+  }
   water.bottom = mean_bottom(end, water.depth);
   const double speed = reading.flux / reading.volume;
   const double discharge = reading.flux / end.gauge;
@@ -95,11 +98,15 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   if (!was_wet) {
     state.wet_time = 0.0;
     state.invariant = invariant;
+    state.delayed_speed = speed;
+    state.acceleration = 0.0;
     state.mean_speed = speed;
     state.mean_discharge = discharge;
   } else if (celerity > 0.0) {
     const double crossing = end.distance() / celerity;
     state.wet_time += dt;
+    state.delayed_speed += (1.0 - std::exp(-dt / crossing)) * (speed - state.delayed_speed);
+    state.acceleration = (speed - state.delayed_speed) / crossing;
     const double passes = 1.0 + (passes_of_waves - 1.0) * end.flow.absorbing;
     const double window = end.holds_level() ? std::max(crossing, passes * end.reach / celerity)
                                             : std::clamp(state.wet_time, crossing, memory * crossing);
@@ -212,7 +219,6 @@ void choose_rows(const OpenEnd<Dim>& end, OpenEndState& state) {
 
 template <int Dim>
 void OpenEnds<Dim>::begin_step(Flow<Dim>& flow, double dt) {
-  Particles<Dim>& particles = flow.state.particles;
   driven_change_ = -kinetic_energy_in_driven_ends(flow);
   const double time = flow.state.time + 0.5 * dt;
   for (std::size_t e = 0; e < ends_.size(); ++e) {
@@ -222,22 +228,41 @@ void OpenEnds<Dim>::begin_step(Flow<Dim>& flow, double dt) {
       hold_inflow(end, flow, time, dt, state);
     } else {
       const WaterInside water = follow_water(end, flow, dt, state);
-      Inflow inflow;
+      inflows_[e] = {};
       if (end.holds_level()) {
-        inflow = hold_level(end, flow, water, time, dt, state);
+        inflows_[e] = hold_level(end, flow, water, time, dt, state);
       } else {
         go_on(end, water, state);
       }
-      find_fibres(end, flow, inflow, state);
+      find_fibres(end, flow, inflows_[e], state);
     }
     if (end.is_driven()) choose_rows(end, state);
-    for_each(particles.owned, [&](std::size_t i) {
-      if (end_of_[i] == static_cast<std::int16_t>(e)) {
-        particles.velocity[i] = end.velocity_at(state, particles.position[i]);
-      }
-    });
+    set_velocities(flow, e);
   }
   driven_change_ += kinetic_energy_in_driven_ends(flow);
+}
+
+/// Where the buffer goes with the water inside, it goes with its velocity at the end of the step, as that water does.
+/// With the velocity before, the buffer would be a step late, and a flow that is accelerated would leave a gap before
+/// it, or a pile.
+template <int Dim>
+void OpenEnds<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
+  driven_change_ -= kinetic_energy_in_driven_ends(flow);
+  for (std::size_t e = 0; e < ends_.size(); ++e) {
+    if (ends_[e].flow.feeds()) continue;
+    find_fibres(ends_[e], flow, inflows_[e], states_[e]);
+    set_velocities(flow, e);
+  }
+  driven_change_ += kinetic_energy_in_driven_ends(flow);
+}
+
+template <int Dim>
+void OpenEnds<Dim>::set_velocities(Flow<Dim>& flow, std::size_t e) const {
+  Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (end_of_[i] != static_cast<std::int16_t>(e)) return;
+    particles.velocity[i] = ends_[e].velocity_at(states_[e], particles.position[i]);
+  });
 }
 
 template <int Dim>
@@ -249,5 +274,7 @@ double OpenEnds<Dim>::kinetic_energy_in_driven_ends(const Flow<Dim>& flow) const
 
 template void OpenEnds<2>::begin_step(Flow<2>&, double);
 template void OpenEnds<3>::begin_step(Flow<3>&, double);
+template void OpenEnds<2>::correct(Flow<2>&, double);
+template void OpenEnds<3>::correct(Flow<3>&, double);
 
 }  // namespace tailwater

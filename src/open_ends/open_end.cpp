@@ -50,28 +50,29 @@ double OpenEnd<Dim>::depth_in(std::size_t column, const OpenEndState& state) con
   return std::clamp(state.depth - of.bottom, 0.0, of.top - of.bottom);
 }
 
-/// Hydrostatic below the water's surface. Below a level that is above the opening, what comes in has the energy of the
+/// Hydrostatic below the water's surface at the border, and farther on less by the acceleration of the buffer, which
+/// has inertia as the water before it has. Below a level that is above the opening, what comes in has the energy of the
 /// water at rest beyond, each fibre for itself.
 template <int Dim>
 double OpenEnd<Dim>::pressure_at(const OpenEndState& state, const Vec<Dim>& x, const Vec<Dim>& velocity,
                                  double density) const {
+  const double drop = state.acceleration * behind_border(x);
   if (!state.is_full) {
-    return density * this->gravity * std::max(0.0, this->floor + state.depth - this->up.dot(x));
+    return density * std::max(0.0, this->gravity * (this->floor + state.depth - this->up.dot(x)) - drop);
   }
   const Vec<Dim>& normal = this->opening.normal;
   const double at_rest = this->gravity > 0.0 ? this->gravity * (state.level - this->up.dot(x)) +
                                                    normal.dot(full_gravity) * this->opening.beyond(x)
                                              : full_gravity.norm() * state.level + full_gravity.dot(x);
   const double in = std::min(0.0, normal.dot(velocity));
-  return density * std::max(0.0, at_rest - 0.5 * in * in);
+  return density * std::max(0.0, at_rest - drop - 0.5 * in * in);
 }
 
 template <int Dim>
 Vec<Dim> OpenEnd<Dim>::velocity_at(const OpenEndState& state, const Vec<Dim>& x) const {
   if (this->flow.feeds()) return inflow_at(state, x);
-  const double behind_border = this->opening.beyond(x) + stretch;
   const double above_bottom = height_in(column_at(x), x);
-  return (fibre_speed_at(state, x) - state.stretching * behind_border) * this->opening.normal +
+  return (fibre_speed_at(state, x) - state.stretching * behind_border(x)) * this->opening.normal +
          state.stretching * above_bottom * this->rise;
 }
 

@@ -34,6 +34,8 @@ struct OpenEndState {
   bool is_wet = false;
   double wet_time = 0.0;        ///< s; time since it became wet
   double speed = 0.0;           ///< m/s; mean along the normal
+  double delayed_speed = 0.0;   ///< m/s; `speed`, a mean over the time of a wave from the gauge into the buffer
+  double acceleration = 0.0;    ///< m/s^2; of `speed` over that time
   double mean_speed = 0.0;      ///< m/s; `speed`, its long waves only
   double mean_discharge = 0.0;  ///< m^Dim/s; out, likewise
   double invariant = 0.0;       ///< m/s; u - 2 sqrt(g h), which comes from beyond where the channel goes on
@@ -79,6 +81,8 @@ struct OpenEnd : ChannelEnd<Dim> {
   double height_in(std::size_t column, const Vec<Dim>& x) const;
   /// Height [m] of a cell of the section in a column.
   double fibre_height(std::size_t column) const;
+  /// Distance [m] beyond the border of the buffer.
+  double behind_border(const Vec<Dim>& x) const { return this->opening.beyond(x) + stretch; }
   /// Depth [m] of the water in a column.
   double depth_in(std::size_t column, const OpenEndState& state) const;
   /// Pressure [Pa] of the water assumed or prescribed, at a place in the buffer where the water has a velocity.

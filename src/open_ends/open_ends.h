@@ -7,6 +7,7 @@
 
 #include "base/box.h"
 #include "flow/part.h"
+#include "open_ends/fibres.h"
 #include "open_ends/open_end.h"
 
 namespace tailwater {
@@ -15,7 +16,8 @@ template <int Dim>
 class OpenEnds final : public Part<Dim> {
  public:
   OpenEnds() = default;
-  explicit OpenEnds(std::vector<OpenEnd<Dim>> ends) : ends_(std::move(ends)), states_(ends_.size()) {}
+  explicit OpenEnds(std::vector<OpenEnd<Dim>> ends)
+      : ends_(std::move(ends)), states_(ends_.size()), inflows_(ends_.size()) {}
 
   /// One per inlet, then one per outlet.
   const std::vector<OpenEnd<Dim>>& ends() const { return ends_; }
@@ -45,6 +47,7 @@ class OpenEnds final : public Part<Dim> {
   StepLimits step_limits(const Flow<Dim>& flow) const override;
   void claim(const Flow<Dim>& flow, std::span<Role> role) override;
   void begin_step(Flow<Dim>& flow, double dt) override;
+  void correct(Flow<Dim>& flow, double dt) override;
   void write_rows(Flow<Dim>& flow) override;
   void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
   void add_passed_water(WaterAmount& departed, WaterAmount& arrived) const override;
@@ -56,6 +59,8 @@ class OpenEnds final : public Part<Dim> {
  private:
   /// Whether something is prescribed where owned particle i is in this step.
   bool is_driven(std::size_t i) const { return end_of_[i] >= 0 && ends_[end_of_[i]].is_driven(); }
+  /// Gives the water in the buffer of end e its velocity.
+  void set_velocities(Flow<Dim>& flow, std::size_t e) const;
   /// J; of this rank's water where something is prescribed.
   double kinetic_energy_in_driven_ends(const Flow<Dim>& flow) const;
   void write_row(Flow<Dim>& flow, std::size_t i) const;
@@ -69,6 +74,7 @@ class OpenEnds final : public Part<Dim> {
   std::vector<std::string> warnings_;  ///< kinds of those that were given
   // In one step.
   std::vector<std::int16_t> end_of_;  ///< the end whose buffer holds each owned particle, or -1
+  std::vector<Inflow> inflows_;       ///< of each end
   double driven_change_ = 0.0;        ///< J; change of this rank's kinetic energy by the prescribed velocities
 };
 

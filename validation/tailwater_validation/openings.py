@@ -123,10 +123,10 @@ def reservoir(run):
 
 def sudden_head(run):
     """discharge_error and depth_error: behind the bore that a head sends over still water, against shallow water, less 1."""
-    p = run.parameters
+    p, (_, gauge) = run.parameters, depth_at_gauge(run)
     scale = p["H"]
     depths, discharges = basin(p["L"] / scale, p["still"] / scale, 0.0, (Level(lambda time: 1.0), WALL),
-                               [run.case["time"]["end"] * math.sqrt(run.gravity / scale)], [0.25 * p["L"] / scale])
+                               [run.case["time"]["end"] * math.sqrt(run.gravity / scale)], [gauge / scale])
     exact = float(discharges[0, 0]) * math.sqrt(run.gravity * scale) * scale
     return {"discharge_error": steady_discharge(run, "discharge") / exact - 1,
             "depth_error": steady_mean(run, "depth", "connected_m") / (scale * float(depths[0, 0])) - 1, **density(run)}
