@@ -45,6 +45,7 @@ class PetscFunction<PetscErrorCode(Arguments...)> {
 // In this namespace these names hide PETSc's own functions, with which the program would have to be linked. The linker
 // does not find a function that is missing in this list.
 #define TAILWATER_LOADED(function) inline const PetscFunction<decltype(::function)> function(#function)
+TAILWATER_LOADED(KSPConvergedDefaultSetUIRNorm);
 TAILWATER_LOADED(KSPCreate);
 TAILWATER_LOADED(KSPDestroy);
 TAILWATER_LOADED(KSPGMRESSetRestart);
@@ -56,6 +57,7 @@ TAILWATER_LOADED(KSPGetResidualHistory);
 TAILWATER_LOADED(KSPGetType);
 TAILWATER_LOADED(KSPSetFromOptions);
 TAILWATER_LOADED(KSPSetInitialGuessNonzero);
+TAILWATER_LOADED(KSPSetNormType);
 TAILWATER_LOADED(KSPSetOperators);
 TAILWATER_LOADED(KSPSetOptionsPrefix);
 TAILWATER_LOADED(KSPSetPCSide);

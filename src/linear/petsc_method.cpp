@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "linear/petsc_vectors.h"
+
 namespace tailwater {
 namespace {
 
@@ -15,32 +17,6 @@ MethodOutcome::End end_of(KSPConvergedReason reason) {
   if (reason > 0) return MethodOutcome::End::converged;
   return is_breakdown(reason) ? MethodOutcome::End::broke_down : MethodOutcome::End::unfinished;
 }
-
-/// Access to the entries of two PETSc vectors during the lifetime of this object.
-class VectorAccess {
- public:
-  VectorAccess(Vec from, Vec to) : from_(from), to_(to) {
-    check_petsc(VecGetLocalSize(from, &size_));
-    check_petsc(VecGetArrayRead(from, &read_));
-    check_petsc(VecGetArrayWrite(to, &written_));
-  }
-  ~VectorAccess() {
-    VecRestoreArrayWrite(to_, &written_);
-    VecRestoreArrayRead(from_, &read_);
-  }
-  VectorAccess(const VectorAccess&) = delete;
-  VectorAccess& operator=(const VectorAccess&) = delete;
-
-  std::span<const double> from() const { return {read_, static_cast<std::size_t>(size_)}; }
-  std::span<double> to() const { return {written_, static_cast<std::size_t>(size_)}; }
-
- private:
-  Vec from_;
-  Vec to_;
-  PetscInt size_ = 0;
-  const PetscScalar* read_ = nullptr;
-  PetscScalar* written_ = nullptr;
-};
 
 /// y = A x, for PETSc. An exception here cannot pass through PETSc and ends the program.
 PetscErrorCode apply_system(Mat shell, Vec x, Vec y) noexcept {
@@ -59,14 +35,6 @@ PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) 
   const VectorAccess vectors(residual, correction);
   multigrid->apply(vectors.from(), vectors.to());
   return 0;
-}
-
-/// Makes a PETSc vector of which `values` are the entries, without a copy.
-void wrap(const Communicator& ranks, std::span<const double> values, PetscVector& vector) {
-  const auto rows = static_cast<PetscInt>(values.size());
-  check_petsc(ranks.is_alone()
-                  ? VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows, values.data(), vector.create())
-                  : VecCreateMPIWithArray(ranks.handle(), 1, rows, PETSC_DETERMINE, values.data(), vector.create()));
 }
 
 /// The outcome of the solver.

@@ -12,13 +12,18 @@
 namespace tailwater {
 namespace {
 
-constexpr double tolerance = 1e-4;
-constexpr int max_iterations = 2000;
+/// A solve ends when it has removed all but this part of the error of its guess, the velocity of the last step. An end
+/// at a part of the velocity instead would stop slow changes before a flow is steady.
+constexpr double reduction = 0.01;
+constexpr int max_iterations = 500;
 
-/// Passes in which the law follows the velocity of the same step, at most, and the change of the velocity at which they
-/// end.
+/// Passes in which the law follows the velocity of the same step, at most, and the part of its error that a pass
+/// leaves: the next one has other viscosities.
 constexpr int max_passes = 3;
-constexpr double settled_change = 0.01;
+constexpr double reduction_of_pass = 0.1;
+
+/// Error over the velocity, both in the energy norm, below which rounding dominates: products are in single precision.
+constexpr double rounding = 1e-5;
 
 }  // namespace
 
@@ -65,25 +70,19 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
   });
   velocity_ = particles.velocity;
   iterations_ = 0;
+  const bool varies = varies_with_shear(liquid_);
+  const int passes = varies ? max_passes : 1;
   std::vector<Vec<Dim>> rhs(particles.owned);
-  for (int pass = 0; pass < max_passes; ++pass) {
+  for (int pass = 0; pass < passes; ++pass) {
     find_viscosity(flow, velocity_);
     for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
-    const std::vector<Vec<Dim>> before = velocity_;
-    const ViscousReport report =
-        solve_viscous_step<Dim>(flow, forces_, inertia, rhs, tolerance, max_iterations, velocity_);
+    const double power =
+        flow.setup.ranks.sum(sum_over(rhs.size(), 0.0, [&](std::size_t i) { return rhs[i].dot(velocity_[i]); }));
+    const ShellGoal goal{rounding * std::sqrt(std::abs(power)), varies ? reduction_of_pass : reduction, max_iterations};
+    const ShellReport report = solve_viscous_step<Dim>(flow, forces_, inertia, rhs, goal, velocity_);
     iterations_ += report.iterations;
     has_converged_ = report.has_converged;
-    if (!varies_with_shear(liquid_)) return;
-    double change = 0.0;
-    double size = 0.0;
-    for_each(particles.owned, [&](std::size_t i) {
-      if (!particles.is_fluid(i)) return;
-      change += (velocity_[i] - before[i]).squaredNorm();
-      size += velocity_[i].squaredNorm();
-    });
-    flow.setup.ranks.sum_each(change, size);
-    if (change <= settled_change * settled_change * size) return;
+    if (report.iterations == 0) return;
   }
 }
 

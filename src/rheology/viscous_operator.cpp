@@ -36,6 +36,21 @@ struct alignas(Dim == 2 ? 32 : 64) StressEnd {
 
 }  // namespace
 
+/// The kernel costs more than all the rest of a product.
+template <int Dim>
+void ViscousOperator<Dim>::find_fluid_weights(const Flow<Dim>& flow) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  make_room(fluid_weight_, pairs.j.size());
+  fluid_weight_.resize(pairs.j.size());
+  for_each(pairs.owned(), [&](std::size_t i) {
+    float* const row = fluid_weight_.data() + pairs.begin(i);
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const PlaceLanes<Dim> place = batch.place();
+      batch.store(place.volume_of_fluid() * batch.F(place.d), row);
+    });
+  });
+}
+
 template <int Dim>
 void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, std::span<const Vec<Dim>> V) {
   const Pairs<Dim>& pairs = flow.pairs();
@@ -46,6 +61,7 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, std::span<const Vec<Dim
   fluid_share_.assign(owned, 1.0);
   wall_weight_.assign(owned, 0.0);
   wall_velocity_.assign(owned, Vec<Dim>::Zero());
+  find_fluid_weights(flow);
   for_each(owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     Mat<Dim> moment = Mat<Dim>::Zero();
@@ -53,12 +69,12 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, std::span<const Vec<Dim
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = pairs.j[k];
       const Vec<Dim> d = pairs.d(i, k);
-      const double F = pairs.F(i, k);
-      const double weight = particles.volume[j] * F;
       if (particles.is_fluid(j)) {
-        moment += weight * d * d.transpose();
+        moment += fluid_weight_[k] * d * d.transpose();
         continue;
       }
+      const double F = pairs.F(i, k);
+      const double weight = particles.volume[j] * F;
       const auto row = particles.wall_row[j];
       const double of_wall = particles.volume[j] * wall_factor(flow, row, d, F);
       with_walls += flow.walls.friction[row] * weight * d * d.transpose();
@@ -78,10 +94,9 @@ template <int Dim>
 Mat<Dim> ViscousOperator<Dim>::gradient(const Flow<Dim>& flow, std::span<const Float4> velocity, std::size_t i) const {
   MatLanes<Dim> sums{};
   for_each_pair(flow.pairs(), i, [&](const auto& batch) {
-    const PlaceLanes<Dim> place = batch.place();
-    const Lanes weight = place.volume_of_fluid() * batch.F(place.d);
-    const VecLanes<Dim> difference = batch.of(velocity) - velocity[i];
-    for (int b = 0; b < Dim; ++b) sums.column[b] -= weight * place.d.at[b] * difference;
+    const VecLanes<Dim> d = batch.place().d;
+    const VecLanes<Dim> difference = batch.range.load(fluid_weight_.data()) * (batch.of(velocity) - velocity[i]);
+    for (int b = 0; b < Dim; ++b) sums.column[b] -= d.at[b] * difference;
   });
   return sum_of(sums) * inverse_moment_[i];
 }
@@ -104,10 +119,9 @@ void ViscousOperator<Dim>::find_shear_rates(const Flow<Dim>& flow, std::span<con
       }
       LaneSum rest;
       for_each_pair(flow.pairs(), i, [&](const auto& batch) {
-        const PlaceLanes<Dim> place = batch.place();
         VecLanes<Dim> z = batch.of(in_single) - in_single[i];
-        z += linear.times(place.d);
-        rest += place.volume_of_fluid() * batch.F(place.d) * z.dot(z);
+        z += linear.times(batch.place().d);
+        rest += batch.range.load(fluid_weight_.data()) * z.dot(z);
       });
       squared += share_[i] * (fluid_share_[i] * 0.5 * twice_D.squaredNorm() + rest.total());
     }
@@ -148,41 +162,36 @@ void ViscousOperator<Dim>::find_forces(const Flow<Dim>& flow, std::vector<Vec<Di
     force[i].setZero();
     if (!particles.is_fluid(i)) return;
     const End& own = ends[i];
+    const Lanes volume = in_all_lanes(particles.volume[i]);
     VecSum<Dim> sum;
     for_each_pair(flow.pairs(), i, [&](const auto& batch) {
-      const PlaceLanes<Dim> place = batch.place();
       const auto other = batch.j.numbers(ends.data());
-      const Lanes weight = in_all_lanes(particles.volume[i]) * place.volume_of_fluid() * batch.F(place.d);
+      const Lanes weight = volume * batch.range.load(fluid_weight_.data());
       const Lanes viscosity = own.viscosity + other[number(offsetof(End, viscosity))];
       MatLanes<Dim> transposed;
       for (int n = 0; n < Dim * Dim; ++n) {
         transposed.column[n / Dim].at[n % Dim] = own.transposed[n] + other[number(offsetof(End, transposed)) + n];
       }
-      VecLanes<Dim> terms = transposed.times(place.d);
+      VecLanes<Dim> terms = transposed.times(batch.place().d);
       for (int a = 0; a < Dim; ++a) {
         const Lanes difference = other[number(offsetof(End, velocity)) + a] - own.velocity[a];
         terms.at[a] = weight * (viscosity * difference - terms.at[a]);
       }
       sum += terms;
     });
-    force[i] = sum.total() - particles.volume[i] * viscosity_[i] * wall_weight_[i] * velocity[i];
+    force[i] = sum.total() - friction_of_walls(flow, i) * velocity[i];
   });
 }
 
 template <int Dim>
-void ViscousOperator<Dim>::find_diagonal(const Flow<Dim>& flow, std::span<double> diagonal) const {
-  const Particles<Dim>& particles = flow.state.particles;
-  for_each(particles.owned, [&](std::size_t i) {
-    diagonal[i] = 0.0;
-    if (!particles.is_fluid(i)) return;
-    LaneSum sum;
-    for_each_pair(flow.pairs(), i, [&](const auto& batch) {
-      const PlaceLanes<Dim> place = batch.place();
-      const Lanes viscosity = in_all_lanes(shared_viscosity_[i]) + batch.of(shared_viscosity_);
-      sum += place.volume_of_fluid() * batch.F(place.d) * viscosity;
-    });
-    diagonal[i] = particles.volume[i] * (sum.total() + viscosity_[i] * wall_weight_[i]);
+double ViscousOperator<Dim>::write_weights(const Flow<Dim>& flow, std::size_t i, float* weights) const {
+  const Lanes volume = in_all_lanes(flow.state.particles.volume[i]);
+  LaneSum sum;
+  for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+    const Lanes viscosity = in_all_lanes(shared_viscosity_[i]) + batch.of(shared_viscosity_);
+    sum += batch.store(volume * batch.range.load(fluid_weight_.data()) * viscosity, weights);
   });
+  return sum.total();
 }
 
 template <int Dim>

@@ -53,19 +53,25 @@ class ViscousOperator {
 
   /// The part of the force on owned particle i that comes from the motion of the walls [N].
   Vec<Dim> drag_of_walls(const Flow<Dim>& flow, std::size_t i) const {
-    return flow.state.particles.volume[i] * viscosity_[i] * wall_weight_[i] * wall_velocity_[i];
+    return friction_of_walls(flow, i) * wall_velocity_[i];
   }
 
-  /// The two-point part of each diagonal entry [N s/m], which is at least half of all of it.
-  void find_diagonal(const Flow<Dim>& flow, std::span<double> diagonal) const;
+  /// Writes w_i w_j F_ij (mu_i + mu_j) [N s/m] of the pairs of fluid particle i, 0 for walls. Returns their sum.
+  double write_weights(const Flow<Dim>& flow, std::size_t i, float* weights) const;
+  /// The force of walls at rest on fluid particle i over its velocity [N s/m].
+  double friction_of_walls(const Flow<Dim>& flow, std::size_t i) const {
+    return flow.state.particles.volume[i] * viscosity_[i] * wall_weight_[i];
+  }
 
   /// The forces [N] on owned wall particles. Velocity and viscosity must be up to date on ghosts.
   void find_forces_on_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity,
                             std::span<Vec<Dim>> force) const;
 
  private:
+  void find_fluid_weights(const Flow<Dim>& flow);
   Mat<Dim> gradient(const Flow<Dim>& flow, std::span<const Float4> velocity, std::size_t i) const;
 
+  UnwrittenArray<float> fluid_weight_;    ///< 1/m^2; w_j F_ij of each pair of fluid, 0 of others
   std::vector<Mat<Dim>> inverse_moment_;  ///< M^-1 of owned fluid
   std::vector<double> share_;             ///< of the viscosity; 0 where there is no gradient
   std::vector<double> fluid_share_;       ///< k

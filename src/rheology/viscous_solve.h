@@ -1,24 +1,21 @@
 // The velocity at the end of a viscous step: inertia_i u_i - f_i(u) = rhs_i for all fluid particles, with the forces f
-// of viscous_operator.h. The matrix is symmetric and positive, and conjugate gradients solve it.
+// of viscous_operator.h. The matrix is symmetric and positive. Conjugate gradients solve it with a multigrid for each
+// component (viscous_preconditioner.h).
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "linear/shell_solver.h"
 #include "rheology/viscous_operator.h"
 
 namespace tailwater {
 
-struct ViscousReport {
-  int iterations = 0;
-  bool has_converged = false;
-};
-
-/// `inertia` [kg/s] and `rhs` [N] are of owned particles; `velocity` [m/s] has the guess, and gets ghosts. Ends where
-/// the residual, divided by the diagonal, is `tolerance` times the right-hand side, or after `iterations`. Collective.
+/// `inertia` [kg/s] and `rhs` [N] are of owned particles; `velocity` [m/s] has the guess, and gets ghosts. The residual
+/// of the goal is in sqrt(W). Collective.
 template <int Dim>
-ViscousReport solve_viscous_step(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces,
-                                 std::span<const double> inertia, std::span<const Vec<Dim>> rhs, double tolerance,
-                                 int iterations, std::vector<Vec<Dim>>& velocity);
+ShellReport solve_viscous_step(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces,
+                               std::span<const double> inertia, std::span<const Vec<Dim>> rhs, const ShellGoal& goal,
+                               std::vector<Vec<Dim>>& velocity);
 
 }  // namespace tailwater

@@ -1,0 +1,48 @@
+#include "rheology/viscous_preconditioner.h"
+
+#include "base/for_each.h"
+#include "linear/find_cells.h"
+
+namespace tailwater {
+namespace {
+
+/// [dx]; edge of the cells of the multigrid.
+constexpr double cell_edge = 2.0;
+
+}  // namespace
+
+template <int Dim>
+ViscousPreconditioner<Dim>::ViscousPreconditioner(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces,
+                                                  std::span<const double> inertia)
+    : rows_(flow.setup.ranks), component_(inertia.size()), correction_(inertia.size()) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::size_t owned = particles.owned;
+  rows_.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan);
+  rows_.set_cells(find_cells<Dim>(std::span(particles.position).first(owned), cell_edge * flow.setup.scale.spacing,
+                                  [&](std::size_t i) { return particles.is_fluid(i); }));
+  scale_.assign(owned, 0.0);
+  for_each(owned, [&](std::size_t i) {
+    LinearSystem::Row row = rows_.row(i);
+    if (!particles.is_fluid(i)) return row.finish_as_zero();
+    const double own = inertia[i] + forces.friction_of_walls(flow, i);
+    const double diagonal =
+        own + row.write_weights([&](float* weights) { return forces.write_weights(flow, i, weights); });
+    row.finish(diagonal, 0.0);
+    scale_[i] = 1.0 / diagonal;
+  });
+  multigrid_ = std::make_unique<CellMultigrid>(rows_);
+}
+
+template <int Dim>
+void ViscousPreconditioner<Dim>::apply(std::span<const Vec<Dim>> force, std::span<Vec<Dim>> velocity) {
+  for (int a = 0; a < Dim; ++a) {
+    for_each(force.size(), [&](std::size_t i) { component_[i] = scale_[i] * force[i][a]; });
+    multigrid_->apply(component_, correction_);
+    for_each(force.size(), [&](std::size_t i) { velocity[i][a] = correction_[i]; });
+  }
+}
+
+template class ViscousPreconditioner<2>;
+template class ViscousPreconditioner<3>;
+
+}  // namespace tailwater
