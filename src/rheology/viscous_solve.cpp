@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// The same memory as vectors, and as their components.
+/// Numbers as vectors in the same memory, and vectors as their components.
 template <int Dim, class Number>
 auto as_vectors(std::span<Number> numbers) {
   using Vector = std::conditional_t<std::is_const_v<Number>, const Vec<Dim>, Vec<Dim>>;
