@@ -1,6 +1,6 @@
 // Small vectors and matrices of fixed size. Member functions have the names of Eigen's. These are plain values without
-// expression templates, because Eigen's took a quarter of the compile time. Decompositions, and sizes that are known only
-// at run time, remain with Eigen (base/eigen.h).
+// expression templates, because Eigen's took a quarter of the compile time. Decompositions, and sizes that are known
+// only at run time, remain with Eigen (base/eigen.h).
 #pragma once
 
 #include <algorithm>
