@@ -8,6 +8,7 @@
 
 namespace tailwater {
 
+// NOLINTBEGIN(readability-identifier-naming): the names of Eigen's AlignedBox
 /// All points between `min` and `max`, both included; none at first.
 template <int Dim>
 class Box {
@@ -80,5 +81,7 @@ class Box {
   Vec<Dim> min_ = Vec<Dim>::Constant(std::numeric_limits<double>::max());
   Vec<Dim> max_ = Vec<Dim>::Constant(std::numeric_limits<double>::lowest());
 };
+
+// NOLINTEND(readability-identifier-naming)
 
 }  // namespace tailwater

@@ -12,6 +12,7 @@
 
 namespace tailwater {
 
+// NOLINTBEGIN(readability-identifier-naming): the names of Eigen's, so that a template takes either
 /// A matrix of numbers, stored column by column. Its entries are not set by the default constructor.
 template <int Rows, int Columns>
 class SmallMatrix {
@@ -288,6 +289,8 @@ class SmallMatrix {
  private:
   double at_[count];
 };
+
+// NOLINTEND(readability-identifier-naming)
 
 template <int Rows, int Inner, int Columns>
 constexpr SmallMatrix<Rows, Columns> operator*(const SmallMatrix<Rows, Inner>& A,

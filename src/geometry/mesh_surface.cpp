@@ -22,7 +22,7 @@ AxisBox box_of(const TriangleMesh& mesh, int triangle) {
 }
 
 /// Whether a path meets a box.
-AxisBox from_eigen(const Eigen::AlignedBox3d& box) {
+AxisBox box_of(const Eigen::AlignedBox3d& box) {
   return {Vec<3>::Map(box.min().data()), Vec<3>::Map(box.max().data())};
 }
 
@@ -88,8 +88,7 @@ struct MeshSurface::Tree {
       boxes.getChildren(node, branch, last_branch, triangle, last_triangle);
       for (; triangle != last_triangle; ++triangle) visit(*triangle);
       const std::size_t before = waiting.size();
-      for (; branch != last_branch; ++branch)
-        waiting.emplace_back(order(from_eigen(boxes.getVolume(*branch))), *branch);
+      for (; branch != last_branch; ++branch) waiting.emplace_back(order(box_of(boxes.getVolume(*branch))), *branch);
       if (waiting.size() == before + 2 && waiting[before].first < waiting[before + 1].first) {
         std::swap(waiting[before], waiting[before + 1]);
       }

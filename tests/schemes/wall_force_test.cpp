@@ -194,8 +194,8 @@ TEST(WallForceParts, AUniformPressureGivesEachWallItsShare) {
   }
 }
 
-/// A cylinder or a tilted square, 30 dx across, in water at rest: the force is the weight of the displaced water. With 20
-/// dx the square's is 0.6 to 1.1 % low, depending on its place between the particles.
+/// A cylinder or a tilted square, 30 dx across, in water at rest: the force is the weight of the displaced water. With
+/// 20 dx the square's is 0.6 to 1.1 % low, depending on its place between the particles.
 void expect_buoyancy(const std::vector<Coordinates>& outline, double area) {
   const double dx = 1.0 / 30.0;
   CaseSpec spec = tank_case<2>(dx, 54.0 * dx, 54.0 * dx);
