@@ -9,6 +9,9 @@
 
 namespace tailwater {
 
+/// [dx]; edge of the cells of a multigrid (cell_multigrid.h).
+inline constexpr double cell_edge = 2.0;
+
 /// The cell of the given edge that contains each of the positions; `none` where is_in_a_cell(i) is false. All ranks use
 /// the same cells.
 template <int Dim, class Predicate>

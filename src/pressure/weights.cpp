@@ -5,13 +5,6 @@
 #include "pressure/stages.h"
 
 namespace tailwater {
-namespace {
-
-/// [dx]; edge of the cells of a multigrid (linear/cell_multigrid.h).
-constexpr double cell_edge = 2.0;
-
-}  // namespace
-
 template <int Dim>
 std::size_t assemble_weights(Flow<Dim>& flow, const WallDrive<Dim>& drive) {
   if (flow.has_matrix) {  // no row of it fell back (Flow::keeps_matrix)

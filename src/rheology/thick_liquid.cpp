@@ -23,7 +23,7 @@ constexpr int max_passes = 3;
 constexpr double reduction_of_pass = 0.1;
 
 /// Error over the velocity, both in the energy norm, below which rounding dominates: products are in single precision.
-constexpr double rounding = 1e-5;
+constexpr double least_error = 1e-5;
 
 }  // namespace
 
@@ -78,7 +78,8 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
     for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
     const double power =
         flow.setup.ranks.sum(sum_over(rhs.size(), 0.0, [&](std::size_t i) { return rhs[i].dot(velocity_[i]); }));
-    const ShellGoal goal{rounding * std::sqrt(std::abs(power)), varies ? reduction_of_pass : reduction, max_iterations};
+    const ShellGoal goal{least_error * std::sqrt(std::abs(power)), varies ? reduction_of_pass : reduction,
+                         max_iterations};
     const ShellReport report = solve_viscous_step<Dim>(flow, forces_, inertia, rhs, goal, velocity_);
     iterations_ += report.iterations;
     has_converged_ = report.has_converged;

@@ -4,13 +4,6 @@
 #include "linear/find_cells.h"
 
 namespace tailwater {
-namespace {
-
-/// [dx]; edge of the cells of the multigrid.
-constexpr double cell_edge = 2.0;
-
-}  // namespace
-
 template <int Dim>
 ViscousPreconditioner<Dim>::ViscousPreconditioner(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces,
                                                   std::span<const double> inertia)
