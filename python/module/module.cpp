@@ -1,5 +1,4 @@
 // The compiled part of the Python package: tailwater._simulation.
-#include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -13,6 +12,7 @@
 #include "python_simulation.h"
 #include "results/provenance.h"
 #include "run/run_case.h"
+#include "small_matrix.h"
 
 namespace py = pybind11;
 

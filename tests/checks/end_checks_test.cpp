@@ -191,7 +191,7 @@ TEST(EndChecks, AnInletNeedsASpaceForItsWater) {
   EXPECT_EQ(errors_of(spec), "");
   spec.time.end = 3.0;
   const std::string refused = errors_of(spec);
-  EXPECT_NE(refused.find("inlet 'inlet1' brings 0.3 m^2 by t = 3 s into a space without a way out"), std::string::npos)
+  EXPECT_NE(refused.find("inlet 'inlet1' adds 0.3 m^2 by t = 3 s to a space without an outlet"), std::string::npos)
       << refused;
   EXPECT_NE(refused.find("closed by wall 'wall1'"), std::string::npos) << refused;
   CaseSpec half_full = spec;
@@ -200,7 +200,7 @@ TEST(EndChecks, AnInletNeedsASpaceForItsWater) {
   half_full.fluid.resize(1);
   half_full.fluid[0].min = {0.0, 0.0};
   half_full.fluid[0].max = {1.0, 0.1};
-  EXPECT_NE(errors_of(half_full).find("has room for 0.1"), std::string::npos) << errors_of(half_full);
+  EXPECT_NE(errors_of(half_full).find("can hold at most 0.1"), std::string::npos) << errors_of(half_full);
   CaseSpec with_outlet = spec;
   with_outlet.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}}), polyline({{1.0, 0.2}, {0.0, 0.2}})};
   with_outlet.outlets = {outlet({1.0, 0.0}, {1.0, 0.2})};
