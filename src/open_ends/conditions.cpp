@@ -4,6 +4,7 @@
 
 #include "base/for_each.h"
 #include "flow/flow.h"
+#include "motion/wave_theory.h"
 #include "open_ends/fibres.h"
 #include "open_ends/open_ends.h"
 
@@ -16,9 +17,14 @@ constexpr double least_depth_over_spacing = 0.1;
 /// into the buffer. It is long compared with the waves that must leave, because waves that the mean follows are
 /// reflected (docs/theory/open_ends.md).
 constexpr double memory = 100.0;
-/// Averaging time where a level is prescribed and lets waves out, in passes of a long wave through the case; one pass
-/// where the level is held.
-constexpr double passes_of_waves = 4.0;
+/// Averaging time where a level is prescribed and lets all waves out, in passes of a long wave through the case; one
+/// pass where the level is held. The part of a wave that the mean follows is reflected.
+constexpr double passes_of_waves = 8.0;
+/// k h of the shortest waves that an absorbing end follows; shorter ones count as such.
+constexpr double shortest_wave = 3.0;
+/// (k h)^2 below which a wave is long, and the square of a Froude number below which there is none.
+constexpr double longest_wave = 1e-6;
+constexpr double least_swing = 1e-12;
 /// Fraction of the depth by which the level may follow a wave.
 constexpr double most_absorbed = 0.5;
 /// Averaging time of the error of a prescribed level, in depths that a long wave travels. A level that is off by more
@@ -107,11 +113,14 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
     state.wet_time += dt;
     state.delayed_speed += (1.0 - std::exp(-dt / crossing)) * (speed - state.delayed_speed);
     state.acceleration = (speed - state.delayed_speed) / crossing;
-    const double passes = 1.0 + (passes_of_waves - 1.0) * end.flow.absorbing;
+    const double passes = 1.0 + (passes_of_waves - 1.0) * end.flow.absorbing * end.flow.absorbing;
     const double window = end.holds_level() ? std::max(crossing, passes * end.reach / celerity)
                                             : std::clamp(state.wet_time, crossing, memory * crossing);
     const double share = 1.0 - std::exp(-dt / window);
     state.mean_speed += share * (speed - state.mean_speed);
+    const double swing = state.delayed_speed - state.mean_speed;
+    state.wave.swing += share * (swing * swing - state.wave.swing);
+    state.wave.swing_rate += share * (state.acceleration * state.acceleration - state.wave.swing_rate);
     state.mean_discharge += share * (discharge - state.mean_discharge);
     const double rate = 1.0 / window + std::max(0.0, speed - celerity) / end.gauge;
     state.invariant += (1.0 - std::exp(-rate * dt)) * (invariant - state.invariant);
@@ -141,6 +150,30 @@ void watch_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double head, do
   if (std::abs(miss.mean) > std::abs(miss.most)) miss.most = miss.mean;
 }
 
+/// 1/m; wave number of the waves that leave, by the frequency with which the speed before the buffer varies; 0: long
+/// ones.
+double number_of(const LeavingWave& wave, double gravity, double depth) {
+  const bool is_still = wave.swing <= least_swing * gravity * depth;
+  if (is_still || wave.swing_rate * depth <= longest_wave * gravity * wave.swing) return 0.0;
+  const double omega = std::sqrt(wave.swing_rate / wave.swing);
+  return std::min(wave_number(omega, gravity, depth), shortest_wave / depth);
+}
+
+/// Updates the wave that leaves: the depth-averaged speed is that of its crests times its height over the depth, and a
+/// long wave carries the u - 2 sqrt(g h) of the water beyond. It reaches the buffer later than the gauge.
+template <int Dim>
+void follow_wave(const OpenEnd<Dim>& end, double depth, OpenEndState& state) {
+  const double g = end.gravity;
+  LeavingWave& wave = state.wave;
+  wave.number = number_of(wave, g, depth);
+  const double kh = wave.number * depth;
+  const double crests = std::sqrt(g * depth * (kh > 0.0 ? std::tanh(kh) / kh : 1.0));
+  const double at_buffer = state.speed - state.acceleration * end.gauge / crests;
+  const double change = std::max(at_buffer - state.mean_speed, -2.0 * std::sqrt(g * depth));
+  const double height = (g * depth / crests + 0.25 * change) * change / g;
+  wave.height = end.flow.absorbing * std::clamp(height, -most_absorbed * depth, most_absorbed * depth);
+}
+
 /// Where a level is prescribed: depth and pressure of the buffer, and the inflow if the water enters with a free
 /// surface.
 template <int Dim>
@@ -155,13 +188,9 @@ Inflow hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const WaterIns
     state.depth = end.height;
     return {};
   }
-  if (state.is_wet) {
-    // A wave that leaves carries the u - 2 sqrt(g h) of the water beyond.
-    const double depth = std::max(head, end.spacing);
-    const double change = std::max(state.speed - state.mean_speed, -2.0 * std::sqrt(g * depth));
-    const double wave = (std::sqrt(g * depth) + 0.25 * change) * change / g;
-    state.level += end.flow.absorbing * std::clamp(wave, -most_absorbed * depth, most_absorbed * depth);
-  }
+  state.wave.height = 0.0;
+  if (state.is_wet) follow_wave(end, std::max(head, end.spacing), state);
+  state.level += state.wave.height;
   const double surface = std::clamp(state.level - end.floor, 0.0, end.height);
   const double bottom = mean_bottom(end, surface);
   const double invariant = state.is_wet ? -state.speed - 2.0 * std::sqrt(g * water.rise) : 0.0;

@@ -51,14 +51,18 @@ double OpenEnd<Dim>::depth_in(std::size_t column, const OpenEndState& state) con
 }
 
 /// Hydrostatic below the water's surface at the border, and farther on less by the acceleration of the buffer, which
-/// has inertia as the water before it has. Below a level that is above the opening, what comes in has the energy of the
-/// water at rest beyond, each fibre for itself.
+/// has inertia as the water before it has. The pressure of a wave that leaves falls with the depth. Below a level that
+/// is above the opening, what comes in has the energy of the water at rest beyond, each fibre for itself.
 template <int Dim>
 double OpenEnd<Dim>::pressure_at(const OpenEndState& state, const Vec<Dim>& x, const Vec<Dim>& velocity,
                                  double density) const {
   const double drop = state.acceleration * behind_border(x);
   if (!state.is_full) {
-    return density * std::max(0.0, this->gravity * (this->floor + state.depth - this->up.dot(x)) - drop);
+    const double z = std::clamp(this->up.dot(x) - this->floor, 0.0, state.depth);
+    const double k = state.wave.number;
+    const double below_wave = state.wave.height * (1.0 - std::cosh(k * z) / std::cosh(k * state.depth));
+    const double hydrostatic = this->floor + state.depth - this->up.dot(x);
+    return density * std::max(0.0, this->gravity * (hydrostatic - below_wave) - drop);
   }
   const Vec<Dim>& normal = this->opening.normal;
   const double at_rest = this->gravity > 0.0 ? this->gravity * (state.level - this->up.dot(x)) +

@@ -28,6 +28,14 @@ struct LevelError {
   double most = 0.0;    ///< m; the largest mean in them
 };
 
+/// The wave that leaves through an end that absorbs it.
+struct LeavingWave {
+  double height = 0.0;      ///< m; above the level beyond, as far as it is absorbed
+  double number = 0.0;      ///< 1/m; wave number; 0: a long one
+  double swing = 0.0;       ///< m^2/s^2; mean square of the speed, less its mean
+  double swing_rate = 0.0;  ///< m^2/s^4; mean square of its rate, over the same time
+};
+
 /// The flow before the buffer, and the assumed or prescribed flow beyond.
 struct OpenEndState {
   // The water before the buffer.
@@ -48,6 +56,7 @@ struct OpenEndState {
   std::vector<double> fibre_speeds;  ///< m/s; out; elsewhere
   double stretching = 0.0;           ///< 1/s; rate at which the water there becomes deeper; elsewhere
   std::vector<std::int64_t> rows;    ///< of the lattice on which particles enter, in each column
+  LeavingWave wave;
   // Water that has passed.
   LevelError miss;
   double asked = 0.0;        ///< m^Dim; prescribed volume, in less out; where a discharge is prescribed

@@ -16,9 +16,10 @@
 namespace tailwater {
 
 TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
+TAILWATER_SAVED(inline, LeavingWave, height, number, swing, swing_rate)
 TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, delayed_speed, acceleration, mean_speed, mean_discharge,
-                invariant, depth, level, is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows, miss, asked,
-                asked_total, departed, arrived, short_steps)
+                invariant, depth, level, is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows, wave, miss,
+                asked, asked_total, departed, arrived, short_steps)
 
 namespace {
 
