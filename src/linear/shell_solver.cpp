@@ -24,7 +24,7 @@ PetscErrorCode precondition_shell(PC preconditioner, Vec residual, Vec correctio
   return 0;
 }
 
-void configure(KSP solver, ShellSystem& system, const ShellGoal& goal) {
+void set_up(KSP solver, ShellSystem& system, const ShellGoal& goal) {
   PC preconditioner = nullptr;
   check_petsc(KSPGetPC(solver, &preconditioner));
   check_petsc(PCSetType(preconditioner, PCSHELL));
@@ -49,7 +49,7 @@ ShellReport solve_by_shell(const Communicator& ranks, ShellSystem& system, const
   check_petsc(MatShellSetOperation(matrix.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)));
   PetscKrylovSolver solver;
   check_petsc(KSPCreate(ranks.handle(), solver.create()));
-  configure(solver.get(), system, goal);
+  set_up(solver.get(), system, goal);
   check_petsc(KSPSetOperators(solver.get(), matrix.get(), matrix.get()));
   PetscVector given;
   PetscVector found;

@@ -87,14 +87,28 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
   }
 }
 
+/// The spin is the mean of the step.
+template <int Dim>
+void ThickLiquid<Dim>::find_wall_rates(const Flow<Dim>& flow, double dt) {
+  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  const State<Dim>& state = flow.state;
+  walls_.velocity = state.wall_velocity;
+  motion.get_velocity(state.time + dt, state.motion, walls_.velocity);
+  if (motion.moving().empty()) return;
+  walls_.spin.assign(flow.walls.boundary.walls.size(), Mat<Dim>::Zero());
+  for (const auto& moving : motion.moving()) {
+    const Mat<Dim> rate = moving.mean_velocity(state.time, state.time + dt, state.motion).linear;
+    walls_.spin[moving.wall] = rate * moving.at(state.time, state.motion).linear.transpose();
+  }
+}
+
 template <int Dim>
 void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> /*acceleration*/, double dt,
                                          std::span<Vec<Dim>> predicted) {
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
-  wall_velocity_ = flow.state.wall_velocity;
-  setup.wall_motion.get_velocity(flow.state.time + dt, flow.state.motion, wall_velocity_);
-  forces_.locate(flow, wall_velocity_);
+  find_wall_rates(flow, dt);
+  forces_.locate(flow, walls_);
   std::vector<Vec<Dim>> force(particles.owned, Vec<Dim>::Zero());
   flow.discretisation().find_gradient(flow, particles.pressure, force);
   for_each(particles.owned, [&](std::size_t i) {
@@ -115,7 +129,7 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
           });
   expansion_.assign(particles.owned, 0.0);
   std::vector<Vec<Dim>> beside_walls = velocity_;
-  set_wall_velocities<Dim>(flow, wall_velocity_, beside_walls);
+  set_wall_velocities<Dim>(flow, walls_.velocity, beside_walls);
   flow.discretisation().find_divergence(flow, beside_walls, expansion_);
 }
 
@@ -127,7 +141,7 @@ void ThickLiquid<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
   });
   flow.halo().exchange(particles.pressure);
   if (!flow.wall_forces.are_requested) return;
-  forces_.find_forces_on_walls(flow, wall_velocity_, velocity_, flow.wall_forces.friction);
+  forces_.find_forces_on_walls(flow, walls_, velocity_, flow.wall_forces.friction);
 }
 
 template <int Dim>

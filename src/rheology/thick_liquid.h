@@ -42,6 +42,7 @@ class ThickLiquid final : public Part<Dim> {
 
  private:
   void solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt, std::span<const Vec<Dim>> predicted);
+  void find_wall_rates(const Flow<Dim>& flow, double dt);
   double find_yielded_fraction(const Flow<Dim>& flow) const;
   void find_viscosity(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity);
 
@@ -53,11 +54,11 @@ class ThickLiquid final : public Part<Dim> {
   bool has_warned_ = false;
 
   // The present step; owned particles, but the velocity of ghosts too.
-  std::vector<Vec<Dim>> wall_velocity_;  ///< m/s; of rows of walls that move, at the end of the step
-  std::vector<Vec<Dim>> velocity_;       ///< m/s; v
-  std::vector<double> shear_rate_;       ///< 1/s
-  std::vector<double> expansion_;        ///< 1/s; div v
-  double work_ = 0.0;                    ///< J
+  WallRates<Dim> walls_;            ///< at the end of the step
+  std::vector<Vec<Dim>> velocity_;  ///< m/s; v
+  std::vector<double> shear_rate_;  ///< 1/s
+  std::vector<double> expansion_;   ///< 1/s; div v
+  double work_ = 0.0;               ///< J
 };
 
 /// Null if the case has no liquid whose viscous forces are solved for.

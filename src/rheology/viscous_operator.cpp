@@ -52,7 +52,7 @@ void ViscousOperator<Dim>::find_fluid_weights(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, std::span<const Vec<Dim>> V) {
+void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, const WallRates<Dim>& walls) {
   const Pairs<Dim>& pairs = flow.pairs();
   const Particles<Dim>& particles = flow.state.particles;
   const std::size_t owned = particles.owned;
@@ -79,7 +79,7 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, std::span<const Vec<Dim
       const double of_wall = particles.volume[j] * wall_factor(flow, row, d, F);
       with_walls += flow.walls.friction[row] * weight * d * d.transpose();
       wall_weight_[i] += of_wall;
-      wall_velocity_[i] += of_wall * entry_of<Dim>(V, row);
+      wall_velocity_[i] += of_wall * walls.at(flow.walls, row, d);
     }
     if (wall_weight_[i] > 0.0) wall_velocity_[i] /= wall_weight_[i];
     const double least = least_eigenvalue<Dim>(moment);
@@ -195,17 +195,18 @@ double ViscousOperator<Dim>::write_weights(const Flow<Dim>& flow, std::size_t i,
 }
 
 template <int Dim>
-void ViscousOperator<Dim>::find_forces_on_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V,
+void ViscousOperator<Dim>::find_forces_on_walls(const Flow<Dim>& flow, const WallRates<Dim>& walls,
                                                 std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> force) const {
   const Pairs<Dim>& pairs = flow.pairs();
   const Particles<Dim>& particles = flow.state.particles;
   for_each(pairs.owned(), [&](std::size_t w) {
     if (particles.is_fluid(w)) return;
     const auto row = particles.wall_row[w];
-    const Vec<Dim> own = entry_of<Dim>(V, row);
     force[w] = particles.volume[w] * sum_over_fluid(pairs, particles, w, [&](std::int32_t i, std::size_t k) {
-                 const double factor = wall_factor<Dim>(flow, row, -pairs.d(w, k), pairs.F(w, k));
-                 return Vec<Dim>(particles.volume[i] * viscosity_[i] * factor * (velocity[i] - own));
+                 const Vec<Dim> d = -pairs.d(w, k);
+                 const double factor = wall_factor<Dim>(flow, row, d, pairs.F(w, k));
+                 const Vec<Dim> slip_velocity = velocity[i] - walls.at(flow.walls, row, d);
+                 return Vec<Dim>(particles.volume[i] * viscosity_[i] * factor * slip_velocity);
                });
   });
 }

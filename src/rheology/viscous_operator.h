@@ -19,9 +19,11 @@
 // - At a free surface the stress vanishes, the natural condition.
 //
 // Walls with friction: between particle i at the distance d_i from a wall and a particle w of it, b_iw = d_w/d_i behind
-// the wall, the velocity is linear and that of the wall on it. lambda_w is the wall's friction. k_i is the fraction of
-// the least moment of neighbours that fluid alone has there, so that uniform shear beside a wall is in balance. Where
-// fluid has too few neighbours for a gradient, as in spray, mu_i fades. Derivation: docs/theory/rheology.md.
+// the wall, the velocity is linear and that of the wall on it. V_w is the velocity that the rigid motion of the wall
+// has at r_i, so that a liquid that turns with a wall meets no force. lambda_w is the wall's friction. k_i is the
+// fraction of the least moment of neighbours that fluid alone has there, so that uniform shear beside a wall is in
+// balance. Where fluid has too few neighbours for a gradient, as in spray, mu_i fades. Derivation:
+// docs/theory/rheology.md.
 #pragma once
 
 #include <span>
@@ -31,11 +33,24 @@
 
 namespace tailwater {
 
+/// How walls move.
+template <int Dim>
+struct WallRates {
+  std::vector<Vec<Dim>> velocity;  ///< m/s; of each row of walls that move
+  std::vector<Mat<Dim>> spin;      ///< 1/s; of each wall, whose velocity changes by spin d over a way d; empty: all 0
+
+  /// The velocity [m/s] that the wall of a row has by its rigid motion at `d` [m] from the row.
+  Vec<Dim> at(const Walls<Dim>& walls, std::int32_t row, const Vec<Dim>& d) const {
+    const Vec<Dim> own = entry_of<Dim>(velocity, row);
+    return spin.empty() ? own : Vec<Dim>(own + spin[walls.particles.wall[row]] * d);
+  }
+};
+
 template <int Dim>
 class ViscousOperator {
  public:
-  /// Finds what depends on the positions alone and on the velocity V [m/s] of the walls, one entry per moving row.
-  void locate(const Flow<Dim>& flow, std::span<const Vec<Dim>> V);
+  /// Finds what depends on the positions and on the motion of the walls alone.
+  void locate(const Flow<Dim>& flow, const WallRates<Dim>& walls);
 
   /// The shear rates s_i [1/s] of owned fluid. The velocity must be up to date on ghosts.
   void find_shear_rates(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity, std::span<double> rate) const;
@@ -64,7 +79,7 @@ class ViscousOperator {
   }
 
   /// The forces [N] on owned wall particles. Velocity and viscosity must be up to date on ghosts.
-  void find_forces_on_walls(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std::span<const Vec<Dim>> velocity,
+  void find_forces_on_walls(const Flow<Dim>& flow, const WallRates<Dim>& walls, std::span<const Vec<Dim>> velocity,
                             std::span<Vec<Dim>> force) const;
 
  private:
@@ -76,7 +91,7 @@ class ViscousOperator {
   std::vector<double> share_;             ///< of the viscosity; 0 where there is no gradient
   std::vector<double> fluid_share_;       ///< k
   std::vector<double> wall_weight_;       ///< 1/m^2; sum_w 2 lambda (1 + b) w F
-  std::vector<Vec<Dim>> wall_velocity_;   ///< m/s; mean of V with these weights
+  std::vector<Vec<Dim>> wall_velocity_;   ///< m/s; mean of V_w with these weights
   std::vector<double> viscosity_;         ///< Pa s
   std::vector<double> shared_viscosity_;  ///< Pa s; times `share_`, ghosts too
 };

@@ -6,6 +6,7 @@
 #include "flow/measure.h"
 #include "rheology/liquids.h"
 #include "rheology/thick_liquid.h"
+#include "support/circle.h"
 #include "support/record.h"
 
 namespace tailwater {
@@ -99,6 +100,72 @@ TEST_P(Channels, PoiseuilleFlowDoesNotDependOnTheStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, Channels, testing::Values(50.0, 1000.0));
+
+// From rest, u = f/nu [ y (1 - y)/2 - sum of odd n 4/(n pi)^3 sin(n pi y) exp(-n^2 pi^2 nu t) ] under the acceleration
+// f.
+TEST(Poiseuille, StartsAsTheSeriesSays) {
+  constexpr double nu = 0.5;
+  CaseSpec spec = channel_case(newtonian(density * nu), 0.05, 1.0, 0.0);
+  spec.scheme.courant = 0.05;  // a step is of first order in time
+  Flow<2> flow = make_flow<2>(spec);
+  ASSERT_TRUE(flow.setup.has_implicit_viscosity);
+  run_to(flow, 0.1);
+  const double t = flow.state.time;
+  const double error = profile_error(flow, [&](double y) {
+    double u = 0.5 * y * (1.0 - y);
+    for (int n = 1; n < 40; n += 2) {
+      const double k = n * std::numbers::pi;
+      u -= 4.0 / std::pow(k, 3.0) * std::sin(k * y) * std::exp(-k * k * nu * t);
+    }
+    return u / nu;
+  });
+  record_error("poiseuille_started", 2, 0.05, error);
+  EXPECT_LT(error, 0.01);
+}
+
+// A cylinder of radius 0.5 m that turns at 1 rad/s in a cup of radius 1.2 m, as in a rheometer: u = A (R^2/r - r). The
+// wall's velocity at a particle is that of its rigid motion; with that of its own particles the error is 7 %.
+TEST(TurningCylinder, DrivesTheExactFlow) {
+  constexpr double inner = 0.5;
+  constexpr double outer = 1.2;
+  CaseSpec spec;
+  spec.particles.spacing = 0.07;
+  spec.physics.gravity = {0.0, 0.0};
+  FluidTable gap;
+  gap.shape = BlockShape::fill;
+  gap.seed = {0.85, 0.0};
+  gap.level = 1.3;
+  spec.fluid = {gap};
+  WallTable cylinder;
+  cylinder.shape = WallShape::polygon;
+  cylinder.points = circle(48, inner);
+  cylinder.fluid_side = FluidSide::outside;
+  cylinder.slip = Slip::no_slip;
+  cylinder.friction = 1.0;
+  cylinder.rotation = "t";
+  WallTable cup = cylinder;
+  cup.points = circle(48, outer);
+  cup.fluid_side = FluidSide::inside;
+  cup.rotation = 0.0;
+  spec.walls = {cylinder, cup};
+  fill_with(spec, newtonian(1000.0));
+  Flow<2> flow = make_flow<2>(spec);
+  run_to(flow, 1.0);
+  const Particles<2>& particles = flow.state.particles;
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const Vec<2>& x = particles.position[i];
+    const double r = x.norm();
+    const double u = inner * inner / (outer * outer - inner * inner) * (outer * outer / r - r);
+    squares += (particles.velocity[i] - u / r * Vec<2>(-x[1], x[0])).squaredNorm();
+    count += 1.0;
+  }
+  const double error = std::sqrt(squares / count) / inner;
+  record_error("turning_cylinder", 2, spec.particles.spacing, error);
+  EXPECT_LT(error, 0.01);
+}
 
 // From rest, u = y - sum 2 (-1)^(n+1)/(n pi) sin(n pi y) exp(-n^2 pi^2 nu t) for a plate that moves at 1 m/s. The error
 // of the step falls with its length; it is first order.

@@ -20,7 +20,7 @@ template <int Dim>
 struct Block {
   explicit Block(bool has_walls) : flow(make_flow<Dim>(make_case(has_walls))) {
     locate(flow);
-    forces.locate(flow, flow.state.wall_velocity);
+    forces.locate(flow, {flow.state.wall_velocity, {}});
     const Particles<Dim>& particles = flow.state.particles;
     std::vector<double> viscosity(particles.owned, 0.0);
     for (std::size_t i = 0; i < viscosity.size(); ++i) {
@@ -134,7 +134,7 @@ TEST(ShearRates, AreExactInUniformShear) {
   Flow<2> flow = make_flow<2>(spec);
   locate(flow);
   ViscousOperator<2> forces;
-  forces.locate(flow, flow.state.wall_velocity);
+  forces.locate(flow, {flow.state.wall_velocity, {}});
   const Particles<2>& particles = flow.state.particles;
   std::vector<Vec<2>> shear(particles.size());
   for (std::size_t i = 0; i < shear.size(); ++i) shear[i] = {particles.position[i][1], 0.0};
