@@ -36,6 +36,8 @@ const std::map<std::string, const char*> templates_by_name{
     {"wave-flume", templates::wave_flume},
     {"rubble-mound", templates::rubble_mound},
     {"tailings", templates::tailings},
+    {"debris-flow", templates::debris_flow},
+    {"concrete-slump", templates::concrete_slump},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
     {"floating-box", templates::floating_box},
@@ -117,6 +119,8 @@ void add_new_command(CLI::App& app, ExitCode&) {
       "  wave-flume      regular waves, wave gauges and a damping zone\n"
       "  rubble-mound    regular waves on a porous breakwater of two layers\n"
       "  tailings        tailings run out over a slope until they stop\n"
+      "  debris-flow     debris runs down a slope and stops on the fan before it\n"
+      "  concrete-slump  3D slump of fresh concrete whose mould is lifted\n"
       "  solitary-wave   solitary wave from a piston\n"
       "  sloshing        water in a rolling tank\n"
       "  floating-box    floating body on two mooring lines");
