@@ -262,32 +262,55 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
   }
 }
 
-/// All water of a case is one liquid. Its solve of viscous forces includes walls, but no other feature that acts on
-/// water.
-void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  const LiquidTable* const liquid = liquid_of(spec);
+/// Blocks may be of several liquids, and all of them then name theirs.
+void check_liquids_of_blocks(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
     const CaseLabel key = CaseLabel("fluid", k).with_key("liquid");
     const toml::node* node = root["fluid"][k]["liquid"].node();
-    if (node == nullptr || spec.fluid[k].liquid.empty()) continue;
-    check_name(spec.fluid[k].liquid, spec.liquids, "liquid", key, *node, problems);
+    if (node != nullptr && !spec.fluid[k].liquid.empty()) {
+      check_name(spec.fluid[k].liquid, spec.liquids, "liquid", key, *node, problems);
+    } else if (has_several_liquids(spec)) {
+      problems.add(&root["fluid"][k].node()->source(), key,
+                   fmt::format("{} is missing, and other blocks have one; give the name of a [[liquid]], which may be "
+                               "water: rheology = \"newtonian\", viscosity = 1e-3",
+                               key));
+    }
   }
-  for (std::size_t k = 1; k < spec.fluid.size(); ++k) {
-    if (spec.fluid[k].liquid == spec.fluid[0].liquid) continue;
-    const CaseLabel key = CaseLabel("fluid", k).with_key("liquid");
-    problems.add(&root["fluid"][k].node()->source(), key,
-                 fmt::format("{} = \"{}\": {} is of \"{}\", and one case has one liquid; give both the same", key,
-                             spec.fluid[k].liquid, CaseLabel("fluid", 0).text(), spec.fluid[0].liquid));
-    return;
+  for (std::size_t k = 0; k < spec.probes.size(); ++k) {
+    const toml::node* node = root["probe"][k]["liquid"].node();
+    if (node == nullptr || spec.probes[k].liquid.empty()) continue;
+    check_name(spec.probes[k].liquid, spec.liquids, "liquid", CaseLabel("probe", k).with_key("liquid"), *node,
+               problems);
   }
-  if (liquid == nullptr && !spec.fluid.empty() && !spec.fluid[0].liquid.empty()) return;
+}
+
+/// The pressure equation converges for densities that differ by this factor, and its layers are tested up to it.
+constexpr double largest_density_ratio = 10.0;
+
+void check_densities(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  const auto [light, heavy] = std::ranges::minmax_element(spec.liquids, {}, &LiquidTable::density);
+  if (heavy->density <= largest_density_ratio * light->density) return;
+  const auto k = static_cast<std::size_t>(light - spec.liquids.begin());
+  problems.add(&root["liquid"][k].node()->source(), CaseLabel("liquid", k),
+               fmt::format("liquid[{}]: its density {:g} kg/m^3 is less than 1/{:g} of {:g}, that of \"{}\"; give "
+                           "densities within this ratio, and air by [air] or as empty space",
+                           k, light->density, largest_density_ratio, heavy->density, heavy->name));
+}
+
+/// The solve of viscous forces of liquids includes walls, but no other feature that acts on water.
+void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  check_liquids_of_blocks(spec, root, problems);
+  if (!problems.none()) return;
   for (std::size_t k = 0; k < spec.liquids.size(); ++k) {
-    if (&spec.liquids[k] == liquid) continue;
+    if (std::ranges::count(spec.fluid, spec.liquids[k].name, &FluidTable::liquid) > 0) continue;
     problems.add(&root["liquid"][k].node()->source(), CaseLabel("liquid", k),
                  fmt::format("liquid[{}]: no [[fluid]] is of \"{}\"; give a block liquid = \"{}\", or remove the table",
                              k, spec.liquids[k].name, spec.liquids[k].name));
   }
-  if (liquid != nullptr) check_surroundings_of_liquid(spec, root, *liquid, problems);
+  if (const LiquidTable* const liquid = liquid_of(spec)) {
+    check_surroundings_of_liquid(spec, root, *liquid, problems);
+    check_densities(spec, root, problems);
+  }
 }
 
 /// Studies change parts of the robust formulations; the published ones have none of these.

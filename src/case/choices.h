@@ -139,8 +139,9 @@ inline constexpr auto choices<ProbeType> = std::to_array<std::string_view>(
 inline constexpr std::array<std::string_view, 6> box_face_names{"-x", "+x", "-y", "+y", "-z", "+z"};
 
 /// Fields of the particles that can be written for ParaView.
-inline constexpr std::array<std::string_view, 8> field_names{
-    "pressure", "velocity", "density_error", "is_free_surface", "eddy_viscosity", "shear_rate", "viscosity", "id"};
+inline constexpr std::array<std::string_view, 10> field_names{
+    "pressure",   "velocity",  "density_error", "is_free_surface", "eddy_viscosity",
+    "shear_rate", "viscosity", "liquid",        "density",         "id"};
 
 template <class Enumeration>
 constexpr std::string_view name_of(Enumeration value) {

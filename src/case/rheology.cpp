@@ -79,4 +79,12 @@ const LiquidTable* liquid_of(const CaseSpec& spec) {
   return liquid == spec.liquids.end() ? nullptr : &*liquid;
 }
 
+bool has_several_liquids(const CaseSpec& spec) {
+  return std::ranges::any_of(spec.fluid, [&](const FluidTable& block) { return block.liquid != spec.fluid[0].liquid; });
+}
+
+int index_of_liquid(const CaseSpec& spec, std::string_view name) {
+  return static_cast<int>(std::ranges::find(spec.liquids, name, &LiquidTable::name) - spec.liquids.begin());
+}
+
 }  // namespace tailwater

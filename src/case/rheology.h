@@ -12,6 +12,8 @@
 // (docs/theory/rheology.md).
 #pragma once
 
+#include <string_view>
+
 #include "case/spec.h"
 
 namespace tailwater {
@@ -32,7 +34,13 @@ double default_rest_viscosity(const LiquidTable& liquid);
 /// for a power law, which has none.
 double kinematic_viscosity(const LiquidTable& liquid);
 
-/// The liquid of a case; null: water.
+/// The liquid of a case, of several that of its first block; null: water.
 const LiquidTable* liquid_of(const CaseSpec& spec);
+
+/// Whether blocks of the case are of different liquids.
+bool has_several_liquids(const CaseSpec& spec);
+
+/// Index into CaseSpec::liquids of a name that is there.
+int index_of_liquid(const CaseSpec& spec, std::string_view name);
 
 }  // namespace tailwater

@@ -310,8 +310,8 @@ struct FluidTable : PlacedFile {
     v.field("velocity", self.velocity, Variables::position, "m/s",
             "Initial velocity (default: at rest); expressions may use the particle's coordinates x, y, z");
     v.text("liquid", self.liquid,
-           "Name of the [[liquid]] that the block is of; all blocks of a case are of one (default: water, with the "
-           "density and viscosity of [physics])");
+           "Name of the [[liquid]] of the block; blocks of several liquids do not mix (docs/theory/liquids.md) "
+           "(default: water, with the density and viscosity of [physics])");
   }
 };
 
@@ -987,6 +987,7 @@ struct ProbeTable {
   Coordinates region_max;
   Coordinates moment_about;
   std::string body;
+  std::string liquid;
   double diameter = 0.0;
   double width = 0.0;
   double step = 0.0;
@@ -1017,6 +1018,8 @@ struct ProbeTable {
     v.coordinates("moment_about", self.moment_about, "m",
                   "Fixed point about which the moment is taken (default: no moment is written)");
     v.text("body", self.body, "Name of the body whose motion is written");
+    v.text("liquid", self.liquid,
+           "Name of the [[liquid]] whose level, front or volume is measured, in a case with several (default: all)");
     v.number(
         "diameter", self.diameter, "m", Range::at_least(0.0),
         "Diameter of the round sensor in the wall, over which the pressure is averaged (2D: its length); 0: a point");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "operators/interfaces.h"
 #include "operators/pair_vectors.h"
 
 namespace tailwater {
@@ -24,6 +25,7 @@ struct Surroundings {
   std::vector<Vec<Dim>> crowding;                ///< 1/m; of owned fluid (concentration.h)
   PairVectorField<Dim> pair_vectors;             ///< data of the pair vectors (pair_vectors.h); ghosts too
   std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij
+  Interfaces interfaces;                         ///< between liquids; ghosts too
 
   void resize(std::size_t count, bool with_gradient) {
     concentration.resize(count);

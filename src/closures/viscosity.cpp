@@ -44,6 +44,11 @@ std::vector<ViscousEnd<Dim>> viscous_ends(const Pairs<Dim>& pairs, const Particl
   return ends;
 }
 
+/// `lanes` where both densities are the same and not 0; 0 elsewhere.
+Lanes of_same_liquid(Lanes lanes, float own, Lanes other) {
+  return own == 0.0F ? Lanes{} : (other == own ? lanes : Lanes{});
+}
+
 template <int Dim>
 bool is_any_sheared(const std::vector<ViscousEnd<Dim>>& ends) {
   return std::ranges::any_of(ends, [](const ViscousEnd<Dim>& end) { return end.shear != 0U; });
@@ -141,7 +146,8 @@ template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                              const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
-                             std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration) {
+                             std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration,
+                             std::span<const float> density) {
   const std::vector<ViscousEnd<Dim>> ends = viscous_ends(pairs, particles, viscosity, velocity, gradient);
   const bool any_shear = is_any_sheared(ends);
   for_each(pairs.owned(), [&](std::size_t i) {
@@ -149,7 +155,7 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
     VecSum<Dim> sum;
     for_each_pair(pairs, i, [&](const auto& batch) {
       const PairVectorLanes<Dim> vectors = pair_vectors(batch);
-      const ViscousPairs<Dim> pair(batch, vectors.place, vectors.F, particles, ends, spacing);
+      ViscousPairs<Dim> pair(batch, vectors.place, vectors.F, particles, ends, spacing);
       // The corrections may turn the sign, but only for pairs that nearly coincide.
       const Lanes F = max_of(Lanes{}, -vectors.a.dot(pair.place.d)) / pair.squared;
       const Lanes laplacian = 2.0F * pair.morris_volumes * F;
@@ -158,7 +164,10 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
         const Lanes transposed = pair.volumes * pair.gradients.column[d].dot(vectors.a);
         terms.at[d] = pair.viscosity * fused(laplacian, pair.difference.at[d], transposed);
       }
-      if (noise_viscosity > 0.0) pair.add_noise_force(noise_viscosity, any_shear, terms);
+      if (noise_viscosity > 0.0) {
+        if (!density.empty()) pair.morris_volumes = of_same_liquid(pair.morris_volumes, density[i], batch.of(density));
+        pair.add_noise_force(noise_viscosity, any_shear, terms);
+      }
       sum += terms;
     });
     acceleration[i] += sum.total() / particles.volume[i];

@@ -108,6 +108,11 @@ struct Flow {
     return {setup.liquid.density, setup.gravity, acceleration, wall_turn_acceleration};
   }
 
+  /// kg/m^3; of fluid particle i.
+  double density_of(std::size_t i) const {
+    const ParticleLiquids& liquids = setup.liquids;
+    return liquids.are_several() ? liquids.density[liquids.of(state.particles.id[i])] : setup.liquid.density;
+  }
   /// Whether statistics of the bulk include particle i.
   bool is_inside(std::size_t i) const { return role[i] == Role::water && surroundings.interior[i] > 0.5; }
   /// m^Dim; volume of water of particle i: its volume, except where grains take part of it.
@@ -125,8 +130,7 @@ struct Flow {
     return pores == nullptr ? setup.scale.lattice : pores->lattice_of(state.particles.volume[i]);
   }
   double kinetic_energy_of(std::size_t i) const {
-    const double energy =
-        0.5 * setup.liquid.density * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
+    const double energy = 0.5 * density_of(i) * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
     if (pores == nullptr) return energy;
     const PoreSpace space = pores->at(state.particles.position[i]);
     return space.fraction * space.inertia * energy;
@@ -136,7 +140,7 @@ struct Flow {
   Box<Dim> box() const;
   /// J; relative to the origin; periodic directions do not contribute.
   double potential_energy_of(std::size_t i) const {
-    return -setup.liquid.density * water_volume_of(i) * setup.gravity_across.dot(state.particles.position[i]);
+    return -density_of(i) * water_volume_of(i) * setup.gravity_across.dot(state.particles.position[i]);
   }
 };
 

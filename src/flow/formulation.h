@@ -60,8 +60,8 @@ class Discretisation {
   virtual void find_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity,
                                std::span<double> divergence) const = 0;
 
-  /// Gradient of a pressure field [its unit/m] at the same particles. 0 where a consistent operator does not exist, so
-  /// that spray falls freely.
+  /// Gradient of a pressure field [its unit/m] at the same particles, divided by the density of each over that of the
+  /// case. 0 where a consistent operator does not exist, so that spray falls freely.
   virtual void find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
                              std::span<Vec<Dim>> gradient) const = 0;
 

@@ -52,6 +52,9 @@ void locate(Flow<Dim>& flow, SurfaceMarks marks) {
 
   find_wet_walls<Dim>(pairs, particles, setup.scale.kernel_values.W_0, surroundings.wall_fluid_weight,
                       surroundings.is_wet);
+  if (setup.liquids.are_several()) {
+    surroundings.interfaces = find_interfaces<Dim>(pairs, particles, setup.liquids, flow.halo(), setup.liquid.density);
+  }
   for_each(particles.owned,
            [&](std::size_t i) { surroundings.takes_part[i] = particles.is_fluid(i) || surroundings.is_wet[i]; });
   sum_kernel(flow, surroundings);

@@ -64,8 +64,7 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
   return sum_over(particles.owned, FluidSums{}, [&](std::size_t i) -> FluidSums {
     if (!particles.is_fluid(i)) return {};
     const double kinetic_energy = flow.kinetic_energy_of(i);
-    return {flow.setup.liquid.density * flow.water_volume_of(i), kinetic_energy,
-            kinetic_energy + flow.potential_energy_of(i)};
+    return {flow.density_of(i) * flow.water_volume_of(i), kinetic_energy, kinetic_energy + flow.potential_energy_of(i)};
   });
 }
 

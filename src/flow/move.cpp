@@ -42,7 +42,7 @@ std::size_t move(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
       keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, flow.setup.scale.spacing, displacements_of_walls(flow, dt),
                           start.position, particles, particles.velocity);
   for_each(finds_forces ? particles.owned : 0, [&](std::size_t i) {
-    const double mass = flow.setup.liquid.density * flow.water_volume_of(i);
+    const double mass = flow.density_of(i) * flow.water_volume_of(i);
     if (particles.is_fluid(i)) flow.wall_forces.pressure[i] = mass / dt * (before[i] - particles.velocity[i]);
   });
   return stopped_at_walls;

@@ -52,14 +52,19 @@ void damp(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt, std::ve
 }
 
 /// grad u of fluid particles, ghosts too. In reach of a wall with friction it is that of the water alone, since dummies
-/// show none of the shear.
+/// show none of the shear, and in reach of another liquid that of the particle's own.
 template <int Dim>
 std::vector<Mat<Dim>> find_velocity_gradient(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<Float4> velocity = as_float4<Dim>(particles.velocity);
+  const Interfaces& interfaces = flow.surroundings.interfaces;
   std::vector<Mat<Dim>> gradient(particles.size(), Mat<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
+    if (interfaces.are_any() && interfaces.is_near[i] != 0) {
+      gradient[i] = gradient_in_liquid<Dim>(flow.pairs(), i, interfaces.density, velocity);
+      return;
+    }
     gradient[i] =
         particles.wall_distance[i] < kernel_radius(flow.setup.scale.kernel) * flow.pairs().relative_spacing_of(i)
             ? gradient_in_water<Dim>(flow.pairs(), i, velocity)

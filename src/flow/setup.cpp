@@ -115,6 +115,24 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   return fluid.extent_along(gravity.normalized()) + spacing;
 }
 
+/// The liquids of the particles, if there are several.
+template <int Dim>
+ParticleLiquids particle_liquids(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const TimeStepRule& rule) {
+  ParticleLiquids liquids;
+  if (!has_several_liquids(spec)) return liquids;
+  std::int64_t end = 0;
+  for (std::size_t block = 0; block < spec.fluid.size(); ++block) {
+    end += fluid.of_blocks[block];
+    liquids.end.push_back(end);
+    liquids.of_block.push_back(index_of_liquid(spec, spec.fluid[block].liquid));
+  }
+  for (const LiquidTable& liquid : spec.liquids) {
+    liquids.density.push_back(liquid.density);
+    liquids.is_thin.push_back(!varies_with_shear(liquid) && !rule.is_viscous(kinematic_viscosity(liquid)));
+  }
+  return liquids;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -176,8 +194,9 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                     .viscous_share = formulation.viscous_share};
   if (reference_speed > 0.0) time_step_rule.fastest = formulation.fastest_over_reference * reference_speed;
   const LiquidTable* const thick = liquid_of(spec);
-  has_implicit_viscosity =
-      thick != nullptr && (varies_with_shear(*thick) || time_step_rule.is_viscous(kinematic_viscosity(*thick)));
+  liquids = particle_liquids(spec, drawing.fluid, time_step_rule);
+  has_implicit_viscosity = thick != nullptr && (liquids.are_several() || varies_with_shear(*thick) ||
+                                                time_step_rule.is_viscous(kinematic_viscosity(*thick)));
   if (thick == nullptr) return;
   liquid.density = thick->density;
   liquid.viscosity.molecular = friction_law.viscosity = has_implicit_viscosity ? 0.0 : kinematic_viscosity(*thick);

@@ -12,6 +12,7 @@
 #include "neighbours/halo.h"
 #include "operators/graded_sums.h"
 #include "parallel/communicator.h"
+#include "particles/liquids.h"
 #include "sampling/fluid_particles.h"
 #include "walls/shared_rows.h"
 #include "walls/wall_friction.h"
@@ -49,7 +50,8 @@ struct Setup {
 
   Communicator ranks;
   FlowFormulation<Dim> formulation;
-  Liquid liquid;
+  Liquid liquid;            ///< of several, that of the first block
+  ParticleLiquids liquids;  ///< of the particles, if the case has several
   Scale<Dim> scale;
   std::shared_ptr<const GradedSums<Dim>> graded;  ///< null: all particles have the spacing of `scale`
   std::int64_t first_wall_id;                     ///< id of the wall particle with number 0

@@ -25,7 +25,7 @@ double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pr
     if (!particles.is_fluid(i)) return 0.0;
     const Vec<Dim>& acceleration = predicted.acceleration[i];
     const Vec<Dim> displacement = dt * (start.velocity[i] + 0.5 * dt * acceleration);
-    return flow.setup.liquid.density * particles.volume[i] * acceleration.dot(displacement);
+    return flow.density_of(i) * particles.volume[i] * acceleration.dot(displacement);
   });
 }
 
@@ -64,7 +64,7 @@ double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
   const Particles<Dim>& particles = flow.state.particles;
   return sum_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return 0.0;
-    return flow.setup.liquid.density * flow.water_volume_of(i) * along.dot(particles.position[i] - start.position[i]);
+    return flow.density_of(i) * flow.water_volume_of(i) * along.dot(particles.position[i] - start.position[i]);
   });
 }
 

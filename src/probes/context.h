@@ -19,6 +19,7 @@
 #include "neighbours/cell_grid.h"
 #include "neighbours/halo.h"
 #include "parallel/communicator.h"
+#include "particles/liquids.h"
 #include "particles/particles.h"
 #include "particles/wall_forces.h"
 #include "refinement/spacing_field.h"
@@ -71,7 +72,17 @@ struct ProbeContext {
   std::function<double(const Vec<Dim>&)> air_pressure = {};
   /// Where particles are finer than `spacing`; null: nowhere.
   const SpacingField<Dim>* spacing_field = nullptr;
+  const ParticleLiquids* liquids = nullptr;  ///< null: one
+  int liquid = -1;                           ///< the one whose level or front a probe measures; -1: all
 
+  /// kg/m^3; of fluid particle j.
+  double density_of(std::size_t j) const {
+    return liquids == nullptr ? density : liquids->density[liquids->of(particles.id[j])];
+  }
+  /// Whether the probe measures particle j.
+  bool is_measured(std::size_t j) const {
+    return particles.is_fluid(j) && (liquid < 0 || liquids->of(particles.id[j]) == liquid);
+  }
   double relative_spacing(const Vec<Dim>& x) const { return spacing_field == nullptr ? 1.0 : spacing_field->at(x); }
   double spacing_at(const Vec<Dim>& x) const { return spacing * relative_spacing(x); }
   double air_pressure_at(const Vec<Dim>& x) const { return air_pressure ? air_pressure(x) : 0.0; }
@@ -88,7 +99,9 @@ struct ProbeContext {
             .time = time,
             .totals = totals,
             .air_pressure = air_pressure,
-            .spacing_field = spacing_field};
+            .spacing_field = spacing_field,
+            .liquids = liquids,
+            .liquid = liquid};
   }
 };
 

@@ -33,7 +33,7 @@ Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   const Particles<Dim>& particles = context.particles;
   std::vector<std::pair<double, std::int32_t>> heap;
   const auto counts = [&](std::size_t k) {
-    return particles.is_fluid(k) && !context.boundary.is_in_duct(particles.position[k]);
+    return context.is_measured(k) && !context.boundary.is_in_duct(particles.position[k]);
   };
   for (const std::size_t i : indices_where(particles.owned, counts)) {
     const Vec<Dim>& x = particles.position[i];

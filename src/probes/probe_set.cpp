@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "base/for_each.h"
+#include "case/rheology.h"
 #include "parallel/together.h"
 #include "probes/body_motion.h"
 #include "probes/discharge.h"
@@ -99,13 +100,27 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
   return volume_reading<Dim>(probe);
 }
 
+/// Lets a reading measure only the liquid that its table names.
+template <int Dim>
+Reading<Dim> reading_of_liquid(const ProbeTable& probe, const CaseSpec& spec, Reading<Dim> reading) {
+  if (probe.liquid.empty() || !has_several_liquids(spec)) return reading;
+  reading.take = [take = std::move(reading.take),
+                  liquid = index_of_liquid(spec, probe.liquid)](const ProbeContext<Dim>& context) {
+    ProbeContext<Dim> of_liquid = context;
+    of_liquid.liquid = liquid;
+    return take(of_liquid);
+  };
+  return reading;
+}
+
 }  // namespace
 
 template <int Dim>
 std::vector<Probe<Dim>> make_probes(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   std::vector<Probe<Dim>> probes;
   for (const ProbeTable& table : spec.probes) {
-    Probe<Dim> probe{table.name, table.type, make_reading(table, spec, boundary), table.interval, table.times};
+    Probe<Dim> probe{table.name, table.type, reading_of_liquid(table, spec, make_reading(table, spec, boundary)),
+                     table.interval, table.times};
     std::sort(probe.times.begin(), probe.times.end());
     probes.push_back(std::move(probe));
   }

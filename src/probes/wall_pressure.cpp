@@ -177,7 +177,7 @@ void WallPressureSums<Dim>::add(const ProbeContext<Dim>& context, const Vec<Dim>
   }
   const double p_j = context.particles.pressure[j];
   least = std::min(least, p_j);
-  pressure += weight * (p_j + context.density * context.gravity.dot(x_w - x_j));
+  pressure += weight * (p_j + context.density_of(j) * context.gravity.dot(x_w - x_j));
   water += weight;
 }
 

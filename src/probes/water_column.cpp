@@ -101,7 +101,7 @@ WaterColumns<Dim>::WaterColumns(const ProbeContext<Dim>& context) : context_(con
   const Particles<Dim>& particles = context.particles;
   const auto farthest = [&](int axis, double side) {
     return side * largest_over(particles.size(), -largest_number, [&](std::size_t i) {
-             return particles.is_fluid(i) ? side * particles.position[i][axis] : -largest_number;
+             return context.is_measured(i) ? side * particles.position[i][axis] : -largest_number;
            });
   };
   for (int axis = 0; axis < Dim; ++axis) {

@@ -19,7 +19,7 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
   const auto& thick = flow.template part<ThickLiquid<Dim>>();
   const auto make_room = [&](auto&... field) { (field.reserve(fluid.size()), ...); };
   make_room(position_, velocity_, pressure_, density_error_, is_surface_, eddy_viscosity_, shear_rate_, viscosity_,
-            id_);
+            liquid_, density_, id_);
   for (const std::size_t i : fluid) {
     position_.push_back(particles.position[i]);
     velocity_.push_back(particles.velocity[i]);
@@ -30,6 +30,9 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
         spalart_allmaras::eddy_viscosity(particles.layer_viscosity[i], flow.setup.liquid.viscosity.molecular));
     shear_rate_.push_back(thick.shear_rate(i));
     viscosity_.push_back(thick.viscosity(i));
+    liquid_.push_back(flow.setup.liquids.of(particles.id[i]));
+    density_.push_back(flow.setup.liquids.are_several() ? flow.setup.liquids.density[liquid_.back()]
+                                                        : flow.setup.liquid.density);
     id_.push_back(particles.id[i]);
   }
 }
@@ -45,6 +48,8 @@ ParticleFields<Dim> FluidFields<Dim>::view() const {
     if (name == "eddy_viscosity") result.fields.push_back({name, eddy_viscosity_});
     if (name == "shear_rate") result.fields.push_back({name, shear_rate_});
     if (name == "viscosity") result.fields.push_back({name, viscosity_});
+    if (name == "liquid") result.fields.push_back({name, liquid_});
+    if (name == "density") result.fields.push_back({name, density_});
     if (name == "id") result.fields.push_back({name, id_});
   }
   return result;

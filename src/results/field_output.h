@@ -26,8 +26,10 @@ class FluidFields {
   std::vector<double> density_error_;
   std::vector<std::int64_t> is_surface_;
   std::vector<double> eddy_viscosity_;
-  std::vector<double> shear_rate_;  ///< 1/s; of the last step; 0 of water
-  std::vector<double> viscosity_;   ///< Pa s; likewise
+  std::vector<double> shear_rate_;    ///< 1/s; of the last step; 0 of water
+  std::vector<double> viscosity_;     ///< Pa s; likewise
+  std::vector<std::int64_t> liquid_;  ///< index of its [[liquid]], counted as in the case file
+  std::vector<double> density_;       ///< kg/m^3
   std::vector<std::int64_t> id_;
 };
 

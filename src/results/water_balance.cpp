@@ -98,6 +98,15 @@ WaterAmount water_in(const Flow<Dim>& flow) {
   return water;
 }
 
+/// kg/m^3; of all water. The mass of each of several liquids is in the summary's block of the liquids. Collective.
+template <int Dim>
+double mean_density(const Flow<Dim>& flow) {
+  if (!flow.setup.liquids.are_several()) return flow.setup.liquid.density;
+  const double volume = water_in(flow).volume;
+  const double mass = flow.setup.ranks.sum(fluid_sums_of_rank(flow).mass);
+  return volume > 0.0 ? mass / volume : flow.setup.liquid.density;
+}
+
 template <int Dim>
 WaterAmount water_outside(const Flow<Dim>& flow) {
   const Box<Dim> box = flow.box();
@@ -125,7 +134,7 @@ WaterAmount water_inside(const Flow<Dim>& flow) {
 
 template <int Dim>
 Json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
-  const double density = flow.setup.liquid.density;
+  const double density = mean_density(flow);
   const auto& ends = flow.template part<OpenEnds<Dim>>();
   return {{"start", summary_of(at_start, density)},
           {"in", summary_of(ends.arrived(), density)},

@@ -1,5 +1,8 @@
 #include "rheology/thick_liquid.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/for_each.h"
@@ -7,6 +10,7 @@
 #include "flow/flow.h"
 #include "flow/stages.h"
 #include "io/messages.h"
+#include "rheology/liquid_balances.h"
 #include "rheology/viscous_solve.h"
 
 namespace tailwater {
@@ -35,7 +39,7 @@ void ThickLiquid<Dim>::find_viscosity(const Flow<Dim>& flow, std::span<const Vec
   forces_.find_shear_rates(flow, velocity, shear_rate_);
   std::vector<double> viscosity(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) viscosity[i] = viscosity_at(liquid_, shear_rate_[i]);
+    if (particles.is_fluid(i)) viscosity[i] = viscosity_at(liquid_of(flow, i), shear_rate_[i]);
   });
   forces_.set_viscosity(flow, viscosity);
 }
@@ -49,7 +53,8 @@ double ThickLiquid<Dim>::find_yielded_fraction(const Flow<Dim>& flow) const {
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     all += particles.volume[i];
-    if (shear_rate_[i] * liquid_.rest_viscosity >= liquid_.yield_stress) yielded += particles.volume[i];
+    const LiquidTable& liquid = liquid_of(flow, i);
+    if (shear_rate_[i] * liquid.rest_viscosity >= liquid.yield_stress) yielded += particles.volume[i];
   });
   flow.setup.ranks.sum_each(yielded, all);
   return all > 0.0 ? yielded / all : 0.0;
@@ -60,17 +65,16 @@ template <int Dim>
 void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt,
                              std::span<const Vec<Dim>> predicted) {
   const Particles<Dim>& particles = flow.state.particles;
-  const double density = flow.setup.liquid.density;
   std::vector<double> inertia(particles.owned, 0.0);
   std::vector<Vec<Dim>> impulse(particles.owned, Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    inertia[i] = density * particles.volume[i] / dt;
+    inertia[i] = flow.density_of(i) * particles.volume[i] / dt;
     impulse[i] = inertia[i] * (predicted[i] + dt * force[i]);
   });
   velocity_ = particles.velocity;
   iterations_ = 0;
-  const bool varies = varies_with_shear(liquid_);
+  const bool varies = std::ranges::any_of(liquids_, varies_with_shear);
   const int passes = varies ? max_passes : 1;
   std::vector<Vec<Dim>> rhs(particles.owned);
   for (int pass = 0; pass < passes; ++pass) {
@@ -156,29 +160,35 @@ std::vector<StepColumn> ThickLiquid<Dim>::step_columns() const {
 }
 
 template <int Dim>
-void ThickLiquid<Dim>::add_to_summary(const Flow<Dim>& /*flow*/, Json& summary) const {
-  summary["liquid"] = {{"name", liquid_.name},
-                       {"rheology", name_of(liquid_.rheology)},
+void ThickLiquid<Dim>::add_to_summary(const Flow<Dim>& flow, Json& summary) const {
+  std::vector<std::string_view> names;
+  for (const LiquidTable& liquid : liquids_) names.push_back(liquid.name);
+  const bool are_several = liquids_.size() > 1;
+  summary["liquid"] = {{"name", fmt::format("{}", fmt::join(names, " and "))},
+                       {"rheology", are_several ? "several" : name_of(liquids_[0].rheology)},
                        {"viscous_iterations", iterations_},
                        {"yielded_fraction", yielded_fraction_}};
+  if (are_several) summary["liquids"] = balances_of_liquids(flow, liquids_);
 }
 
 template <int Dim>
 void ThickLiquid<Dim>::warn(const Flow<Dim>& flow) {
   if (has_converged_ || has_warned_) return;
   has_warned_ = true;
+  const auto thickest = std::ranges::max_element(liquids_, {}, viscosity_at_rest);
   tailwater::warn(
       "the viscous forces at {:.6g} s did not converge within {} iterations; remedy: give liquid '{}' a smaller "
       "rest_viscosity",
-      flow.state.time, max_iterations, liquid_.name);
+      flow.state.time, max_iterations, thickest->name);
 }
 
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_thick_liquid(const CaseSpec& spec, const Setup<Dim>& setup,
                                              const Boundary<Dim>& /*boundary*/) {
-  const LiquidTable* const liquid = liquid_of(spec);
+  const LiquidTable* const liquid = tailwater::liquid_of(spec);
   if (liquid == nullptr || !setup.has_implicit_viscosity) return nullptr;
-  return std::make_unique<ThickLiquid<Dim>>(*liquid);
+  return std::make_unique<ThickLiquid<Dim>>(setup.liquids.are_several() ? spec.liquids
+                                                                        : std::vector<LiquidTable>{*liquid});
 }
 
 template class ThickLiquid<2>;

@@ -13,10 +13,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "case/spec.h"
-#include "flow/part.h"
+#include "flow/flow.h"
 #include "rheology/viscous_operator.h"
 
 namespace tailwater {
@@ -25,7 +26,8 @@ template <int Dim>
 class ThickLiquid final : public Part<Dim> {
  public:
   ThickLiquid() = default;
-  explicit ThickLiquid(const LiquidTable& liquid) : liquid_(liquid) {}
+  /// The liquids of Setup::liquids, or the one of the case.
+  explicit ThickLiquid(std::vector<LiquidTable> liquids) : liquids_(std::move(liquids)) {}
 
   /// Shear rate [1/s] and dynamic viscosity [Pa s] of owned particle i in the last step; 0 before the first one.
   double shear_rate(std::size_t i) const { return i < shear_rate_.size() ? shear_rate_[i] : 0.0; }
@@ -43,10 +45,13 @@ class ThickLiquid final : public Part<Dim> {
  private:
   void solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt, std::span<const Vec<Dim>> predicted);
   void find_wall_rates(const Flow<Dim>& flow, double dt);
+  const LiquidTable& liquid_of(const Flow<Dim>& flow, std::size_t i) const {
+    return liquids_[flow.setup.liquids.of(flow.state.particles.id[i])];
+  }
   double find_yielded_fraction(const Flow<Dim>& flow) const;
   void find_viscosity(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity);
 
-  LiquidTable liquid_;
+  std::vector<LiquidTable> liquids_;
   ViscousOperator<Dim> forces_;
   int iterations_ = 0;             ///< of the last step
   double yielded_fraction_ = 0.0;  ///< of the volume of the fluid, on all ranks, in the last step

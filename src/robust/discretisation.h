@@ -7,6 +7,7 @@
 //       -(rho/dt) (div u_star - target) + gamma rho (s_i (C/C_0 - 1) + o_i)/dt^2     source.cpp
 //   viscous force: Newtonian, and one that damps noise only                          viscous_force.cpp
 //
+// Between liquids of different density the rows have c_ij/rho_ij, and the gradient p_ij (operators/interfaces.h).
 // docs/theory/schemes.md and robustness.md give the reasons. docs/theory/devices.md lists the terms beyond the
 // equations of the flow.
 #pragma once

@@ -1,6 +1,7 @@
 #include "base/for_each.h"
 #include "operators/divergence.h"
 #include "operators/gradient_conservative.h"
+#include "operators/gradient_of_liquids.h"
 #include "robust/discretisation.h"
 #include "robust/loops.h"
 
@@ -10,6 +11,15 @@ template <int Dim>
 void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
                                               std::span<Vec<Dim>> gradient) const {
   const std::vector<double>& volume = flow.state.particles.volume;
+  const Interfaces& interfaces = flow.surroundings.interfaces;
+  if (interfaces.are_any()) {
+    for_each(flow.state.particles.owned, [&](std::size_t i) {
+      if (flow.role[i] != Role::water) return;
+      gradient[i] =
+          gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, flow.surroundings.pair_vectors, pressure);
+    });
+    return;
+  }
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
     gradient[i] = conservative_gradient<Dim>(flow.pairs(), i, volume, flow.surroundings.pair_vectors, pressure);
@@ -64,6 +74,7 @@ template <int Dim, class Weight>
 void find_pushes_of_pairs(const Flow<Dim>& flow, std::span<const std::size_t> particles,
                           const std::vector<double>& pressure, std::span<Vec<Dim>> pushes, Weight&& weight) {
   const std::vector<double>& volume = flow.state.particles.volume;
+  const Interfaces& interfaces = flow.surroundings.interfaces;
   for_each(particles.size(), [&](std::size_t n) {
     const std::size_t i = particles[n];
     VecSum<Dim> sum;
@@ -71,7 +82,9 @@ void find_pushes_of_pairs(const Flow<Dim>& flow, std::span<const std::size_t> pa
     const Lanes own = in_all_lanes(pressure[i]);
     for_each_pair(flow.pairs(), i, [&](const auto& batch) {
       const PairVectorLanes<Dim> pair = flow.surroundings.pair_vectors(batch);
-      sum += own_volume * weight(batch, pair) * (own + batch.of(pressure)) * pair.a;
+      const Lanes other = batch.of(pressure);
+      const Lanes twice = interfaces.are_any() ? interfaces.twice_pressure_of(batch, own, other) : own + other;
+      sum += own_volume * weight(batch, pair) * twice * pair.a;
     });
     pushes[n] = sum.total() / volume[i];
   });

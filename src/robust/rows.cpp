@@ -42,6 +42,27 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
   });
 }
 
+/// Sets the weights c_ij/rho_ij of liquids of several densities. Returns the sum of c_ij, which gives the weight of air.
+template <int Dim>
+double set_weights_of_liquids(const Flow<Dim>& flow, std::span<const float> volume_taking_part, std::size_t i,
+                              LinearSystem::Row& row) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const double spacing = flow.setup.scale.spacing;
+  LaneSum of_lattice;
+  row.write_weights([&](float* weights) {
+    LaneSum sums;
+    for_each_pair(pairs, i, [&](const auto& batch) {
+      const VecLanes<Dim> d = batch.place().d;
+      const Lanes share = share_of_morris_weight(batch.squared_over_spacing(d.dot(d)), spacing);
+      const Lanes weight = 2.0F * share * batch.of(volume_taking_part) * batch.F(d);
+      of_lattice += weight;
+      sums += batch.store(weight / flow.surroundings.interfaces.density_of(batch), weights);
+    });
+    return sums.total();
+  });
+  return of_lattice.total();
+}
+
 }  // namespace
 
 /// a_i of a row whose weights sum to `sum`: air near the surface and on walls, open faces and softness inside.
@@ -71,11 +92,20 @@ std::size_t RobustDiscretisation<Dim>::write_rows(Flow<Dim>& flow) const {
     volume[j] = flow.surroundings.takes_part[j] ? static_cast<float>(particles.volume[j]) : 0.0F;
   });
   const bool has_air = flow.setup.has_air();
+  const bool has_liquids = flow.surroundings.interfaces.are_any();
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
     LinearSystem::Row row = flow.pressure_rows.row(i);
-    const double sum = set_weights(flow, volume, i, row);
-    const double own = has_air ? closing_weight(flow, i, sum) : 0.0;
+    double sum = 0.0;
+    double own = 0.0;
+    if (has_liquids) {
+      const double of_lattice = set_weights_of_liquids(flow, volume, i, row);
+      sum = flow.pressure_rows.sum_of_weights(i);
+      own = has_air ? closing_weight(flow, i, of_lattice) / flow.surroundings.interfaces.density[i] : 0.0;
+    } else {
+      sum = set_weights(flow, volume, i, row);
+      own = has_air ? closing_weight(flow, i, sum) : 0.0;
+    }
     if (sum + own > 0.0) {
       row.finish(sum + own, 0.0);
     } else {

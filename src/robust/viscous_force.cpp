@@ -1,21 +1,46 @@
+#include <algorithm>
+
+#include "base/for_each.h"
 #include "flow/measure.h"
 #include "robust/discretisation.h"
 
 namespace tailwater {
+namespace {
+
+/// Density over that of the case of liquids whose noise is damped; 0 of others and of walls.
+template <int Dim>
+std::vector<float> densities_of_thin_liquids(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const ParticleLiquids& liquids = flow.setup.liquids;
+  std::vector<float> density(particles.size(), 0.0F);
+  for_each(density.size(), [&](std::size_t i) {
+    if (particles.is_fluid(i) && liquids.is_thin[liquids.of(particles.id[i])] != 0) {
+      density[i] = flow.surroundings.interfaces.density[i];
+    }
+  });
+  return density;
+}
+
+}  // namespace
 
 template <int Dim>
 void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::span<const Mat<Dim>> velocity_gradient,
                                                   std::vector<Vec<Dim>>& acceleration) const {
   const Setup<Dim>& setup = flow.setup;
-  if (setup.has_implicit_viscosity) return;
   const Particles<Dim>& particles = flow.state.particles;
-  std::vector<double> viscosity(particles.size());
+  std::vector<double> viscosity(particles.size(), 0.0);
   const bool damps_noise = setup.formulation.noise_viscosity > 0.0;
   const double noise_viscosity = damps_noise ? setup.noise_viscosity(largest_speed(flow)) : 0.0;
-  effective_viscosity<Dim>(setup.liquid.viscosity, particles.velocity, viscosity);
+  std::vector<float> density;  // of particles, if there are several liquids
+  if (setup.has_implicit_viscosity) {
+    if (!damps_noise || std::ranges::count(setup.liquids.is_thin, 1) == 0) return;
+    density = densities_of_thin_liquids(flow);
+  } else {
+    effective_viscosity<Dim>(setup.liquid.viscosity, particles.velocity, viscosity);
+  }
   for (const auto& part : flow.parts) part->add_viscosity(flow, viscosity);
   add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.scale.spacing, flow.surroundings.pair_vectors, viscosity,
-                               noise_viscosity, particles.velocity, velocity_gradient, acceleration);
+                               noise_viscosity, particles.velocity, velocity_gradient, acceleration, density);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                        \

@@ -59,9 +59,11 @@ std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
   for (const FluidTable& fluid : spec.fluid) ++shapes[name_of(fluid.shape)];
   std::vector<std::string> kinds;
   for (const auto& [shape, count] : shapes) kinds.push_back(plural(count, shape));
-  return fmt::format("At the start there are {:.4g} m^3 of water{} ({:.4g} kg), in {}: {} particles, {:.4g} m apart.{}",
-                     estimate.water, per_width(spec), estimate.water * spec.physics.density, listed(kinds),
-                     fmt::format("{:.0f}", estimate.particles.fluid), dx, about_refinement(spec));
+  const bool has_one_density = !has_several_liquids(spec);
+  return fmt::format("At the start there are {:.4g} m^3 of {}{}{}, in {}: {} particles, {:.4g} m apart.{}",
+                     estimate.water, has_one_density ? "water" : "liquids", per_width(spec),
+                     has_one_density ? fmt::format(" ({:.4g} kg)", estimate.water * spec.physics.density) : "",
+                     listed(kinds), fmt::format("{:.0f}", estimate.particles.fluid), dx, about_refinement(spec));
 }
 
 /// The law of a liquid with its numbers.
@@ -84,19 +86,30 @@ std::string law_of(const LiquidTable& liquid) {
                      liquid.high_shear_viscosity);
 }
 
-std::string about_liquid(const CaseSpec& spec, const LiquidTable& liquid, bool is_implicit) {
-  std::string text = fmt::format(
-      "Gravity is {:.4g} m/s^2. The liquid '{}' ({}) has a density of {:.4g} kg/m^3, and {}.",
-      gravity_magnitude(spec.physics), liquid.name, name_of(liquid.rheology), liquid.density, law_of(liquid));
+std::string about_liquid(const LiquidTable& liquid) {
+  std::string text = fmt::format(" The liquid '{}' ({}) has a density of {:.4g} kg/m^3, and {}.", liquid.name,
+                                 name_of(liquid.rheology), liquid.density, law_of(liquid));
   if (liquid.yield_stress > 0.0) {
     text += fmt::format(" Below its yield stress it creeps, with {:.3g} Pa s.", viscosity_at_rest(liquid));
   }
+  return text;
+}
+
+/// The sentences about the liquid of a case, or all its liquids.
+std::string about_liquids(const CaseSpec& spec, const LiquidTable& liquid, bool is_implicit) {
+  std::string text = fmt::format("Gravity is {:.4g} m/s^2.", gravity_magnitude(spec.physics));
+  if (has_several_liquids(spec)) {
+    for (const LiquidTable& each : spec.liquids) text += about_liquid(each);
+    return text + " The liquids do not mix. Their viscous forces are solved for implicitly and do not shorten the time "
+                  "step.";
+  }
+  text += about_liquid(liquid);
   return text + (is_implicit ? " Its viscous forces are solved for implicitly and do not shorten the time step."
                              : " Its viscous forces are explicit, as those of water.");
 }
 
 std::string about_physics(const CaseSpec& spec, bool is_implicit) {
-  if (const LiquidTable* const liquid = liquid_of(spec)) return about_liquid(spec, *liquid, is_implicit);
+  if (const LiquidTable* const liquid = liquid_of(spec)) return about_liquids(spec, *liquid, is_implicit);
   const PhysicsTable& physics = spec.physics;
   std::string text = fmt::format("Gravity is {:.4g} m/s^2, the density {:.4g} kg/m^3, the viscosity {:.3g} m^2/s",
                                  gravity_magnitude(physics), physics.density, physics.viscosity);

@@ -227,7 +227,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .wall_forces = &flow.wall_forces,
                   .bodies = flow.state.motion.bodies.each,
                   .air_pressure = air_of(flow).pressure_field(),
-                  .spacing_field = flow.setup.graded == nullptr ? nullptr : &flow.setup.graded->field()});
+                  .spacing_field = flow.setup.graded == nullptr ? nullptr : &flow.setup.graded->field(),
+                  .liquids = flow.setup.liquids.are_several() ? &flow.setup.liquids : nullptr});
 }
 
 template <int Dim>

@@ -339,7 +339,8 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
   fluid.ranks = ranks;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     blocks.push_back(std::make_unique<BlockWater<Dim>>(spec, b, boundary, bodies, ranks));
-    fluid.all += blocks.back()->particles();
+    fluid.of_blocks.push_back(blocks.back()->particles());
+    fluid.all += fluid.of_blocks.back();
   }
   const auto begin_of = [&](int rank) { return std::min((fluid.all + others) * rank / ranks.size(), fluid.all); };
   fluid.first = begin_of(ranks.rank());

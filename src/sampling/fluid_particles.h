@@ -17,10 +17,11 @@ template <int Dim>
 struct FluidParticles {
   std::vector<Vec<Dim>> position;
   std::vector<Vec<Dim>> velocity;
-  std::vector<double> volume;    ///< m^Dim
-  std::vector<int> block;        ///< index into CaseSpec::fluid
-  std::vector<std::int64_t> id;  ///< empty without zones of refinement: the numbers from `first` on
-  std::int64_t first = 0;        ///< number of the first one, among those of all ranks
+  std::vector<double> volume;           ///< m^Dim
+  std::vector<int> block;               ///< index into CaseSpec::fluid
+  std::vector<std::int64_t> id;         ///< empty without zones of refinement: the numbers from `first` on
+  std::vector<std::int64_t> of_blocks;  ///< how many each block has on all ranks; their numbers follow each other
+  std::int64_t first = 0;               ///< number of the first one, among those of all ranks
   /// How many all ranks have. With zones of refinement this, and `first`, count the cells of the case's lattice, which
   /// are divided there.
   std::int64_t all = 0;

@@ -13,11 +13,12 @@ namespace {
 template <int Dim, class Also>
 double excess_over_water(const WallScene<Dim>& scene, const WallForce<Dim>& force, std::size_t i, Also&& also) {
   const Pairs<Dim>& pairs = scene.pairs;
+  const Interfaces& interfaces = scene.surroundings.interfaces;
   VecLanes<Dim> sum{};
   for_each_pair(pairs, i, [&](const auto& batch) {
     const PlaceLanes<Dim> place = batch.place();
     const Lanes weight = batch.kernel_of_fluid(place);
-    sum += weight * place.d;
+    sum += (interfaces.are_any() ? weight * interfaces.density_of(batch) : weight) * place.d;
     also(batch, weight);
   });
   return force.hydrostatic_difference(scene.particles, i, sum_of(sum) / scene.surroundings.wall_fluid_weight[i]);

@@ -253,7 +253,7 @@ const std::vector<BadInput> table{
     {"two_liquids",
      required_keys + mud + water + "[[liquid]]\nname = \"mud\"\nviscosity = 1\n",
      "7:1",
-     {"fluid[1].liquid", "one case has one liquid"}},
+     {"fluid[1].liquid is missing", "which may be water"}},
     {"liquid_beside_another_density",
      required_keys + "[physics]\ndensity = 1100\n" + mud + "[[liquid]]\nname = \"mud\"\nviscosity = 1\n",
      "4:11",
