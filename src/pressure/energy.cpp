@@ -18,15 +18,26 @@ constexpr double in_doubt = 0.25;
 /// lattice that was placed too close: it rises slowly.
 constexpr double fading_rate = 1.4;
 
-template <int Dim>
-double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt) {
+/// `density_of(i)` in kg/m^3.
+template <int Dim, class Density>
+double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt,
+                    Density&& density_of) {
   const Particles<Dim>& particles = flow.state.particles;
   return sum_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return 0.0;
     const Vec<Dim>& acceleration = predicted.acceleration[i];
     const Vec<Dim> displacement = dt * (start.velocity[i] + 0.5 * dt * acceleration);
-    return flow.density_of(i) * particles.volume[i] * acceleration.dot(displacement);
+    return density_of(i) * particles.volume[i] * acceleration.dot(displacement);
   });
+}
+
+/// One liquid has one density for all particles, and rounding as if there were no other case.
+template <int Dim>
+double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt) {
+  if (flow.setup.liquids.are_several()) {
+    return viscous_work(flow, start, predicted, dt, [&](std::size_t i) { return flow.density_of(i); });
+  }
+  return viscous_work(flow, start, predicted, dt, [&](std::size_t /*i*/) { return flow.setup.liquid.density; });
 }
 
 /// Work [J] of the pressure on the expansion of the density source: the energy for lifting water whose particles had
