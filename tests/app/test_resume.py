@@ -47,6 +47,10 @@ POCKET = ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}, {name='hull', s
           "--set", "fluid[0].velocity=[1, 0]")
 ROCK = ("--set", "porous=[{min=[0.8, -1], max=[1.3, 2], porosity=0.5, grain_size=0.05}]", "--set",
         "fluid[0].velocity=[1, 0]")
+LAYERS = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name='mud', rheology='bingham', viscosity=1, "
+          "yield_stress=5}]", "--set", "fluid=[{min=[0, 0], max=[1, 0.2], liquid='mud'}, "
+          "{min=[0, 0.2], max=[0.5, 0.5], liquid='brine'}]", "--set",
+          "probe=[{name='level', type='depth', at=[0.6, 0], liquid='mud'}, {name='front', type='front', liquid='brine'}]")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -61,6 +65,7 @@ FEATURES = {
     "a wave maker that absorbs, and a zone of waves": WAVES,
     "a tank that a file rolls": ROLL,
     "water that enters a porous layer": ROCK,
+    "two liquids": LAYERS,
     "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),
     "a body that floats on a line": BARGE,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
