@@ -38,6 +38,7 @@ const std::map<std::string, const char*> templates_by_name{
     {"tailings", templates::tailings},
     {"debris-flow", templates::debris_flow},
     {"concrete-slump", templates::concrete_slump},
+    {"lock-exchange", templates::lock_exchange},
     {"solitary-wave", templates::solitary_wave},
     {"sloshing", templates::sloshing},
     {"floating-box", templates::floating_box},
@@ -121,6 +122,7 @@ void add_new_command(CLI::App& app, ExitCode&) {
       "  tailings        tailings run out over a slope until they stop\n"
       "  debris-flow     debris runs down a slope and stops on the fan before it\n"
       "  concrete-slump  3D slump of fresh concrete whose mould is lifted\n"
+      "  lock-exchange   brine flows under fresh water, two liquids\n"
       "  solitary-wave   solitary wave from a piston\n"
       "  sloshing        water in a rolling tank\n"
       "  floating-box    floating body on two mooring lines");
