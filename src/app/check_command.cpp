@@ -136,7 +136,7 @@ void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, double water)
   const double finest = spec.particles.spacing * field.finest();
   fmt::print(
       "            the time step is that of {:.4g} m; with this spacing everywhere {:.0f} fluid particles\n"
-      "            calm water beside a border that lies deep keeps moving at 0.01 sqrt(g depth)\n",
+      "            calm water beside a border that lies deep keeps moving at 0.002 sqrt(g depth)\n",
       finest, water / power<Dim>(finest));
 }
 

@@ -7,6 +7,7 @@
 
 #include "operators/interfaces.h"
 #include "operators/pair_vectors.h"
+#include "operators/support_terms.h"
 
 namespace tailwater {
 
@@ -26,6 +27,7 @@ struct Surroundings {
   PairVectorField<Dim> pair_vectors;             ///< data of the pair vectors (pair_vectors.h); ghosts too
   std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij
   Interfaces interfaces;                         ///< between liquids; ghosts too
+  SupportTerms<Dim> support_terms;               ///< empty if all particles have one spacing
 
   void resize(std::size_t count, bool with_gradient) {
     concentration.resize(count);

@@ -1,6 +1,7 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
 #include "operators/concentration.h"
+#include "operators/support_operators.h"
 #include "walls/hidden_pairs.h"
 #include "walls/wet_walls.h"
 
@@ -13,7 +14,11 @@ template <int Dim>
 void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
   const Particles<Dim>& particles = flow.state.particles;
   const bool with_gradient = flow.setup.formulation.needs_concentration_gradient;
-  const GradedSums<Dim>* const graded = flow.setup.graded.get();
+  SupportTerms<Dim>& terms = surroundings.support_terms;
+  if (flow.setup.graded != nullptr) {
+    find_references<Dim>(flow.pairs(), *flow.setup.graded, particles.volume, surroundings.takes_part,
+                         flow.setup.scale.lattice.concentration, terms);
+  }
   surroundings.crowding.resize(particles.owned);
   for_each(particles.owned, [&](std::size_t i) {
     surroundings.concentration[i] = 1.0;
@@ -21,14 +26,13 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
     surroundings.first_moment[i] = packed_identity<Dim>();
     if (!has_equation(flow.role[i])) return;
     const KernelSums<Dim> sums = kernel_sums<Dim>(flow.pairs(), i, flow.setup.scale.kernel_values);
-    surroundings.concentration[i] = sums.concentration / flow.lattice_of(i).concentration;
-    ContinuumSums<Dim> continuum;
-    if (graded != nullptr) continuum = graded->continuum(particles.position[i]);
-    surroundings.concentration[i] /= continuum.concentration;
+    surroundings.concentration[i] =
+        sums.concentration / (terms.is_empty() ? flow.lattice_of(i).concentration : terms.reference[i]);
     if (!particles.is_fluid(i)) return;
     if (with_gradient) surroundings.concentration_gradient[i] = sums.gradient;
     surroundings.first_moment[i] = packed<Dim>(sums.first_moment);
-    surroundings.crowding[i] = sums.crowding - continuum.gradient;
+    surroundings.crowding[i] = sums.crowding;
+    if (!terms.is_empty()) surroundings.crowding[i] -= terms.crowding[i];
   });
 }
 

@@ -9,12 +9,11 @@
 // vary, which is no crowding.
 #pragma once
 
-#include <array>
-#include <map>
 #include <vector>
 
 #include "kernel/kernel.h"
 #include "operators/lattice.h"
+#include "operators/symmetric.h"
 #include "refinement/spacing_field.h"
 
 namespace tailwater {
@@ -22,8 +21,9 @@ namespace tailwater {
 /// Sums over a continuum.
 template <int Dim>
 struct ContinuumSums {
-  double concentration = 1.0;            ///< C*
-  Vec<Dim> gradient = Vec<Dim>::Zero();  ///< 1/m; int grad_x W dy at a fixed support
+  double concentration = 1.0;                         ///< C*
+  Vec<Dim> gradient = Vec<Dim>::Zero();               ///< 1/m; int grad_x W dy at a fixed support
+  Packed<Dim> first_moment = packed_identity<Dim>();  ///< M*; int F s s dy with s = y - x
 };
 
 template <int Dim>
@@ -31,28 +31,21 @@ class GradedSums {
  public:
   GradedSums(const Kernel<Dim>& kernel, double spacing, SpacingField<Dim> field);
 
+  const Kernel<Dim>& kernel() const { return kernel_; }
   const SpacingField<Dim>& field() const { return field_; }
+  double spacing() const { return spacing_; }  ///< m; of the case
   /// Sums over a full lattice of particles of this volume [m^Dim] with the support of a relative spacing h.
   LatticeSums lattice(double relative_spacing, double volume) const;
-  /// At a place: from a table behind a single face, else by quadrature.
+  /// d ln C_0/d ln h of such a lattice, at its volume.
+  double lattice_slope(double relative_spacing, double volume) const;
+  /// At a place, by quadrature.
   ContinuumSums<Dim> continuum(const Vec<Dim>& x) const;
 
  private:
-  /// Across one face, from one support in front of it to one behind its border.
-  struct FaceTable {
-    double first;  ///< m; depth of the first entry
-    double step;   ///< m
-    std::vector<double> concentration;
-    std::vector<double> gradient;  ///< 1/m; component inwards
-  };
-
-  FaceTable tabulate(int level) const;
-
   Kernel<Dim> kernel_;
   double spacing_;
   SpacingField<Dim> field_;
   std::vector<LatticeSums> lattices_;  ///< of ratios of lattice spacing and support, in equal steps
-  std::map<int, FaceTable> of_level_;
 };
 
 }  // namespace tailwater

@@ -8,6 +8,7 @@
 
 #include "base/eigen.h"
 #include "base/for_each.h"
+#include "operators/support_operators.h"
 
 namespace tailwater {
 namespace {
@@ -36,6 +37,15 @@ struct alignas(Dim == 2 ? 16 : 32) InteriorMoment {
   std::array<float, symmetric_size<Dim>> first_moment;  ///< M, packed
 };
 
+/// M of a particle, over that of a continuum with the same supports.
+template <int Dim>
+Packed<Dim> relative_moment(const CorrectionInput<Dim>& input, std::size_t i) {
+  if (input.support == nullptr || input.kind[i] != ParticleKind::fluid) return input.first_moment[i];
+  const Mat<Dim> inverse = unpacked<Dim>(input.support->first_moment[i]).inverse();
+  const Mat<Dim> product = inverse * unpacked<Dim>(input.first_moment[i]);
+  return packed<Dim>(0.5 * (product + product.transpose()));
+}
+
 /// Computes B_i of owned particles, and the mean of `interior`.
 template <int Dim>
 void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>& input, CorrectionReach reach,
@@ -44,7 +54,7 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
   for_each(moments.size(), [&](std::size_t i) {
     moments[i].interior = static_cast<float>(input.interior[i]);
     for (int n = 0; n < symmetric_size<Dim>; ++n) {
-      moments[i].first_moment[n] = static_cast<float>(input.first_moment[i][n]);
+      moments[i].first_moment[n] = static_cast<float>(relative_moment(input, i)[n]);
     }
   });
   using Moment = InteriorMoment<Dim>;
@@ -57,7 +67,8 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     if (reach == CorrectionReach::surface && share < 1.0) {
       at_surface = equalising_correction<Dim>(unpacked<Dim>(input.first_moment[i]));
     }
-    correction[i] = (1.0 - share) * packed<Dim>(at_surface);
+    const double kept = share * (input.support != nullptr ? input.support->kept_correction[i] : 1.0);
+    correction[i] = (1.0 - kept) * packed<Dim>(at_surface);
     if (share == 0.0) return;
     // Weights 1 - (r/R)^2, times the volume where volumes differ: a continuous mean over all neighbours in the support.
     std::array<Lanes, symmetric_size<Dim>> sums{};
@@ -80,11 +91,11 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
     const double kernel_sum = sum_of(kernel_sums);
     mean_interior[i] = kernel_sum > 0.0 ? sum_of(interiors) / kernel_sum : 0.0;
     const double own = pairs.is_graded() ? share * input.volume[i] * pairs.inverse_cell : share;
-    Packed<Dim> sum = own * input.first_moment[i];
+    Packed<Dim> sum = own * relative_moment(input, i);
     for (int n = 0; n < symmetric_size<Dim>; ++n) sum[n] += sum_of(sums[n]);
     const double weights = own + sum_of(weight_sums);
     const Mat<Dim> mean = unpacked<Dim>(sum / weights);
-    correction[i] += share * packed<Dim>(mean.inverse());
+    correction[i] += kept * packed<Dim>(mean.inverse());
   });
 }
 
@@ -117,15 +128,22 @@ ClosingEquation<Dim> pose_closing_equation(const Pairs<Dim>& pairs, const Correc
     VecLanes<Dim> sums{};
     VecLanes<Dim> kernel_sums{};
     Lanes weights{};
+    const SupportTerms<Dim>* const support =
+        input.support != nullptr && input.support->is_near_border(i) ? input.support : nullptr;
     for_each_pair(pairs, i, [&](const auto& batch) {
       const PairVectorLanes<Dim> pair = unclosed(batch);
       const Lanes volume_j = pair.place.volume();
       const Lanes weight = volume_j * batch.store(pair.F, equation.F.data() + pairs.begin(i));
-      sums -= volume_j * pair.a;
+      if (support == nullptr) {
+        sums -= volume_j * pair.a;
+      } else {
+        sums -= volume_j * mean_inverse_reference(batch, *support) * pair.a;
+      }
       if (is_near_surface) kernel_sums += weight * pair.place.d;
       weights += weight;
     });
-    const Vec<Dim> open = sum_of(sums);
+    Vec<Dim> open = sum_of(sums);
+    if (support != nullptr) open -= support->faces[i];
     equation.weights[i] = sum_of(weights);
     equation.open[i] = open;
     equation.share[i] = to_surface ? 1.0 : share;

@@ -44,6 +44,9 @@
 
 namespace tailwater {
 
+template <int Dim>
+struct SupportTerms;
+
 /// Region in which pair vectors are corrected.
 enum class CorrectionReach { inside, surface };
 
@@ -53,11 +56,12 @@ constexpr int closing_sweeps(CorrectionReach reach) { return reach == Correction
 /// Input of the corrections. All arrays have an entry per particle, ghosts included and up to date.
 template <int Dim>
 struct CorrectionInput {
-  double radius;                              ///< m; of the support at the case's spacing
-  std::span<const double> volume;             ///< m^Dim
-  std::span<const ParticleKind> kind;         ///< only fluid has an l
-  std::span<const double> interior;           ///< 0 at the surface and at walls, 1 inside
-  std::span<const Packed<Dim>> first_moment;  ///< M; I at walls
+  double radius;                               ///< m; of the support at the case's spacing
+  std::span<const double> volume;              ///< m^Dim
+  std::span<const ParticleKind> kind;          ///< only fluid has an l
+  std::span<const double> interior;            ///< 0 at the surface and at walls, 1 inside
+  std::span<const Packed<Dim>> first_moment;   ///< M; I at walls
+  const SupportTerms<Dim>* support = nullptr;  ///< null: all particles have one spacing
 };
 
 /// Data of a particle for its pair vectors, stored together so that a loop reads a neighbour in one place.

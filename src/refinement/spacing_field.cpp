@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "base/box.h"
 #include "geometry/from_spec.h"
@@ -16,9 +17,10 @@ double smooth_step(double q) {
   return s * s * (3.0 - 2.0 * s);
 }
 
-}  // namespace
+/// Derivative of the logarithm of the smooth step.
+double log_slope_of_step(double q) { return q > 0.0 && q < 1.0 ? 6.0 * (1.0 - q) / (q * (3.0 - 2.0 * q)) : 0.0; }
 
-double spacing_behind_face(int level, double depth) { return std::exp2(-level * smooth_step(depth)); }
+}  // namespace
 
 template <int Dim>
 SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& boundary) {
@@ -74,6 +76,51 @@ double SpacingField<Dim>::at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
+Vec<Dim> SpacingField<Dim>::slope(const Vec<Dim>& x) const {
+  const Vec<Dim> inside = wrapped(x);
+  double least = 1.0;
+  Vec<Dim> slope = Vec<Dim>::Zero();
+  for (const Zone& zone : zones_) {
+    if (!zone.box.contains(inside)) continue;
+    double steps = 1.0;
+    Vec<Dim> log_slope = Vec<Dim>::Zero();  // of `steps`
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double low = (inside[axis] - zone.box.min()[axis]) / zone.border;
+      const double high = (zone.box.max()[axis] - inside[axis]) / zone.border;
+      steps *= smooth_step(low) * smooth_step(high);
+      log_slope[axis] = (log_slope_of_step(low) - log_slope_of_step(high)) / zone.border;
+    }
+    const double h = std::exp2(-zone.level * steps);
+    if (h >= least) continue;
+    least = h;
+    slope = -zone.level * std::numbers::ln2 * h * steps * log_slope;
+  }
+  return slope;
+}
+
+template <int Dim>
+typename SpacingField<Dim>::NearestBorder SpacingField<Dim>::nearest_border(const Vec<Dim>& x) const {
+  const Vec<Dim> inside = wrapped(x);
+  const Vec<Dim> period = periodic_.sizes();
+  NearestBorder nearest{-1, std::numeric_limits<double>::infinity()};
+  for (std::size_t n = 0; n < zones_.size(); ++n) {
+    const Zone& zone = zones_[n];
+    double depth = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < Dim; ++axis) {
+      double along = -std::numeric_limits<double>::infinity();
+      for (const double image : {0.0, period[axis], -period[axis]}) {
+        const double at = inside[axis] + image;
+        along = std::max(along, std::min(at - zone.box.min()[axis], zone.box.max()[axis] - at));
+      }
+      depth = std::min(depth, along);
+    }
+    const double distance = std::max({-depth, depth - zone.border, 0.0});
+    if (distance < nearest.distance) nearest = {static_cast<int>(n), distance};
+  }
+  return nearest;
+}
+
+template <int Dim>
 double SpacingField<Dim>::finest() const {
   int level = 0;
   for (const Zone& zone : zones_) level = std::max(level, zone.level);
@@ -81,40 +128,35 @@ double SpacingField<Dim>::finest() const {
 }
 
 template <int Dim>
-SpacingNearby<Dim> SpacingField<Dim>::nearby(const Vec<Dim>& x, double reach) const {
-  using Kind = typename SpacingNearby<Dim>::Kind;
-  const Vec<Dim> inside = wrapped(x);
-  SpacingNearby<Dim> nearby;
+bool SpacingField<Dim>::varies_around(Vec<Dim>& x, double reach) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  x = wrapped(x);
   const Vec<Dim> period = periodic_.sizes();
-  bool is_inside_another = false;  // where a zone has its finest spacing
-  for (const Zone& zone : zones_) {
-    SpacingNearby<Dim> own;
-    bool is_outside = false;
-    bool is_near_image = false;
-    for (int axis = 0; axis < Dim; ++axis) {
+  bool varies = false;
+  for (int axis = 0; axis < Dim; ++axis) {
+    bool varies_along = false;
+    double below = -infinity;  // the nearest end of a range where h varies within the reach
+    double above = infinity;
+    const auto see = [&](double begin, double end) {
+      for (const double image : {0.0, period[axis], -period[axis]}) {
+        varies_along = varies_along || (x[axis] > begin + image && x[axis] < end + image);
+        for (const double at : {begin + image, end + image}) {
+          if (at <= x[axis]) below = std::max(below, at);
+          if (at >= x[axis]) above = std::min(above, at);
+        }
+      }
+    };
+    for (const Zone& zone : zones_) {
       const double low = zone.box.min()[axis];
       const double high = zone.box.max()[axis];
-      // Beside the end of a period a zone at the other end is near.
-      const double from_end = std::min(inside[axis] - periodic_.min()[axis], periodic_.max()[axis] - inside[axis]);
-      is_near_image = is_near_image || (period[axis] > 0.0 && std::isfinite(low) && from_end < reach);
-      for (const double sign : {1.0, -1.0}) {
-        const double depth = sign > 0.0 ? inside[axis] - low : high - inside[axis];
-        is_outside = is_outside || depth <= -reach;
-        if (depth >= zone.border + reach) continue;
-        own.kind = own.kind == Kind::uniform ? Kind::one_face : Kind::any;
-        own.level = zone.level;
-        own.depth = depth;
-        own.inwards = sign * Vec<Dim>::Unit(axis);
-      }
+      if (std::isfinite(low)) see(low - reach, low + zone.border + reach);
+      if (std::isfinite(high)) see(high - zone.border - reach, high + reach);
     }
-    if (is_outside && !is_near_image) continue;
-    if (is_near_image) own.kind = Kind::any;
-    if (own.kind == Kind::uniform) is_inside_another = true;
-    if (own.kind != Kind::uniform && nearby.kind != Kind::uniform) own.kind = Kind::any;
-    if (own.kind != Kind::uniform) nearby = own;
+    varies = varies || varies_along;
+    if (varies_along) continue;
+    x[axis] = std::isfinite(below) ? below : std::isfinite(above) ? above : 0.0;
   }
-  if (is_inside_another && nearby.kind == Kind::one_face) nearby.kind = Kind::any;
-  return nearby;
+  return varies;
 }
 
 template <int Dim>
@@ -136,8 +178,6 @@ double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, 
 }
 
 TAILWATER_IN_2D_AND_3D(particles_of_full_zone);
-template struct SpacingNearby<2>;
-template struct SpacingNearby<3>;
 template class SpacingField<2>;
 template class SpacingField<3>;
 

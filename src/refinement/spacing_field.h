@@ -20,18 +20,6 @@ namespace tailwater {
 /// Width of a border over dx of the case, per level.
 inline constexpr double border_per_level = 4.0;
 
-/// h behind one plane face: 1 in front of it, 2^-level behind the border. `depth` is over the width of the border.
-double spacing_behind_face(int level, double depth);
-
-/// How h varies within a reach of a place.
-template <int Dim>
-struct SpacingNearby {
-  enum class Kind { uniform, one_face, any } kind = Kind::uniform;
-  int level = 0;                        ///< of the zone; where it varies behind one face
-  double depth = 0.0;                   ///< m; behind that face
-  Vec<Dim> inwards = Vec<Dim>::Zero();  ///< across that face
-};
-
 template <int Dim>
 class SpacingField {
  public:
@@ -51,9 +39,19 @@ class SpacingField {
   bool is_uniform() const { return zones_.empty(); }
   /// h; 1 is the spacing of the case.
   double at(const Vec<Dim>& x) const;
+  /// 1/m; grad h.
+  Vec<Dim> slope(const Vec<Dim>& x) const;
   /// The least h there is.
   double finest() const;
-  SpacingNearby<Dim> nearby(const Vec<Dim>& x, double reach) const;
+  /// Whether h varies within `reach` [m] of `x`. Moves `x` along directions in which it does not, so that places with
+  /// the same h around them become one.
+  bool varies_around(Vec<Dim>& x, double reach) const;
+  /// The border of a zone that is nearest to a place.
+  struct NearestBorder {
+    int zone;         ///< -1: there is none
+    double distance;  ///< m; 0 inside the border, where h varies
+  };
+  NearestBorder nearest_border(const Vec<Dim>& x) const;
 
  private:
   Vec<Dim> wrapped(Vec<Dim> x) const;

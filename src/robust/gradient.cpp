@@ -2,8 +2,10 @@
 #include "operators/divergence.h"
 #include "operators/gradient_conservative.h"
 #include "operators/gradient_of_liquids.h"
+#include "operators/support_operators.h"
 #include "robust/discretisation.h"
 #include "robust/loops.h"
+#include "robust/support_gradient.h"
 
 namespace tailwater {
 
@@ -20,10 +22,14 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
     });
     return;
   }
+  const bool is_graded = !flow.surroundings.support_terms.is_empty();
+  const std::vector<double> scaled = is_graded ? over_references(flow, pressure) : std::vector<double>();
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    gradient[i] = conservative_gradient<Dim>(flow.pairs(), i, volume, flow.surroundings.pair_vectors, pressure);
+    gradient[i] = conservative_gradient<Dim>(flow.pairs(), i, volume, flow.surroundings.pair_vectors,
+                                             is_graded ? scaled : pressure);
   });
+  if (is_graded) add_support_gradient<Dim>(flow, scaled, gradient);
 }
 
 template <int Dim>
@@ -64,29 +70,38 @@ void find_standard_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> v
     if (flow.role[i] != Role::water) return;
     divergence[i] = standard_divergence<Dim>(flow.pairs(), i, flow.surroundings.pair_vectors, in_single);
   });
+  if (!flow.surroundings.support_terms.is_empty()) {
+    add_support_divergence<Dim>(flow, velocity, in_single, divergence);
+  }
 }
 
 namespace {
 
-/// Pressure reaction of all pairs on each of these owned particles, over its volume [Pa/m]. weight(batch, pair) gives
+/// Pressure reaction of all pairs on each of these owned particles, over its volume [Pa/m]. weight(batch, place) gives
 /// the volume with which each neighbour counts [m^Dim].
 template <int Dim, class Weight>
 void find_pushes_of_pairs(const Flow<Dim>& flow, std::span<const std::size_t> particles,
                           const std::vector<double>& pressure, std::span<Vec<Dim>> pushes, Weight&& weight) {
   const std::vector<double>& volume = flow.state.particles.volume;
   const Interfaces& interfaces = flow.surroundings.interfaces;
+  const SupportTerms<Dim>& terms = flow.surroundings.support_terms;
+  const std::vector<double> scaled = terms.is_empty() ? std::vector<double>() : over_references(flow, pressure);
+  const std::vector<double>& field = terms.is_empty() ? pressure : scaled;
   for_each(particles.size(), [&](std::size_t n) {
     const std::size_t i = particles[n];
     VecSum<Dim> sum;
     const Lanes own_volume = in_all_lanes(volume[i]);
-    const Lanes own = in_all_lanes(pressure[i]);
+    const Lanes own = in_all_lanes(field[i]);
     for_each_pair(flow.pairs(), i, [&](const auto& batch) {
       const PairVectorLanes<Dim> pair = flow.surroundings.pair_vectors(batch);
-      const Lanes other = batch.of(pressure);
+      const Lanes other = batch.of(field);
       const Lanes twice = interfaces.are_any() ? interfaces.twice_pressure_of(batch, own, other) : own + other;
-      sum += own_volume * weight(batch, pair) * twice * pair.a;
+      sum += own_volume * weight(batch, pair.place) * twice * pair.a;
     });
     pushes[n] = sum.total() / volume[i];
+    if (terms.is_near_border(i)) {
+      pushes[n] += support_gradient<Dim>(flow.pairs(), i, volume[i], terms, field, weight);
+    }
   });
 }
 
@@ -96,7 +111,7 @@ template <int Dim>
 void find_conservative_pushes(const Flow<Dim>& flow, std::span<const std::size_t> walls,
                               const std::vector<double>& pressure, std::span<Vec<Dim>> pushes) {
   find_pushes_of_pairs(flow, walls, pressure, pushes,
-                       [](const auto& /*batch*/, const auto& pair) { return pair.place.volume_of_fluid(); });
+                       [](const auto& /*batch*/, const auto& place) { return place.volume_of_fluid(); });
 }
 
 template <int Dim>
@@ -104,7 +119,7 @@ void find_conservative_pushes_on_walls(const Flow<Dim>& flow, std::span<const st
                                        std::span<const double> share, const std::vector<double>& pressure,
                                        std::span<Vec<Dim>> pushes) {
   find_pushes_of_pairs(flow, water, pressure, pushes,
-                       [&](const auto& batch, const auto& pair) { return batch.of(share) * pair.place.volume(); });
+                       [&](const auto& batch, const auto& place) { return batch.of(share) * place.volume(); });
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                                  \

@@ -2,7 +2,9 @@
 #include "closures/fluid_pairs.h"
 #include "closures/free_surface.h"
 #include "operators/pair_vectors.h"
+#include "operators/support_operators.h"
 #include "robust/discretisation.h"
+#include "robust/support_gradient.h"
 #include "walls/water_in_front.h"
 
 namespace tailwater {
@@ -21,6 +23,27 @@ void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, SurfaceMarks /*mar
   flow.halo().exchange(surroundings.interior);
 }
 
+namespace {
+
+/// delta of the water beside borders, and what the terms of supports make of half of a uniform pressure. Collective.
+template <int Dim>
+void find_support_faces(const Flow<Dim>& flow, SupportTerms<Dim>& terms) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  const auto is_in_border = [&](std::size_t i) { return flow.role[i] == Role::water && terms.is_near_border(i); };
+  terms.delta.assign(particles.owned, Vec<Dim>::Zero());
+  terms.faces.assign(particles.owned, Vec<Dim>::Zero());
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!is_in_border(i)) return;
+    terms.delta[i] =
+        find_delta<Dim>(pairs, i, flow.surroundings.concentration[i], flow.setup.scale.kernel_values.W_0, terms);
+  });
+  add_support_gradient<Dim>(flow, over_references(flow, std::vector<double>(particles.size(), 1.0)), terms.faces);
+  for_each(particles.owned, [&](std::size_t i) { terms.faces[i] *= 0.5; });
+}
+
+}  // namespace
+
 template <int Dim>
 void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -34,14 +57,17 @@ void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
     });
     return;
   }
+  SupportTerms<Dim>& support = surroundings.support_terms;
+  if (!support.is_empty()) find_support_faces(flow, support);
   const std::size_t pairs = flow.pairs().j.size();  // and a quarter more, as neighbours have (find_pairs.cpp)
   const CorrectionReach reach =
       laws_.pair_vectors == PairVectors::corrected_to_surface ? CorrectionReach::surface : CorrectionReach::inside;
-  find_corrected_pair_vectors<Dim>(flow.pairs(), flow.halo(),
-                                   {kernel_radius(flow.setup.scale.kernel), particles.volume, particles.kind,
-                                    surroundings.interior, surroundings.first_moment},
-                                   reach, closing_sweeps(reach), flow.pair_workspace->take(pairs, pairs + pairs / 4),
-                                   surroundings.pair_vectors, surroundings.open_faces, surroundings.mean_interior);
+  find_corrected_pair_vectors<Dim>(
+      flow.pairs(), flow.halo(),
+      {kernel_radius(flow.setup.scale.kernel), particles.volume, particles.kind, surroundings.interior,
+       surroundings.first_moment, support.is_empty() ? nullptr : &support},
+      reach, closing_sweeps(reach), flow.pair_workspace->take(pairs, pairs + pairs / 4), surroundings.pair_vectors,
+      surroundings.open_faces, surroundings.mean_interior);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                 \

@@ -7,6 +7,7 @@
 #include "flow/stages.h"
 #include "parts/refinement.h"
 #include "schemes/cases.h"
+#include "support/particle_set.h"
 
 namespace tailwater {
 namespace refinement_test {
@@ -124,7 +125,7 @@ TEST(RefinementTest, AStreamThroughAZoneKeepsItsVelocity) {
   EXPECT_NEAR(now.energy, old.energy, 1e-2 * old.energy);
 }
 
-TEST(RefinementTest, WaterAtRestStaysAtRestBesideABorder) {
+TEST(RefinementTest, WaterComesToRestBesideABorder) {
   CaseSpec spec = tank_case<2>(dx, 1.0, 0.5);
   RefinementTable zone;
   zone.min = {-1.0, -1.0};
@@ -132,13 +133,63 @@ TEST(RefinementTest, WaterAtRestStaysAtRestBesideABorder) {
   spec.refinement = {zone};
   Flow<2> flow = make_flow<2>(spec);
   tailwater::start(flow);
-  const Totals old = totals_of(flow);
-  advance_steps(flow, 100);
-  EXPECT_NEAR(totals_of(flow).volume, old.volume, 1e-12 * old.volume);
+  const double volume = totals_of(flow).volume;
+  advance_steps(flow, 200);  // the lattice of the start settles, most of all where volumes change
+  const double energy = totals_of(flow).energy;
+  advance_steps(flow, 200);
+  EXPECT_NEAR(totals_of(flow).volume, volume, 1e-12 * volume);
+  // Without the terms of support_terms.h the water rolls: its energy rises between these steps by a half.
+  EXPECT_LT(totals_of(flow).energy, 0.5 * energy);
   const FlowMeasures measures = measure(flow);
-  // A border rolls the water at up to 3 % of sqrt(g H) (docs/theory/refinement.md), single particles somewhat faster.
-  EXPECT_LT(measures.largest_speed, 0.1 * std::sqrt(g * 0.5));
-  EXPECT_LT(measures.density_error_rms, 0.015);
+  EXPECT_LT(measures.largest_speed, 0.03 * std::sqrt(g * 0.5));
+  EXPECT_LT(measures.density_error_rms, 0.006);
+}
+
+TEST(RefinementTest, PressureAndVelocityAreAdjointAndMomentumIsExact) {
+  CaseSpec spec = tank_case<2>(dx, 1.0, 0.5);
+  RefinementTable zone;
+  zone.min = {0.4, -1.0};
+  zone.max = {2.0, 2.0};
+  spec.refinement = {zone};
+  Flow<2> flow = make_flow<2>(spec);
+  tailwater::start(flow);
+  advance_steps(flow, 20);
+  const Particles<2>& particles = flow.state.particles;
+  Noise noise(5);
+  std::vector<Vec<2>> velocity(particles.size(), Vec<2>::Zero());
+  std::vector<double> pressure(particles.size(), 0.0);
+  std::vector<std::size_t> walls;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) walls.push_back(i);
+    if (!particles.is_fluid(i)) continue;
+    velocity[i] = noise.vector<2>();
+    pressure[i] = noise();
+  }
+  std::vector<double> divergence(particles.owned, 0.0);
+  std::vector<Vec<2>> gradient(particles.owned, Vec<2>::Zero());
+  std::vector<Vec<2>> pushes(walls.size());
+  flow.discretisation().find_divergence(flow, velocity, divergence);
+  flow.discretisation().find_gradient(flow, pressure, gradient);
+  flow.discretisation().wall_reactions(flow, walls, pressure, pushes);
+  double on_volume = 0.0;  // work of the pressure
+  double on_water = 0.0;
+  double size = 0.0;
+  Vec<2> force = Vec<2>::Zero();
+  double forces = 0.0;
+  std::size_t beside_border = 0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    on_volume += particles.volume[i] * pressure[i] * divergence[i];
+    on_water -= particles.volume[i] * velocity[i].dot(gradient[i]);
+    size += particles.volume[i] * std::abs(pressure[i] * divergence[i]);
+    force += particles.volume[i] * gradient[i];
+    forces += particles.volume[i] * gradient[i].norm();
+    beside_border += flow.surroundings.support_terms.is_near_border(i) ? 1 : 0;
+  }
+  for (std::size_t n = 0; n < walls.size(); ++n) force += particles.volume[walls[n]] * pushes[n];
+  EXPECT_NEAR(on_volume, on_water, 1e-5 * size);  // the rounding of sums in single precision
+  EXPECT_NEAR(force.norm(), 0.0, 1e-6 * forces);
+  EXPECT_GT(beside_border, 50u);
 }
 
 TEST(RefinementTest, WallsInAZoneHaveItsSpacing) {
