@@ -46,9 +46,9 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 /// difference nearest to u_j - u_i between those that either gradient alone explains (docs/theory/friction.md).
 ///
 /// The force vanishes for linear fields and is of fourth order in the wave number of a smooth field. Pairs are
-/// antisymmetric, so momentum is conserved, and energy never grows. `density` of all particles, over that of the case, is
-/// empty for one liquid. Otherwise noise is damped only between particles of the same density, because an interface is a
-/// vortex sheet and not noise. 0 is for a liquid without this force.
+/// antisymmetric, so momentum is conserved, and energy never grows. `density` of all particles, over that of the case,
+/// is empty for one liquid. Otherwise noise is damped only between particles of the same density, because an interface
+/// is a vortex sheet and not noise. 0 is for a liquid without this force.
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                              const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,

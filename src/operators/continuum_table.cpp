@@ -31,7 +31,7 @@ struct NodeCell {
 
 template <int Dim>
 Vec<Dim> place_of(const std::array<std::int32_t, Dim>& node, double step) {
-  return Vec<Dim>::NullaryExpr([&](Eigen::Index d) { return step * node[d]; });
+  return Vec<Dim>::NullaryExpr([&](int d) { return step * node[d]; });
 }
 
 constexpr int corners(int dim) { return 1 << dim; }

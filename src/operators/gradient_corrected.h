@@ -51,9 +51,9 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
   return corrected<Dim>(sum_of(sums), first_moment, share_of_correction<Dim>(first_moment));
 }
 
-/// Gradient as above over neighbours with these volumes, with M of the same sum, and so exact for linear fields. M has the
-/// eigenvalue 0.45 across a wall or a surface; the correction is full from 0.25 on, and there is none below 0.1 (a single
-/// row).
+/// Gradient as above over neighbours with these volumes, with M of the same sum, and so exact for linear fields. M has
+/// the eigenvalue 0.45 across a wall or a surface; the correction is full from 0.25 on, and there is none below 0.1 (a
+/// single row).
 template <int Dim, class Volume>
 Mat<Dim> gradient_over(const Pairs<Dim>& pairs, std::size_t i, std::span<const Float4> field, Volume&& volume) {
   MatLanes<Dim> sums{};
@@ -71,15 +71,15 @@ Mat<Dim> gradient_over(const Pairs<Dim>& pairs, std::size_t i, std::span<const F
   return corrected<Dim>(sum_of(sums), moment, std::clamp((least_eigenvalue<Dim>(moment) - 0.1) / 0.15, 0.0, 1.0));
 }
 
-/// The same over fluid neighbours alone: for water that sticks to a wall, whose dummies glide along.
+/// Gradient as above over fluid neighbours alone, for water at a no-slip wall, whose dummies show a slip velocity.
 template <int Dim>
 Mat<Dim> gradient_in_water(const Pairs<Dim>& pairs, std::size_t i, std::span<const Float4> field) {
   return gradient_over<Dim>(
       pairs, i, field, [](const auto& /*batch*/, const PlaceLanes<Dim>& place) { return place.volume_of_fluid(); });
 }
 
-/// The same over neighbours with the same number as particle i in `liquid`, walls among them: for fluid beside another,
-/// which may glide along it.
+/// Gradient as above over neighbours with the same number as particle i in `liquid`, walls included. For a liquid
+/// beside another one, at which its velocity may jump.
 template <int Dim>
 Mat<Dim> gradient_in_liquid(const Pairs<Dim>& pairs, std::size_t i, std::span<const float> liquid,
                             std::span<const Float4> field) {

@@ -53,9 +53,8 @@ void find_moment_corrections(const Pairs<Dim>& pairs, const CorrectionInput<Dim>
   std::vector<InteriorMoment<Dim>> moments(input.interior.size());
   for_each(moments.size(), [&](std::size_t i) {
     moments[i].interior = static_cast<float>(input.interior[i]);
-    for (int n = 0; n < symmetric_size<Dim>; ++n) {
-      moments[i].first_moment[n] = static_cast<float>(relative_moment(input, i)[n]);
-    }
+    const Packed<Dim> moment = relative_moment(input, i);
+    for (int n = 0; n < symmetric_size<Dim>; ++n) moments[i].first_moment[n] = static_cast<float>(moment[n]);
   });
   using Moment = InteriorMoment<Dim>;
   static_assert(offsetof(Moment, interior) == 0);

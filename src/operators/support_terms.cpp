@@ -9,7 +9,7 @@ namespace {
 
 template <int Dim>
 Vec<Dim> slope_of(const SupportEnd& end) {
-  return Vec<Dim>::NullaryExpr([&end](Eigen::Index n) { return static_cast<double>(end.slope[n]); });
+  return Vec<Dim>::NullaryExpr([&end](int n) { return static_cast<double>(end.slope[n]); });
 }
 
 /// Applied fraction of the correction B of pair vectors by <M>: 0 in a border, where with B they would be no derivative

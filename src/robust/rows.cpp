@@ -42,7 +42,8 @@ double set_weights(const Flow<Dim>& flow, std::span<const float> volume_taking_p
   });
 }
 
-/// Sets the weights c_ij/rho_ij of liquids of several densities. Returns the sum of c_ij, which gives the weight of air.
+/// Sets the weights c_ij/rho_ij of liquids of several densities. Returns the sum of c_ij, which gives the weight of
+/// air.
 template <int Dim>
 double set_weights_of_liquids(const Flow<Dim>& flow, std::span<const float> volume_taking_part, std::size_t i,
                               LinearSystem::Row& row) {

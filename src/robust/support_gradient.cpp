@@ -22,14 +22,14 @@ std::vector<Vec<Dim>> means_over_borders(const Flow<Dim>& flow, Value&& value) {
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: adds
     if (!is_in_border(flow, i)) continue;
     double* const sum = &sums[terms.border[i] * stride];
-    Eigen::Map<Vec<Dim>>(sum) += particles.volume[i] * value(i);
+    Vec<Dim>(particles.volume[i] * value(i)).add_to(sum);
     sum[Dim] += particles.volume[i];
   }
   flow.setup.ranks.sum_of_each(sums);
   std::vector<Vec<Dim>> means(borders, Vec<Dim>::Zero());
   for (std::size_t n = 0; n < borders; ++n) {
     const double* const sum = &sums[n * stride];
-    if (sum[Dim] > 0.0) means[n] = Eigen::Map<const Vec<Dim>>(sum) / sum[Dim];
+    if (sum[Dim] > 0.0) means[n] = Vec<Dim>::Map(sum) / sum[Dim];
   }
   return means;
 }

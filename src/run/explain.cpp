@@ -100,8 +100,9 @@ std::string about_liquids(const CaseSpec& spec, const LiquidTable& liquid, bool 
   std::string text = fmt::format("Gravity is {:.4g} m/s^2.", gravity_magnitude(spec.physics));
   if (has_several_liquids(spec)) {
     for (const LiquidTable& each : spec.liquids) text += about_liquid(each);
-    return text + " The liquids do not mix. Their viscous forces are solved for implicitly and do not shorten the time "
-                  "step.";
+    return text +
+           " The liquids do not mix. Their viscous forces are solved for implicitly and do not shorten the time "
+           "step.";
   }
   text += about_liquid(liquid);
   return text + (is_implicit ? " Its viscous forces are solved for implicitly and do not shorten the time step."
