@@ -16,7 +16,6 @@ bool is_published(const SchemeTable& scheme) { return scheme.formulation == Form
 std::string_view excludes_zones(const SchemeTable& scheme) {
   if (is_published(scheme)) return "published formulations";
   if (scheme.name == SchemeName::farmani2020) return "the two-step scheme";
-  if (scheme.integrator == Integrator::implicit_projection) return "the implicit integrator";
   return scheme.pair_vectors == PairVectors::corrected ? "" : "other pair vectors than the default";
 }
 

@@ -84,6 +84,16 @@ bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
   return zone.box.intersects(box);
 }
 
+/// Whether a box, with what surrounds it, lies where the zone has its finest spacing: rows of walls that move there
+/// keep the spacing of their place.
+template <int Dim>
+bool is_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
+               const Eigen::AlignedBox<double, Dim>& box) {
+  const double margin = zone.border + clearance * spec.particles.spacing * std::exp2(-zone.level);
+  return (zone.box.min().array() + margin <= box.min().array()).all() &&
+         (box.max().array() <= zone.box.max().array() - margin).all();
+}
+
 /// Walls that move, meshes and open ends beside a zone.
 template <int Dim>
 Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
@@ -92,9 +102,12 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
   const std::string within = fmt::format(" within {:g} spacings", clearance);
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const int wall = static_cast<int>(w);
-    if (!boundary.walls[wall].moves() || !is_near<Dim>(spec, zone, swept_box(spec, boundary, wall))) continue;
-    findings.push_back(
-        refused(owner, "walls that move" + within, {"end the zone farther from {}", wall_label(boundary, wall)}));
+    if (!boundary.walls[wall].moves()) continue;
+    const Eigen::AlignedBox<double, Dim> swept = swept_box(spec, boundary, wall);
+    if (!is_near<Dim>(spec, zone, swept) || is_inside<Dim>(spec, zone, swept)) continue;
+    findings.push_back(refused(owner, "walls that move" + within + " of its border",
+                               {"end the zone farther from {}, or let it reach farther beyond that wall's whole path",
+                                wall_label(boundary, wall)}));
   }
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : boundary.meshes) {

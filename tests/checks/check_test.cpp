@@ -737,14 +737,17 @@ TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
   spec.refinement[0].max[1] = 60.0;
   expect_only(check(spec), Severity::error, {"refinement 'floor'", "would refine nothing"});
   spec.refinement = {zone};
-  spec.scheme.integrator = Integrator::implicit_projection;
-  expect_only(check(spec), Severity::error, {"do not work with the implicit integrator"});
-  spec.scheme.integrator = Integrator::explicit_projection;
+  spec.scheme.name = SchemeName::farmani2020;
+  expect_only(check(spec), Severity::error, {"do not work with the two-step scheme"});
+  spec.scheme.name = SchemeName::farzin2014;
   WallTable gate;
   gate.points = {{0.5, 0.0}, {0.5, 1.0}};
   gate.displacement = {0.0, "0.3*t"};
   spec.walls.push_back(gate);
-  EXPECT_NE(listed(check(spec)).find("do not work with walls that move"), std::string::npos) << listed(check(spec));
+  const std::string refused = "do not work with walls that move";
+  EXPECT_NE(listed(check(spec)).find(refused), std::string::npos) << listed(check(spec));
+  spec.refinement[0].max[1] = 9.0;  // the whole tank
+  EXPECT_EQ(listed(check(spec)).find(refused), std::string::npos) << listed(check(spec));
 }
 
 // A yield stress of 20 Pa, a depth of 1 m or less and 100 Pa s make a creep of at most 0.1 m/s.
