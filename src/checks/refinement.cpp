@@ -87,11 +87,10 @@ bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
 /// Whether a box, with what surrounds it, lies where the zone has its finest spacing: rows of walls that move there
 /// keep the spacing of their place.
 template <int Dim>
-bool is_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
-               const Eigen::AlignedBox<double, Dim>& box) {
+bool is_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box) {
   const double margin = zone.border + clearance * spec.particles.spacing * std::exp2(-zone.level);
-  return (zone.box.min().array() + margin <= box.min().array()).all() &&
-         (box.max().array() <= zone.box.max().array() - margin).all();
+  Box<Dim> finest = zone.box;
+  return finest.widen(-margin).contains(box);
 }
 
 /// Walls that move, meshes and open ends beside a zone.
@@ -103,7 +102,7 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const int wall = static_cast<int>(w);
     if (!boundary.walls[wall].moves()) continue;
-    const Eigen::AlignedBox<double, Dim> swept = swept_box(spec, boundary, wall);
+    const Box<Dim> swept = swept_box(spec, boundary, wall);
     if (!is_near<Dim>(spec, zone, swept) || is_inside<Dim>(spec, zone, swept)) continue;
     findings.push_back(refused(owner, "walls that move" + within + " of its border",
                                {"end the zone farther from {}, or let it reach farther beyond that wall's whole path",
