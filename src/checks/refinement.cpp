@@ -11,8 +11,8 @@
 namespace tailwater {
 namespace {
 
-/// dx; from a zone to walls that move, to meshes and to open ends, with the water that enters or leaves behind them.
-/// Those have the spacing of the case, and so has all water in their supports.
+/// dx; from a zone to meshes and to open ends, with the water that enters or leaves behind them, and to walls that move
+/// outside of the zone. Those have the spacing of the case, and so has all water in their supports.
 constexpr double clearance = 8.0;
 
 Finding refused(const CaseLabel& owner, const std::string& what, Clause remedy) {

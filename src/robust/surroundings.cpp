@@ -25,7 +25,8 @@ void RobustDiscretisation<Dim>::find_surface(Flow<Dim>& flow, SurfaceMarks /*mar
 
 namespace {
 
-/// delta of the water beside borders, and the terms of supports for half of a uniform pressure. Collective.
+/// delta of the water beside borders, and half of the gradient of a uniform pressure by the terms of supports.
+/// Collective.
 template <int Dim>
 void find_support_faces(const Flow<Dim>& flow, SupportTerms<Dim>& terms) {
   const Particles<Dim>& particles = flow.state.particles;
