@@ -254,6 +254,16 @@ const std::vector<BadInput> table{
      required_keys + mud + water + "[[liquid]]\nname = \"mud\"\nviscosity = 1\n",
      "7:1",
      {"fluid[1].liquid is missing", "which may be water"}},
+    {"liquids_of_too_different_densities",
+     required_keys + mud + water + "liquid = \"air\"\n[[liquid]]\nname = \"mud\"\nviscosity = 1\n" +
+         "[[liquid]]\nname = \"air\"\nviscosity = 1e-5\ndensity = 1.2\n",
+     "14:1",
+     {"liquid[1]: its density 1.2 kg/m^3", "within this ratio"}},
+    {"probe_of_an_unknown_liquid",
+     required_keys + mud + "[[liquid]]\nname = \"mud\"\nviscosity = 1\n" +
+         "[[probe]]\nname = \"front\"\ntype = \"front\"\nliquid = \"oil\"\n",
+     "13:10",
+     {"probe[0].liquid = \"oil\"", "there is no liquid \"oil\""}},
     {"liquid_beside_another_density",
      required_keys + "[physics]\ndensity = 1100\n" + mud + "[[liquid]]\nname = \"mud\"\nviscosity = 1\n",
      "4:11",

@@ -41,7 +41,8 @@ UNSEEN = {
     "names": {
         "body_of_no_wall", "body_with_a_motion", "body_with_the_water_inside", "default_name_taken", "fluid_name_twice",
         "gate_with_the_name_of_a_wall", "liquid_in_a_porous_layer", "liquid_that_is_unknown",
-        "liquid_that_no_block_is_of", "two_liquids", "inlet_with_water_from_an_unknown_outlet", "mooring_of_no_body",
+        "liquid_that_no_block_is_of", "two_liquids", "liquids_of_too_different_densities",
+        "probe_of_an_unknown_liquid", "inlet_with_water_from_an_unknown_outlet", "mooring_of_no_body",
         "probe_name_twice", "wall_of_two_bodies", "duplicate names of walls and fluids", "duplicate names of probes"},
     "files": {"hydrograph that is not there", "measurement_in_no_file", "measurement_in_a_device", "measurement_in_a_file_that_is_not_there"},
     "no number is equal to it": {"not_a_number", "not a number"},
