@@ -22,7 +22,7 @@ class SmallMatrix {
 
   SmallMatrix() = default;
   SmallMatrix(const SmallMatrix&) = default;
-  /// Only to what lasts: a column of a matrix is a copy, and is written with put_column.
+  /// Not for temporaries: a column of a matrix is returned as a copy; put_column writes it.
   constexpr SmallMatrix& operator=(const SmallMatrix&) & = default;
   /// A vector of these entries.
   template <typename... Numbers>

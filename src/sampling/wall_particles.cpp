@@ -151,9 +151,7 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
   divided.numbers = particles.numbers * parts_of_row;
   divided.numbers_on_wall = particles.numbers_on_wall * parts_of_row;
   for (std::size_t row = 0; row < particles.size(); ++row) {
-    const int level = boundary.walls[particles.wall[row]].moves()
-                          ? 0
-                          : level_at_wall(field, boundary, spacing, particles.position[row]);
+    const int level = level_at_wall(field, boundary, spacing, particles.position[row]);
     const int per_edge = 1 << level;
     const Mat<Dim> axes = axes_at_wall(boundary, spacing, particles.position[row]);
     const double edge = spacing / per_edge;

@@ -58,7 +58,7 @@ template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
                                         const SpaceShare& share = {}, const Lattice<Dim>& lattice = {});
 
-/// Divides the particles behind walls at rest in zones of refinement, each into 2^Dim along and across its wall, until
+/// Divides the particles behind walls in zones of refinement, each into 2^Dim along and across its wall, until
 /// their volumes are nearest to that of the local spacing at the wall. On flat walls the rows are the same as those of
 /// that spacing.
 template <int Dim>

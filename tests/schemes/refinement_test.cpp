@@ -247,6 +247,9 @@ TEST(RefinementTest, WallsInAZoneHaveItsSpacing) {
   zone.max = {2.0, 2.0};  // the whole tank
   spec.refinement = {zone};
   const Flow<2> zoned = make_flow<2>(spec);
+  CaseSpec may_move = spec;
+  for (WallTable& wall : may_move.walls) wall.displacement = {"0*t", "0"};
+  const Flow<2> moving = make_flow<2>(may_move);
   spec.refinement.clear();
   spec.particles.spacing = 0.5 * dx;
   const Flow<2> fine = make_flow<2>(spec);
@@ -255,6 +258,7 @@ TEST(RefinementTest, WallsInAZoneHaveItsSpacing) {
                                  [](const Vec<2>& x) { return x[1] > -dx && x[1] < 0.0 && x[0] > 0.0 && x[0] < 1.0; });
   };
   EXPECT_EQ(cells_behind_floor(zoned), cells_behind_floor(fine));
+  EXPECT_EQ(cells_behind_floor(moving), cells_behind_floor(fine));
   EXPECT_EQ(cells_behind_floor(fine), 4 * cells_behind_floor(coarse));
   const auto water = [](const Flow<2>& flow) {
     return count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
