@@ -217,6 +217,17 @@ TEST(ThickFlow, BalancesItsEnergy) {
   EXPECT_NEAR(-works.viscous / works.slope, 1.0, 0.02);
 }
 
+// The solve must not leave errors in motions that dissipate little: the energy norm of so thick a liquid hardly sees
+// them.
+TEST(ThickFlow, AVeryThickLiquidComesToRest) {
+  CaseSpec spec = tank_case<2>(0.05, 2.0, 0.5);
+  for (WallTable& wall : spec.walls) wall.slip = Slip::no_slip;
+  fill_with(spec, newtonian(1e6));
+  Flow<2> flow = make_flow<2>(spec);
+  run_to(flow, 0.3);
+  EXPECT_LT(largest_horizontal_speed(flow), 0.01);
+}
+
 // Water has no part of thick liquids, and a thin liquid is computed as water of its viscosity.
 TEST(ThickFlow, ThinLiquidIsComputedAsWater) {
   const auto velocity_of = [](const CaseSpec& spec) {
