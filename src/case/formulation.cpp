@@ -14,9 +14,9 @@ bool is_published(const SchemeTable& scheme) { return scheme.formulation == Form
 
 /// Zones of refinement have been derived and tested for the default choices only.
 std::string_view excludes_zones(const SchemeTable& scheme) {
-  if (is_published(scheme)) return "published formulations";
-  if (scheme.name == SchemeName::farmani2020) return "the two-step scheme";
-  return scheme.pair_vectors == PairVectors::corrected ? "" : "other pair vectors than the default";
+  if (is_published(scheme)) return "scheme.formulation = \"published\"";
+  if (scheme.name == SchemeName::farmani2020) return "scheme.name = \"farmani2020\"";
+  return scheme.pair_vectors == PairVectors::corrected ? "" : "scheme.pair_vectors other than \"corrected\"";
 }
 
 }  // namespace

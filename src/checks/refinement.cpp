@@ -26,7 +26,7 @@ Findings check_features(const CaseSpec& spec, const CaseLabel& owner) {
     if (is_given) findings.push_back(refused(owner, what, std::move(remedy)));
   };
   const std::string_view choice = traits_of(spec).no_zones;
-  refuse(!choice.empty(), std::string(choice), {"remove the zone, or what [scheme] has beside its defaults"});
+  refuse(!choice.empty(), std::string(choice), {"remove the zone, or this key"});
   refuse(spec.air.pockets != AirPockets::none, "enclosed air", {"give pockets = \"none\" in [air]"});
   refuse(!spec.porous.empty(), "porous layers", {"remove the zone or the layers"});
   refuse(!spec.bodies.empty(), "floating bodies", {"remove the zone or the bodies"});
@@ -84,13 +84,16 @@ bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
   return zone.box.intersects(box);
 }
 
-/// Whether a box, with what surrounds it, lies where the zone has its finest spacing: rows of walls that move there
-/// keep the spacing of their place.
+/// Distance [m] from the faces of a zone at which water has its finest spacing in all of a support.
+template <int Dim>
+double margin_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone) {
+  return zone.border + clearance * spec.particles.spacing * std::exp2(-zone.level);
+}
+/// Whether a box lies so far inside a zone that walls that move there keep the spacing of their rows.
 template <int Dim>
 bool is_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box) {
-  const double margin = zone.border + clearance * spec.particles.spacing * std::exp2(-zone.level);
   Box<Dim> finest = zone.box;
-  return finest.widen(-margin).contains(box);
+  return finest.widen(-margin_inside<Dim>(spec, zone)).contains(box);
 }
 
 /// Walls that move, meshes and open ends beside a zone.
@@ -104,9 +107,12 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
     if (!boundary.walls[wall].moves()) continue;
     const Box<Dim> swept = swept_box(spec, boundary, wall);
     if (!is_near<Dim>(spec, zone, swept) || is_inside<Dim>(spec, zone, swept)) continue;
-    findings.push_back(refused(owner, "walls that move" + within + " of its border",
-                               {"end the zone farther from {}, or let it reach farther beyond that wall's whole path",
-                                wall_label(boundary, wall)}));
+    findings.push_back(
+        refused(owner, "walls that move" + within + " of its border",
+                {"end the zone at least {:.4g} m before the path of {}, which is from {} to {}, or let it "
+                 "reach at least {:.4g} m beyond that path",
+                 clearance * spec.particles.spacing, wall_label(boundary, wall), place(swept.min()), place(swept.max()),
+                 margin_inside<Dim>(spec, zone)}));
   }
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : boundary.meshes) {

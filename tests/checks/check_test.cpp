@@ -738,7 +738,7 @@ TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
   expect_only(check(spec), Severity::error, {"refinement 'floor'", "would refine nothing"});
   spec.refinement = {zone};
   spec.scheme.name = SchemeName::farmani2020;
-  expect_only(check(spec), Severity::error, {"do not work with the two-step scheme"});
+  expect_only(check(spec), Severity::error, {"do not work with scheme.name = \"farmani2020\""});
   spec.scheme.name = SchemeName::farzin2014;
   WallTable gate;
   gate.points = {{0.5, 0.0}, {0.5, 1.0}};
