@@ -1,6 +1,7 @@
 """Flows whose solution is known: errors by spacing, observed orders."""
 
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
@@ -20,6 +21,15 @@ def error_checks(name, flow, runs, quantities):
 def draw_errors(flow, quantities, *runs):
     return panels.convergence({words: {run.spacing: exact(flow, key, run) for run in runs}
                                for key, words, _, _ in quantities}, "error, relative")
+
+
+def runs_by_rows(plan, case, length, seconds, rows):
+    """The runs of a case with `rows` particles over a length (a parameter or number of the case). `seconds` is the CPU time of
+    one run, the rows that it had, and the power with which the time grows with the rows."""
+    known_seconds, known_rows, power = seconds
+    name = Path(case).stem
+    return tuple(plan.run(f"{name}_n{n}", case, (f"particles.spacing={length}/{n}",),
+                          known_seconds * (n / known_rows) ** power) for n in rows)
 
 
 def flow_study(name, title, flow, about, uncertainty, runs, quantities, moments, more_plots=(), has_histories=True):

@@ -1,12 +1,11 @@
 """Two liquids in one run against theory."""
 
-from .exact import EXACTLY, flow_study
+from .exact import EXACTLY, flow_study, runs_by_rows
 
 
 def layered_tank(plan):
-    runs = tuple(plan.run(f"layered_tank_n{n}", "liquids/layered_tank.toml", (f"particles.spacing=H/{n}",),
-                          1.5 * (n / 25) ** 3.2)
-                 for n in plan.at((25,), (25, 50), (25, 50)))
+    runs = runs_by_rows(plan, "liquids/layered_tank.toml", "H", (1.5, 25, 3.2),
+                        plan.at((25,), (25, 50), (25, 50)))
     return flow_study(
         "layered-tank", "Layers at rest", "layered-tank",
         "Two liquids at rest in a tank, the heavy one, of twice the density, below, from particles displaced at random by up to 0.2 dx. "
@@ -17,9 +16,8 @@ def layered_tank(plan):
 
 
 def internal_wave(plan):
-    runs = tuple(plan.run(f"internal_wave_n{n}", "liquids/internal_wave.toml", (f"particles.spacing=h/{n}",),
-                          6 * (n / 12) ** 3.2)
-                 for n in plan.at((6, 12), (6, 12, 24), (6, 12, 24)))
+    runs = runs_by_rows(plan, "liquids/internal_wave.toml", "h", (6, 12, 3.2),
+                        plan.at((6, 12), (6, 12, 24), (6, 12, 24)))
     return flow_study(
         "internal-wave", "Standing wave on an interface", "internal-wave",
         "Two layers of equal depth h between lids, density ratio 2, half a wavelength of 2 m; 6, 12 and 24 particles over each layer. "
@@ -30,9 +28,8 @@ def internal_wave(plan):
 
 
 def rayleigh_taylor(plan):
-    runs = tuple(plan.run(f"rayleigh_taylor_n{n}", "liquids/rayleigh_taylor.toml", (f"particles.spacing=h/{n}",),
-                          2 * (n / 24) ** 3.2)
-                 for n in plan.at((12, 24), (12, 24, 48), (12, 24, 48)))
+    runs = runs_by_rows(plan, "liquids/rayleigh_taylor.toml", "h", (2, 24, 3.2),
+                        plan.at((12, 24), (12, 24, 48), (12, 24, 48)))
     return flow_study(
         "rayleigh-taylor", "Rayleigh-Taylor instability", "rayleigh-taylor",
         "A liquid of twice the density over another between lids, disturbed by half a wavelength. Growth of the mode of the vertical "
@@ -42,9 +39,8 @@ def rayleigh_taylor(plan):
 
 
 def lock_exchange(plan):
-    runs = tuple(plan.run(f"lock_exchange_n{n}", "liquids/lock_exchange.toml", (f"particles.spacing=H/{n}",),
-                          25 * (n / 20) ** 3.2)
-                 for n in plan.at((10, 20), (10, 20), (10, 20, 40)))
+    runs = runs_by_rows(plan, "liquids/lock_exchange.toml", "H", (25, 20, 3.2),
+                        plan.at((10, 20), (10, 20), (10, 20, 40)))
     return flow_study(
         "lock-exchange", "Lock exchange", "lock-exchange",
         "Brine under fresh water in a flume 5 H long with smooth walls and a lid, density ratio 0.98. Speed of the front of the brine "

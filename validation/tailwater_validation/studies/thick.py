@@ -1,12 +1,11 @@
 """Thick and yielding liquids against theory."""
 
-from .exact import EXACTLY, flow_study
+from .exact import EXACTLY, flow_study, runs_by_rows
 
 
 def thick_film(plan):
-    runs = tuple(plan.run(f"thick_film_n{n}", "verification/thick_film.toml", (f"particles.spacing=0.7/{n}",),
-                          3 * (n / 10) ** 3.5)
-                 for n in plan.at((5, 10), (5, 10, 20), (5, 10, 20)))
+    runs = runs_by_rows(plan, "verification/thick_film.toml", "0.7", (3, 10, 3.5),
+                        plan.at((5, 10), (5, 10, 20), (5, 10, 20)))
     return flow_study(
         "thick-film", "Film of a yielding liquid on a slope", "thick-film",
         "A Bingham liquid whose plug has 0.3 of its depth runs down a slope, from particles displaced at random by up to 0.1 dx, with "
@@ -16,9 +15,8 @@ def thick_film(plan):
 
 
 def viscous_dam_break(plan):
-    runs = tuple(plan.run(f"viscous_dam_break_n{n}", "verification/viscous_dam_break.toml", (f"particles.spacing=H/{n}",),
-                          30 * (n / 20) ** 3.3)
-                 for n in plan.at((10,), (10, 20), (10, 20, 40)))
+    runs = runs_by_rows(plan, "verification/viscous_dam_break.toml", "H", (30, 20, 3.3),
+                        plan.at((10,), (10, 20), (10, 20, 40)))
     return flow_study(
         "viscous-dam-break", "Viscous dam break", "viscous-dam-break",
         "A block of syrup 0.2 m long and 0.1 m high, 0.1 m^2/s, spreads for 10 s behind a wall. Its front against the similarity "
@@ -28,9 +26,8 @@ def viscous_dam_break(plan):
 
 
 def yielding_slump(plan):
-    runs = tuple(plan.run(f"yielding_slump_n{n}", "verification/yielding_slump.toml", (f"particles.spacing=H/{n}",),
-                          30 * (n / 20) ** 3.5)
-                 for n in plan.at((10,), (10, 20), (10, 20, 40)))
+    runs = runs_by_rows(plan, "verification/yielding_slump.toml", "H", (30, 20, 3.5),
+                        plan.at((10,), (10, 20), (10, 20, 40)))
     return flow_study(
         "yielding-slump", "Slump of a yielding liquid", "yielding-slump",
         "A block of a Bingham liquid 0.2 m long and 0.1 m high slumps behind a wall until all of it is slower than 3 mm/s. Its reach and "
