@@ -5,8 +5,8 @@
 // In one liquid it is that of gradient_conservative.h. Antisymmetric pair by pair: linear momentum is conserved.
 #pragma once
 
+#include "operators/gradient_conservative.h"
 #include "operators/interfaces.h"
-#include "operators/pair_vectors.h"
 
 namespace tailwater {
 
@@ -14,14 +14,10 @@ template <int Dim>
 Vec<Dim> gradient_over_density(const Pairs<Dim>& pairs, std::size_t i, std::span<const double> volume,
                                const Interfaces& interfaces, const PairVectorField<Dim>& pair_vectors,
                                std::span<const double> field) {
-  VecSum<Dim> sum;
-  const Lanes own_volume = in_all_lanes(volume[i]);
-  const Lanes own = in_all_lanes(field[i]);
-  for_each_pair(pairs, i, [&](const auto& batch) {
-    const PairVectorLanes<Dim> pair = pair_vectors(batch);
-    sum += own_volume * pair.place.volume() * interfaces.twice_pressure_of(batch, own, batch.of(field)) * pair.a;
-  });
-  return sum.total() / (volume[i] * interfaces.density[i]);
+  const auto twice_pressure = [&](const auto& batch, const Lanes& own, const Lanes& other) {
+    return interfaces.twice_pressure_of(batch, own, other);
+  };
+  return conservative_gradient<Dim>(pairs, i, volume, pair_vectors, field, twice_pressure) / interfaces.density[i];
 }
 
 }  // namespace tailwater

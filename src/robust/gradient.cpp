@@ -14,20 +14,14 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
                                               std::span<Vec<Dim>> gradient) const {
   const std::vector<double>& volume = flow.state.particles.volume;
   const Interfaces& interfaces = flow.surroundings.interfaces;
-  if (interfaces.are_any()) {
-    for_each(flow.state.particles.owned, [&](std::size_t i) {
-      if (flow.role[i] != Role::water) return;
-      gradient[i] =
-          gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, flow.surroundings.pair_vectors, pressure);
-    });
-    return;
-  }
   const bool is_graded = !flow.surroundings.support_terms.is_empty();
   const std::vector<double> scaled = is_graded ? over_references(flow, pressure) : std::vector<double>();
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    gradient[i] = conservative_gradient<Dim>(flow.pairs(), i, volume, flow.surroundings.pair_vectors,
-                                             is_graded ? scaled : pressure);
+    const PairVectorField<Dim>& vectors = flow.surroundings.pair_vectors;
+    gradient[i] = interfaces.are_any()
+                      ? gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, vectors, pressure)
+                      : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, is_graded ? scaled : pressure);
   });
   if (is_graded) add_support_gradient<Dim>(flow, scaled, gradient);
 }
