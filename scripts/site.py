@@ -3,9 +3,11 @@
 
 Usage: scripts/site.py [DIR]    DIR: where to put it (default: out/site)
 Needs `scripts/install.sh site`. Exit code 1 if mkdocs warns or a link is dead: every link of every page must lead to a
-page, to a place on it, or to a file that is there, and no page may load anything from the net.
+page, to a place on it, or to a file that is there, and no page may load anything from the net. The search must find every
+key, probe type and column of the reference.
 """
 import html.parser
+import json
 import pathlib
 import re
 import shutil
@@ -78,6 +80,7 @@ def configuration(source, target):
             return {key: fill(child) for key, child in node.items()}
         return lists.get(node, node)
 
+    config["theme"]["custom_dir"] = str(ROOT / "site" / config["theme"]["custom_dir"])
     return config | {"docs_dir": str(source), "site_dir": str(target), "nav": fill(config["nav"])}
 
 
@@ -122,6 +125,22 @@ def dead_links(site):
     return dead
 
 
+def names_of_reference():
+    """Keys and tables of the case file, types of probes, their columns and results, as the reference lists them."""
+    text = "".join((ROOT / f"docs/reference/{name}.md").read_text(encoding="utf-8") for name in ("case-file", "probes"))
+    return {*re.findall(r"^\| `([\w-]+)` \|", text, re.MULTILINE), *re.findall(r"^##+ \[*([\w-]+)\]*$", text, re.MULTILINE)}
+
+
+def names_not_found(site):
+    """Names of the reference that the search of the site would not find."""
+    index = json.loads((site / "search" / "search_index.json").read_text(encoding="utf-8"))
+    separator = re.compile(index["config"]["separator"])
+    words = {word.lower() for entry in index["docs"] for word in separator.split(entry["text"])}
+    keeps_all = '"search.config.pipeline": "trimmer"' in (site / "index.html").read_text(encoding="utf-8")
+    return sorted(name for name in names_of_reference()
+                  if not keeps_all or not {part for part in separator.split(name.lower()) if part} <= words)
+
+
 def main(arguments):
     if len(arguments) > 1 or any(argument.startswith("-") for argument in arguments):
         print(__doc__, file=sys.stderr)
@@ -136,12 +155,15 @@ def main(arguments):
         built = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--config-file", config], check=False)
     if built.returncode != 0:
         return 1
-    dead = dead_links(site)
+    dead, lost = dead_links(site), names_not_found(site)
     for page, link in dead:
         print(f"site.py: {page}: {link} leads nowhere")
-    if not dead:
-        print(f"site.py: {len(list(site.rglob('*.html')))} pages, no dead link: {site / 'index.html'}")
-    return 1 if dead else 0
+    for name in lost:
+        print(f"site.py: the search does not find {name}")
+    if not dead and not lost:
+        print(f"site.py: {len(list(site.rglob('*.html')))} pages, no dead link, the search finds {len(names_of_reference())} "
+              f"names: {site / 'index.html'}")
+    return 1 if dead or lost else 0
 
 
 if __name__ == "__main__":
