@@ -17,10 +17,9 @@ PROGRAM = os.environ.get("TAILWATER", str(ROOT / "build/release/bin/tailwater"))
 HEAD = """\
 # Command line
 
-Made by `scripts/command_reference.py` from the help of the program; change that, not this page.
-
 For users who look up a command or an option. The keys of a case file have [a page of their own](case-file.md), and so
-have [probes](probes.md) and the [keys for numerical studies](study-keys.md).
+have [probes](probes.md) and the [keys for numerical studies](study-keys.md). `scripts/command_reference.py` writes this
+page from the help of the program; change the help instead.
 """
 
 

@@ -25,10 +25,9 @@ CHAPTERS = {
 HEAD = """\
 # Python reference
 
-Made by `scripts/python_reference.py` from the docstrings of `python/tailwater`; change these, not this page.
-
 For users of the package `tailwater` who look up a class or function. The [guide](../guide/python.md) shows their use.
-Numbers are in SI units; in 2D forces, masses and discharges are per metre of width.
+Numbers are in SI units; in 2D forces, masses and discharges are per metre of width. `scripts/python_reference.py`
+writes this page from the docstrings of `python/tailwater`; change these instead.
 """
 
 

@@ -7,18 +7,17 @@ The runs stay in out/guides and are not made again. All take three minutes of CP
 """
 import os
 import pathlib
-import re
 import subprocess
 import sys
-import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "build/release/lib/python3/dist-packages"), str(ROOT / "validation")]
 import matplotlib  # noqa: E402
 import numpy as np  # noqa: E402
+import pages  # noqa: E402
 import tailwater as tw  # noqa: E402
 from PIL import Image  # noqa: E402
-from tailwater import case_text, pictures, plots  # noqa: E402
+from tailwater import pictures, plots  # noqa: E402
 from tailwater.program import call  # noqa: E402
 from tailwater_validation import floating  # noqa: E402
 
@@ -26,45 +25,33 @@ IMAGES = ROOT / "docs" / "images"
 GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge"}  # and the folder of its sweep
 
 
-def blocks(guide, language):
-    text = (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
-    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+def text_of(guide):
+    return (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
 
 
 def commands(guide):
     """Those of the program, in order, as lists of words."""
-    text = (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
-    return [line.replace('"', "").split()[1:] for line in re.findall(r"^    (tailwater .*)$", text, re.MULTILINE)]
-
-
-def changes(block):
-    """(key, value) of each line of a block of a case file."""
-    for table, entries in tomllib.loads(block).items():
-        for entry in entries if isinstance(entries, list) else [entries]:
-            prefix = f"{table}.{entry['name']}" if isinstance(entries, list) else table
-            yield from ((f"{prefix}.{key}", value) for key, value in entry.items() if key != "name")
+    return [words[1:] for block in pages.blocks(text_of(guide)) if block.kind == "indented"
+            for _, words in pages.commands(block.text) if words[0] == "tailwater"]
 
 
 def write_case(guide):
     """The case file that a reader of the guide has, in this folder; returns its name."""
-    text = (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
-    *new, name = commands(guide)[0]
-    call(*new, name, "--force")
-    case = pathlib.Path(name).read_text(encoding="utf-8")
-    first, *added = blocks(guide, "toml")
-    for key, value in changes(first):
-        case = case_text.changed_text(case, key, value)
-    for table in re.findall(r"[Dd]elete (?:the table|both tables) `\[\[(\w+)\]\]`", text):
-        case = re.sub(rf"^(#.*\n)*\[\[{table}\]\]\n(.+\n)*\n?", "", case, flags=re.MULTILINE)
-    pathlib.Path(name).write_text("\n".join([case, *added]), encoding="utf-8")
+    call(*commands(guide)[0], "--force")
+    for block in pages.blocks(text_of(guide)):
+        if block.kind == "toml":
+            name, faults = pages.assemble(block)
+            if faults:
+                raise RuntimeError(f"{guide}.md:{block.line}: {faults[0]}")
     return name
 
 
 def run_blocks(guide, old="", new=""):
     """The names that its blocks of Python leave; `new` takes the place of `old` in them."""
     names = {}
-    for block in blocks(guide, "python"):
-        exec(compile(block.replace(old, new) if old else block, guide, "exec"), names)
+    for block in pages.blocks(text_of(guide)):
+        if block.kind == "python":
+            exec(compile(block.text.replace(old, new) if old else block.text, guide, "exec"), names)
     return names
 
 

@@ -122,13 +122,13 @@ std::string case_help() {
 std::string case_reference_markdown() {
   std::string text = wrapped(
       "# The case file\n\n"
-      "Made by `tailwater run --help-case=markdown > docs/reference/case-file.md`; change `src/case/spec.h`, not this "
-      "page.\n\n"
+      "For users who look up a table or a key. `tailwater run --help-case=markdown > docs/reference/case-file.md` writes "
+      "this page; change `src/case/spec.h` instead.\n\n"
       "A case file is [TOML](https://toml.io). Unknown keys are errors, and all problems of a file are reported at "
       "once.\n\n"
       "## Numbers\n\n"
       "Numbers are SI, without units. Any number, also one in a list, may be written as an expression in quotes:\n\n"
-      "```toml\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
+      "```toml\n# append to a case\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
       "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4; `a < b ? c : d` is c "
       "or d\n"
       "- names: the keys of `[parameters]` (letters, digits, `_`), `pi`, `dx` = `particles.spacing`, `g` = the "
@@ -156,8 +156,8 @@ std::string case_reference_markdown() {
 std::string study_reference_markdown() {
   std::string text = wrapped(
       "# Keys for studies\n\n"
-      "Made by `tailwater run --help-case=study > docs/reference/study-keys.md`; change `src/case/spec.h`, not this "
-      "page.\n\n"
+      "For researchers who measure the effect of one term of the method. `tailwater run --help-case=study > "
+      "docs/reference/study-keys.md` writes this page; change `src/case/spec.h` instead.\n\n"
       "The keys of [study] change parts of the robust formulations, so that a study can show the effect of each "
       "([devices.md](../theory/devices.md)). No case needs them, and the [reference](case-file.md) does not list them. "
       "The published formulations have none of them. [limits] sets the errors of energy and volume at which a run "

@@ -1,6 +1,8 @@
 """Reports: the answer and its interval, the faults that the first line must state, and runs that are made again."""
 
+import contextlib
 import html.parser
+import io
 import json
 import re
 import shutil
@@ -14,7 +16,8 @@ from tailwater.evidence import load_evidence
 from tailwater.report import references_of
 from tailwater.report_check import check_report, read_report
 
-SOURCES = Path(__file__).resolve().parents[2] / "src"
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = ROOT / "src"
 EFFECTIVE = DAM.replace("spacing = 0.1", "spacing = {spacing}\njitter = 0.0\nseed = 1").replace(
     'name = "tank"', 'name = "tank"\nshape = "polyline"').replace(
     "[time]", '[scheme]\nintegrator = "explicit"\ncourant = 0.55\n[time]').replace("[case]", "[case]\ndimension = 2")
@@ -160,6 +163,13 @@ class Real(PackageTest):
 
     def test_study_is_reproduced_from_the_page_alone(self):
         tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=1)
+        guide = (ROOT / "docs/guide/report.md").read_text(encoding="utf-8")
+        script = re.search(r"```python\n(.*?)```", guide, re.DOTALL)[1]
+        told = io.StringIO()
+        with contextlib.redirect_stdout(told):
+            exec(script.replace("my_weir_study", "s").replace("upstream", "depth"), {})
+        self.assertRegex(told.getvalue(), "^True .* 95 % interval")
+        self.assertTrue(Path("dossier.html").is_file())
         made = tw.report("s")
         self.assertTrue(made.is_reliable, made.first_line)
         roles = [run["role"] for run in made.content["runs"]]
