@@ -25,11 +25,11 @@ export interface Report {
   date: string;
   machine: { processor: string; cores: number };
   cpu_s: number;
-  verdicts: Record<Verdict, number>;
   studies: Study[];
 }
 
-export type Verdict = "met" | "missed" | "shown";
+/** "not resolved": the interval of the value reaches over a bound of the target; "shown": there is no target. */
+export type Result = "met" | "missed" | "not resolved" | "shown";
 
 export interface Study {
   name: string;
@@ -60,7 +60,10 @@ export interface Metric {
   high: number | null;
   paper: number | null;
   peers: { name: string; range: [number, number] }[];
-  verdict: Verdict;
+  /** Of the value alone. */
+  verdict: Result;
+  /** With the interval of the value; earlier reports have none. */
+  result?: Result;
   reference: string;
   shifted_value: number | null;
   shift: number | null;

@@ -1,12 +1,13 @@
 // The report of `tailwater validate`: every number with its target, plots of what was compared, and the way to the water.
 import type { App } from "../app.ts";
-import type { Report, Study, Verdict } from "../contract.ts";
+import type { Report, Result, Study } from "../contract.ts";
 import { duration } from "../units.ts";
 import { Figures } from "./figures.tsx";
 import { Paper } from "./paper.tsx";
-import { Costs, Matrix, Metrics, Peers } from "./tables.tsx";
+import { className, Costs, Matrix, Metrics, Peers, resultOf } from "./tables.tsx";
 
-const count = (study: Study, verdict: Verdict) => study.metrics.filter((m) => m.verdict === verdict).length;
+const count = (studies: Study[], result: Result) => studies.flatMap((study) => study.metrics).filter((m) => resultOf(m) === result).length;
+const results = ["met", "missed", "not resolved"] as const;
 
 export function ReportPage({ app, report, away }: { app: App; report: Report; away: boolean }) {
   const kinds = [...new Set(report.studies.map((study) => study.kind))];
@@ -22,8 +23,7 @@ export function ReportPage({ app, report, away }: { app: App; report: Report; aw
       {report.studies.filter((study) => study.kind === kind).map((study) => (
         <a href={`#${study.name}`}>
           <span>{study.title}</span>
-          {count(study, "met") > 0 && <i class="met" title="targets met">{count(study, "met")}</i>}
-          {count(study, "missed") > 0 && <i class="missed" title="targets missed">{count(study, "missed")}</i>}
+          {results.map((result) => count([study], result) > 0 && <i class={className(result)} title={`targets ${result}`}>{count([study], result)}</i>)}
         </a>
       ))}
     </>
@@ -34,12 +34,13 @@ export function ReportPage({ app, report, away }: { app: App; report: Report; aw
         {report.scheme && `Scheme ${report.scheme} · `}Tailwater {report.version}, commit {report.commit} · {report.date.slice(0, 10)} · {report.machine.processor}, {report.machine.cores} cores, {report.ranks} {report.ranks > 1 ? "ranks" : "rank"} per run
       </p>
       <div class="tiles">
-        {tile(report.verdicts.met, "targets met", "met")}
-        {tile(report.verdicts.missed, "targets missed", "missed")}
-        {tile(report.verdicts.shown, "numbers without a target")}
+        {results.map((result) => tile(count(report.studies, result), `targets ${result}`, className(result)))}
+        {tile(count(report.studies, "shown"), "numbers without a target")}
         {tile(duration(report.cpu_s), "CPU time of all runs")}
       </div>
-      <p class="faint">“Paper” is what the case's paper reports for its own code, “other codes” what we measured or found published for others.</p>
+      <p class="faint">
+        “Not resolved”: the interval of the number reaches over its target. “Paper” is the result of the code of the case's paper, “other codes” are results that we measured or found published.
+      </p>
       {report.studies.map((study) => (
         <One key={study.name} app={app} study={study} />
       ))}

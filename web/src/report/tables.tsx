@@ -1,9 +1,14 @@
 // The numbers of a report as tables.
 import type { ComponentChildren } from "preact";
-import type { Cost, Metric, Verdict } from "../contract.ts";
+import type { Cost, Metric, Result } from "../contract.ts";
 import { number } from "../units.ts";
 
-const marks: Record<Verdict, string> = { met: "✓ met", missed: "✗ missed", shown: "shown" };
+const marks: Record<Result, string> = { met: "✓ met", missed: "✗ missed", "not resolved": "? not resolved", shown: "no target" };
+
+export const resultOf = (m: Metric): Result => m.result ?? m.verdict;
+/** As the name of a class of the style sheet. */
+export const className = (result: Result) => result.replace(" ", "-");
+
 const three = (x: number | null | undefined, none = "–") => (x === null || x === undefined ? none : number(x, 3));
 
 export function Table({ head, children }: { head: [string, boolean?][]; children: ComponentChildren }) {
@@ -46,16 +51,16 @@ export function Metrics({ metrics }: { metrics: Metric[] }) {
   const papers = metrics.some((m) => m.paper !== null);
   const peers = metrics.some((m) => m.peers.length > 0);
   return (
-    <Table head={[["quantity"], ["value", true], ["unit"], ["target", true], ...(papers ? [["paper", true] as [string, boolean]] : []), ...(peers ? [["other codes", true] as [string, boolean]] : []), ["verdict"], ["compared with"]]}>
+    <Table head={[["quantity"], ["value", true], ["unit"], ["target", true], ...(papers ? [["paper", true] as [string, boolean]] : []), ...(peers ? [["other codes", true] as [string, boolean]] : []), ["result"], ["compared with"]]}>
       {metrics.map((m) => (
-        <tr key={m.name} class={m.verdict}>
+        <tr key={m.name} class={className(resultOf(m))}>
           <td>{m.what}</td>
           <td class="number value">{three(m.value)}{m.uncertainty != null && ` ± ${number(m.uncertainty, 2)}`}</td>
           <td>{m.unit}</td>
           <td class="number">{target(m)}</td>
           {papers && <td class="number">{three(m.paper, "")}</td>}
           {peers && <td class="number">{others(m)}</td>}
-          <td><span class={`verdict ${m.verdict}`}>{marks[m.verdict]}</span></td>
+          <td><span class={`result ${className(resultOf(m))}`}>{marks[resultOf(m)]}</span></td>
           <td class="faint">{remark(m)}</td>
         </tr>
       ))}

@@ -15,13 +15,13 @@ const points = (kind: "run" | "exact" | "measured" | "aside" | "spacings", label
 
 const report: Report = {
   version: "1.0.0", commit: "abc", level: "quick", scheme: "", ranks: 1, date: "2026-11-25T21:00:00+00:00", machine: { processor: "a processor", cores: 2 }, cpu_s: 75,
-  verdicts: { met: 1, missed: 1, shown: 3 },
   studies: [
     {
       name: "dam", title: "A dam breaks <b>", kind: "Laboratory", about: "About it.", uncertainty: "By a twentieth.", shown: "dam", moments: [{ time: 0.5, label: "t = 0.5 s, T = 2" }],
       metrics: [
         metric("depth", { high: 0.6, verdict: "met", paper: 0.7, peers: [{ name: "another code", range: [0.9, 2] }], shifted_value: 0.4, shift: -0.1 }),
-        metric("arrival", { value: 0.7, uncertainty: 0.034, low: 0.5, high: 0.6, verdict: "missed" }), metric("failed", { value: null, note: "it broke" }),
+        metric("arrival", { value: 0.7, uncertainty: 0.034, low: 0.5, high: 0.6, verdict: "missed", result: "missed" }),
+        metric("level", { value: 0.59, uncertainty: 0.02, high: 0.6, verdict: "met", result: "not resolved" }), metric("failed", { value: null, note: "it broke" }),
       ],
       runs: [{ name: "dam", message: "", particles: 200, steps: 100, spacing_m: 0.04 }, { name: "other", message: "made to fail" }],
       figures: [
@@ -48,9 +48,11 @@ const text = (page: Page, selector: string) => page.$$eval(selector, (all) => al
 async function read(page: Page): Promise<void> {
   await until(page, "document.querySelectorAll('.one-panel canvas').length === 2");
   assert.equal(await page.title(), "Validation, level quick · Tailwater");
-  assert.deepEqual(await text(page, ".report nav a"), ["A dam breaks <b>11", "One thing changed"]);
+  assert.deepEqual(await text(page, ".report nav a"), ["A dam breaks <b>111", "One thing changed"]);
   assert.deepEqual(await text(page, "#dam tr.met td"), ["depth", "0.5", "H", "≤ 0.6", "0.7", "0.9 … 2", "✓ met", "the laboratory; 0.4 with the data 0.1 earlier"]);
   assert.deepEqual((await text(page, "#dam tr.missed td")).slice(0, 7), ["arrival", "0.7 ± 0.034", "H", "0.5 … 0.6", "", "", "✗ missed"]);
+  assert.deepEqual((await text(page, "#dam tr.not-resolved td")).slice(0, 7), ["level", "0.59 ± 0.02", "H", "≤ 0.6", "", "", "? not resolved"]);
+  assert.deepEqual((await text(page, ".tile")).slice(0, 4), ["1targets met", "1targets missed", "1targets not resolved", "3numbers without a target"]);
   assert.equal((await text(page, "#dam tr.shown td")).at(-1), "it broke");
   assert.deepEqual(await text(page, "#variants td"), ["noise", "H", "2", "1"]);
   assert.deepEqual(await page.$$eval("#variants .bar i", (bars) => bars.map((bar) => (bar as HTMLElement).style.width)), ["90%", "45%"]);
