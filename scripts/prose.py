@@ -15,7 +15,7 @@ import sys
 import tokenize
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TOPS = ("docs", "cases", "src", "tests", "validation", "scripts", "benchmarks", "python", "web/src", "packaging")
+TOPS = ("paper", "docs", "cases", "src", "tests", "validation", "scripts", "benchmarks", "python", "web/src", "packaging")
 # Dated records keep their text. Generated pages come from declarations in src/, generated tables from docs/validation.json.
 EXEMPT = ("docs/notebook/", "docs/reference/case-file.md", "docs/reference/study-keys.md", "docs/reference/probes.md",
           "docs/reference/python.md", "scripts/prose.py", "tests/style/prose_test.py")

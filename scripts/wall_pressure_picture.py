@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """The wall pressure of Zhou's dam break beside the laboratory's: the first picture of the README.
 
-Usage: scripts/wall_pressure_picture.py RUN OUT.webp
-The one of the README:
+Usage: scripts/wall_pressure_picture.py RUN PICTURE    a .webp or .png file
+The picture of the README and of the paper:
     build/release/bin/tailwater run cases/zhou1999/case.toml --out out/zhou
     scripts/wall_pressure_picture.py out/zhou docs/images/wall_pressure.webp
+    scripts/wall_pressure_picture.py out/zhou paper/wall_pressure.png
 """
 import pathlib
 import sys

@@ -18,7 +18,7 @@ NAMES_COMMITS = {"docs/validation.md"}  # the one that its results are of
 
 def files(root):
     """Files of the tree, without those of builds and runs."""
-    for top in ("", "src", "tests", "docs", "cases", "validation", "scripts", "cmake", "benchmarks", "python"):
+    for top in ("", "src", "tests", "docs", "paper", "cases", "validation", "scripts", "cmake", "benchmarks", "python"):
         for file in sorted((root / top).rglob("*") if top else root.glob("*")):
             if file.is_file() and file.suffix in TEXTS and file != pathlib.Path(__file__).resolve():
                 yield file
