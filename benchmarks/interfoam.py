@@ -28,7 +28,7 @@ from tailwater_validation.studies import janosi2004, martin_moyce1952, zhou1999 
 
 OPENFOAM = "/usr/share/openfoam"  # where Debian has what its programs read
 THICKNESS = 0.1  # m, of the one layer of cells that OpenFOAM needs in two dimensions
-WALLS = ("left", "right", "bottom", "gate")  # interFoam ignores those that a case lacks
+WALLS = ("left", "right", "bottom", "gate", "box")  # interFoam ignores those that a case lacks
 SAMPLES = 1000  # of every probe over a run
 
 
@@ -43,6 +43,7 @@ class Case:
 
     measured_in = {}
     cost = None
+    sides = "type empty;"  # of a case in two dimensions
 
     def __init__(self, options):
         self.options = options
@@ -83,7 +84,7 @@ boundary
     def field(self, name, dimensions, inside, wall, top, vector=False):
         walls = "".join(f"{patch} {{ {wall} }}\n" for patch in WALLS)
         self.write(f"0/{name}", f"dimensions {dimensions};\ninternalField uniform {inside};\n"
-                                f"boundaryField {{ {walls} sides {{ type empty; }} top {{ {top} }} }}\n",
+                                f"boundaryField {{ {walls} sides {{ {self.sides or wall} }} top {{ {top} }} }}\n",
                    "volVectorField" if vector else "volScalarField")
 
     def fields(self):
@@ -154,7 +155,8 @@ relaxationFactors { equations { ".*" 1; } }
         end = end or self.end
 
         def probes(name, field, points):
-            places = " ".join(f"({x:.6g} {THICKNESS / 2} {z:.6g})" for x, z in points)
+            places = " ".join("({:.6g} {:.6g} {:.6g})".format(*(point if len(point) == 3 else (point[0], THICKNESS / 2, point[1])))
+                              for point in points)
             return (f"{name} {{ type probes; libs (sampling); fields ({field}); writeControl adjustableRunTime; "
                     f"writeInterval {self.end / SAMPLES:.6g}; probeLocations ({places}); }}\n")
 

@@ -1,17 +1,21 @@
 #!/usr/bin/python3
-"""The cost of an error: Zhou's dam break by Tailwater and other codes, each at several spacings, against the laboratory.
+"""The cost of an error: dam breaks by Tailwater and other codes, each at several spacings, against the laboratory.
 
-Usage: benchmarks/work_precision.py [--dx SPACING]... [--program FILE] [--dfsph FILE] [--json FILE] [--picture FILE.webp]
-                                    [--from FILE.json]
+Usage: benchmarks/work_precision.py [--case zhou|box] [--dx SPACING]... [--program FILE] [--dfsph FILE] [--json FILE]
+                                    [--picture FILE.webp] [--from FILE.json]
 
-Runs the codes of beside.py that are there, one after the other, on one core each, to 1.5 s, before the water falls back on
-itself and air would count. For each run: CPU seconds and four errors:
+Runs the codes that are there, one after the other, on one core each. For each run: CPU seconds and errors.
+zhou, in 2D, the codes of beside.py to 1.5 s, before the water falls back on itself and air would count:
   pressure  RMS difference of the wall pressure at z = 0.12 m over T = 2.4..6, over rho g H, at the best shift of time
             within the laboratory's uncertainty, mean over both readings of its curve
   impulse   its integral over the same time, relative difference
   level     RMS difference of the wire gauge H1 to T = 6, over H
   noise     RMS of the pressure about its running median over 0.02 s, over rho g H; a code without noise has 0
 The laboratory is not exact: two people who read its curves differ by the lines of the picture.
+box, in 3D, SPHERIC's benchmark 2, Tailwater and interFoam to 2 s:
+  impulse   at P1 to P4 over t = 0.4..1 s, mean relative difference
+  arrival   at P1 to P4, mean difference, s
+  level     mean difference of the water levels H2 and H4, over H
 --from draws and prints an earlier file again. The picture of the documentation:
     benchmarks/work_precision.py --json validation/tailwater_validation/work_precision.json \\
                                  --picture docs/images/work_precision.webp
@@ -26,6 +30,7 @@ import tempfile
 import numpy as np
 
 import beside
+import box_precision
 
 ROOT = beside.ROOT
 import matplotlib  # noqa: E402
@@ -41,6 +46,7 @@ READERS = ("openmps", "fluidity")
 WINDOW, LEVEL_WINDOW = (2.4, 6.0), (0.0, 6.0)  # T
 ERRORS = {"pressure": ("pressure at z = 0.12 m", "RMS / ρgH"), "impulse": ("impulse at z = 0.12 m", "relative error"),
           "level": ("water level H1", "RMS / H"), "noise": ("noise of the pressure", "RMS / ρgH")}
+GRIDS = {3: (1, 3), 4: (2, 2)}  # rows and columns of plots
 COLOURS = {"Tailwater": plots.BLUE, "interFoam": plots.ORANGE, "SISPH": plots.SKY, "WCSPH": plots.GREY, "DFSPH": plots.BLACK}
 
 
@@ -83,18 +89,40 @@ def between_readers():
             "level": rms_difference(*level, *LEVEL_WINDOW, zhou1999.GRID)}
 
 
+def runs_of_zhou(dx, options, folder):
+    """(name, Code, done or None, message, errors) of each code."""
+    case = beside.zhou(dx, END)
+    for name, code in beside.available_codes("zhou", case, options, folder).items():
+        done, message = beside.attempt(name, code)
+        yield name, code, done, message, errors_of(done, case) if done else {}
+
+
+def runs_of_box(dx, options, folder):
+    for name, code in box_precision.codes(dx, options, folder).items():
+        done, message = beside.attempt(name, code)
+        yield name, code, done, message, box_precision.errors_of(done) if done else {}
+
+
+def record(name, code, done, message, errors):
+    """A run in the JSON file."""
+    found = {"code": name, "settings": code.settings, "chosen_by": code.chosen_by, "command": code.command,
+             "finished": done is not None, "message": message}
+    return found if done is None else found | {"fluid_particles": done.fluid, "steps": done.steps, "cpu_s": done.cpu,
+                                               "simulated_s": done.simulated, "errors": errors}
+
+
 def measure(options):
     """All runs, as the JSON file has them."""
     runs = []
+    each_run, spacings, end = ((runs_of_zhou, SPACINGS, END) if options.case == "zhou" else
+                               (runs_of_box, box_precision.SPACINGS, box_precision.END))
     with tempfile.TemporaryDirectory() as folder:
-        for dx in options.dx or SPACINGS:
-            case = beside.zhou(dx, END)
-            for name, code in beside.available_codes("zhou", case, options, pathlib.Path(folder)).items():
-                done, message = beside.attempt(name, code)
-                found = beside.record(name, code, case, done, message) | {"spacing_m": dx}
-                runs.append(found | ({"errors": errors_of(done, case)} if done else {}))
+        for dx in options.dx or spacings:
+            for one in each_run(dx, options, pathlib.Path(folder)):
+                runs.append(record(*one) | {"spacing_m": dx})
                 print(line(runs[-1]), flush=True)
-    return beside.provenance(options) | {"case": "zhou", "end_s": END, "between_readers": between_readers(), "runs": runs}
+    between = between_readers() if options.case == "zhou" else box_precision.BETWEEN
+    return beside.provenance(options) | {"case": options.case, "end_s": end, "between_readers": between, "runs": runs}
 
 
 def line(run):
@@ -107,7 +135,8 @@ def line(run):
 def draw(told, path):
     with matplotlib.rc_context(plots.STYLE):
         figure = plots.new_figure(width=8.5, height=5.2)
-        for axes, (error, (title, unit)) in zip(figure.subplots(2, 2, sharex=True).flat, ERRORS.items()):
+        errors = ERRORS if told["case"] == "zhou" else box_precision.ERRORS
+        for axes, (error, (title, unit)) in zip(figure.subplots(*GRIDS[len(errors)], sharex=True).flat, errors.items()):
             for code, colour in COLOURS.items():
                 points = [(run["cpu_s"], run["errors"][error]) for run in told["runs"]
                           if run["code"] == code and run["finished"] and error in run["errors"]]
@@ -117,7 +146,7 @@ def draw(told, path):
                 axes.axhline(told["between_readers"][error], color=plots.BLACK, linewidth=0.8, linestyle=":",
                              label="between two readings of the laboratory")
             axes.set(title=title, ylabel=unit)
-        for axes in figure.axes[2:]:
+        for axes in figure.axes[-GRIDS[len(errors)][1]:]:
             axes.set_xlabel("CPU seconds")
         figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))  # leaves space for the legend
         figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="lower center", ncol=6, frameon=False)
@@ -128,7 +157,8 @@ def draw(told, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dx", type=float, action="append", help=f"m, may be repeated ({', '.join(map(str, SPACINGS))})")
+    parser.add_argument("--case", default="zhou", choices=("zhou", "box"))
+    parser.add_argument("--dx", type=float, action="append", help="m, may be repeated (three spacings)")
     parser.add_argument("--program", default=ROOT / "build/release/bin/tailwater")
     parser.add_argument("--dfsph", metavar="FILE", default=shutil.which("SPHSimulator"))
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")

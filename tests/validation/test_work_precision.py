@@ -1,6 +1,8 @@
 """Work and precision: the errors of curves whose errors are known, and a file that is drawn again."""
 
+import argparse
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -13,8 +15,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
 import beside
+import box_precision
+import interfoam_box
 import work_precision
-from tailwater_validation.studies import zhou1999
+from tailwater.curves import Curve
+from tailwater_validation.studies import kleefsman2005, zhou1999
 
 
 def run_of(pressure_factor=1.0, level_more=0.0):
@@ -44,16 +49,55 @@ class Errors(unittest.TestCase):
         self.assertGreater(wrong["pressure"], 2 * self.exact["pressure"])
 
 
+class OtherBox(interfoam_box.Box):
+    """A run of the box whose curves are those of the laboratory, impulses multiplied, later and higher."""
+
+    factor, later, more = 1.0, 0.0, 0.0
+
+    def curve(self, name, column):
+        measured = kleefsman2005.laboratory(self, name)
+        if name in kleefsman2005.GAUGES:
+            return Curve(measured.time, measured.value + self.more * kleefsman2005.DEPTH)
+        if column == "impulse_Pa_s":
+            impulse = kleefsman2005.impulses(measured)
+            return Curve(impulse.time, self.factor * impulse.value)
+        return Curve(measured.time + self.later, measured.value)
+
+
+class Box(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.box = OtherBox(argparse.Namespace(case="kleefsman2005", out=Path(scratch.name), dx=0.05, walls="slip", turbulence="none",
+                                               air_density=1.2, surface_tension=0.0))
+        self.done = box_precision.Done(1.0, 2.0, 1, 1, self.box)
+
+    def test_errors_are_those_of_the_curves(self):
+        self.assertEqual(set(box_precision.errors_of(self.done).values()), {0.0})
+        self.box.factor, self.box.later, self.box.more = 1.1, 0.02, 0.1
+        for name, error in {"impulse": 0.1, "arrival": 0.02, "level": 0.1}.items():
+            self.assertAlmostEqual(box_precision.errors_of(self.done)[name], error, delta=1e-3)
+
+    def test_mesh_has_a_hole_and_closed_walls(self):
+        self.box.mesh()
+        text = (self.box.folder / "system/blockMeshDict").read_text()
+        self.assertEqual(text.count("hex ("), 4 * 3 * 3 - 1)
+        faces = {name: re.search(rf"\b{name} \{{ type .*faces \((.*)\); \}}", text)[1].count("(")
+                 for name in ("left", "right", "bottom", "top", "sides", "box")}
+        self.assertEqual(faces, {"left": 9, "right": 9, "bottom": 11, "top": 12, "sides": 24, "box": 5})
+        self.assertEqual(sum(len(self.box.edges(axis)) - 1 for axis in range(3)), sum(map(sum, self.box.counts)))
+
+
 class File(unittest.TestCase):
     def test_is_drawn_again_with_runs_that_did_not_finish(self):
         case = beside.zhou(0.03, work_precision.END)
         code = beside.Code("defaults", "its authors", "run it", run_of)
-        done = {"spacing_m": 0.03, "errors": work_precision.errors_of(run_of(), case)}
-        runs = [beside.record("Tailwater", code, case, run_of(), "") | done,
-                beside.record("WCSPH", code, case, None, "it blew up") | {"spacing_m": 0.03}]
+        runs = [work_precision.record("Tailwater", code, run_of(), "", work_precision.errors_of(run_of(), case)),
+                work_precision.record("WCSPH", code, None, "it blew up", {})]
+        runs = [run | {"spacing_m": 0.03} for run in runs]
         with tempfile.TemporaryDirectory() as folder:
             file, picture = Path(folder) / "work.json", Path(folder) / "work.webp"
-            file.write_text(json.dumps({"runs": runs, "between_readers": work_precision.between_readers()}), encoding="utf-8")
+            file.write_text(json.dumps({"case": "zhou", "runs": runs, "between_readers": work_precision.between_readers()}), encoding="utf-8")
             told = subprocess.run([ROOT / "benchmarks/work_precision.py", "--from", file, "--picture", picture], check=True,
                                   stdout=subprocess.PIPE, text=True).stdout
             self.assertGreater(picture.stat().st_size, 5000)
