@@ -86,6 +86,7 @@ class Migrator {
     if (!format) {
       add_format();
       look_at_outlets();
+      for (const char* kind : {"inlet", "outlet"}) look_at_levels(kind);
     }
     std::ranges::sort(changes_, {}, &Change::line);
     Migration migration{changes_.empty() ? std::string(text_) : lines_.text(), {}};
@@ -184,6 +185,19 @@ class Migrator {
                           fmt::format("outlet[{}] is a channel that continues, as before; if it is a hole in a wall, "
                                       "give beyond = \"air\", or the level beyond, and leave the pit out",
                                       k)});
+    }
+  }
+
+  /// Reports openings with a level. Their level was held on average, with the waves let out.
+  void look_at_levels(const char* kind) {
+    const toml::array* openings = root_[kind].as_array();
+    for (std::size_t k = 0; openings != nullptr && k < openings->size(); ++k) {
+      const toml::table* opening = (*openings)[k].as_table();
+      if (opening == nullptr || !opening->contains("level") || opening->contains("absorbing")) continue;
+      changes_.push_back({opening->source().begin.line,
+                          fmt::format("{}[{}] holds its level at any instant now, and reflects waves; for a steady "
+                                      "flow give absorbing = 0.3, to let waves out absorbing = 1",
+                                      kind, k)});
     }
   }
 

@@ -56,12 +56,21 @@ INSTANTIATE_TEST_SUITE_P(Case, RemovedKeyTest, testing::ValuesIn(removed_keys().
 /// hole.
 TEST(Migration, ReportsOutletsWithoutALevel) {
   const std::string ends =
-      "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\n[[outlet]]\nfrom = [0, 0]\nto = [0, 1]\nlevel = 1\n";
+      "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\n[[outlet]]\nfrom = [0, 0]\nto = [0, 1]\nlevel = 1\nabsorbing = 0\n";
   const Migration migration = migrate_case(required_keys + water + ends, "old.toml");
   ASSERT_EQ(migration.changes.size(), 2u);
   EXPECT_NE(migration.changes[1].find("outlet[0] is a channel that continues"), std::string::npos);
   EXPECT_NE(migration.changes[1].find("beyond = \"air\""), std::string::npos);
   EXPECT_EQ(migrate_case(migration.text, "new.toml").changes.size(), 0u);
+}
+
+/// Levels were held on average; the file does not show whether waves must leave.
+TEST(Migration, ReportsLevelsThatAreHeldNow) {
+  const std::string ends = "[[inlet]]\nlevel = 1\n[[outlet]]\nlevel = 1\nabsorbing = 1\n[[outlet]]\nlevel = 1\n";
+  const Migration migration = migrate_case(required_keys + water + ends, "old.toml");
+  ASSERT_EQ(migration.changes.size(), 3u);
+  EXPECT_NE(migration.changes[1].find("inlet[0] holds its level"), std::string::npos);
+  EXPECT_NE(migration.changes[2].find("outlet[1] holds its level"), std::string::npos);
 }
 
 TEST(Migration, LeavesACaseOfThisFormatAsItIs) {

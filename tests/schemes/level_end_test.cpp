@@ -47,11 +47,12 @@ double depth_away_from_end(const Flow<Dim>& flow) {
 
 constexpr double tank_width = 0.6;  // m
 
-/// The tank of open_tank<2> with a level beyond its open end.
+/// The tank of open_tank<2> with a level beyond its open end, which lets the waves of the start out.
 CaseSpec tank_with_level(double depth, const Varying& level) {
   CaseSpec spec = open_tank<2>(tank_width, depth);
   spec.walls[0].max[1] = spec.outlets[0].to[1] = 1.2;
   spec.outlets[0].level = level;
+  spec.outlets[0].absorbing = 0.3;
   return spec;
 }
 
