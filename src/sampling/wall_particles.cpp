@@ -1,6 +1,7 @@
 #include "sampling/wall_particles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -13,6 +14,8 @@ namespace {
 
 /// dx; farther than the particles behind a wall are from it.
 constexpr double reach_to_wall = 8.0;
+/// Smallest part of half a cell that a plate cuts off; smaller ones are left where they are.
+constexpr double least_part = 0.05;
 
 // Which function samples the walls in each dimension.
 WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
@@ -97,6 +100,59 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
   return all;
 }
 
+/// Appends a part of the particle `row` of `whole`.
+template <int Dim>
+void append_part(WallParticles<Dim>& parts, const WallParticles<Dim>& whole, std::size_t row, const Vec<Dim>& position,
+                 double share, std::int64_t number) {
+  parts.position.push_back(position);
+  parts.normal.push_back(whole.normal[row]);
+  parts.blocked.push_back(whole.blocked[row]);
+  parts.beyond_edges.push_back(whole.beyond_edges[row]);
+  parts.share.push_back(share);
+  parts.wall.push_back(whole.wall[row]);
+  parts.is_beyond_end.push_back(whole.is_beyond_end[row]);
+  parts.number.push_back(number);
+}
+
+/// The screen of a plate nearer to `x` than `distance`, drawn on behind the wall of `x`; null if there is none.
+template <int Dim>
+const Screen<Dim>* plate_through(const Boundary<Dim>& boundary, const Vec<Dim>& x, double distance) {
+  for (const int s : boundary.screens_near(x, distance)) {
+    const Screen<Dim>& screen = boundary.screens[s];
+    if (screen.is_plate && !screen.is_beyond && screen.distance(x) < distance) return &screen;
+  }
+  return nullptr;
+}
+
+/// Divides the particles of walls whose cells are cut by a plate that ends on the wall. Each part acts on the water of
+/// its side. A whole particle would fill too much of the support on one side of the plate's foot and too little on the
+/// other, and still water would circulate.
+template <int Dim>
+void cut_by_plates(const Boundary<Dim>& boundary, double spacing, WallParticles<Dim>& particles) {
+  if (boundary.plates.empty()) return;
+  WallParticles<Dim> cut;
+  cut.numbers = 2 * particles.numbers;
+  cut.numbers_on_wall = 2 * particles.numbers_on_wall;
+  for (std::size_t row = 0; row < particles.size(); ++row) {
+    const Vec<Dim>& x = particles.position[row];
+    const double half = 0.5 * spacing * std::pow(particles.share[row], 1.0 / (Dim - 1));
+    const bool is_of_plate = boundary.walls[particles.wall[row]].is_plate;
+    const Screen<Dim>* plate = is_of_plate ? nullptr : plate_through(boundary, x, (1.0 - least_part) * half);
+    if (plate == nullptr) {
+      append_part(cut, particles, row, x, particles.share[row], 2 * particles.number[row]);
+      continue;
+    }
+    const double height = plate->height(x);
+    for (const int part : {0, 1}) {
+      const double side = part == 0 ? half : -half;
+      const Vec<Dim> middle = x + 0.5 * (side - height) * plate->normal;
+      const double share = particles.share[row] * 0.5 * (1.0 + height / side);
+      append_part(cut, particles, row, middle, share, 2 * particles.number[row] + part);
+    }
+  }
+  particles = std::move(cut);
+}
+
 /// How often the edges of a wall particle at `x` are halved, by the field where its wall is nearest.
 template <int Dim>
 int level_at_wall(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& x) {
@@ -127,8 +183,10 @@ Mat<Dim> axes_at_wall(const Boundary<Dim>& boundary, double spacing, const Vec<D
 template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
                                         const SpaceShare& share, const Lattice<Dim>& lattice) {
-  return sample_bodies<Dim>(boundary, {.spacing = spacing, .count = layers, .starts_on_wall = false, .share = share},
-                            lattice);
+  WallParticles<Dim> particles = sample_bodies<Dim>(
+      boundary, {.spacing = spacing, .count = layers, .starts_on_wall = false, .share = share}, lattice);
+  cut_by_plates(boundary, spacing, particles);
+  return particles;
 }
 
 template <int Dim>
@@ -160,14 +218,8 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
       for (int axis = 0, rest = part; axis < Dim; ++axis, rest /= per_edge) {
         steps[axis] = edge * (rest % per_edge - 0.5 * (per_edge - 1));
       }
-      divided.position.push_back(particles.position[row] + axes * steps);
-      divided.normal.push_back(particles.normal[row]);
-      divided.blocked.push_back(particles.blocked[row]);
-      divided.beyond_edges.push_back(particles.beyond_edges[row]);
-      divided.share.push_back(particles.share[row] / power<Dim>(per_edge));
-      divided.wall.push_back(particles.wall[row]);
-      divided.is_beyond_end.push_back(particles.is_beyond_end[row]);
-      divided.number.push_back(particles.number[row] * parts_of_row + part);
+      append_part(divided, particles, row, Vec<Dim>(particles.position[row] + axes * steps),
+                  particles.share[row] / power<Dim>(per_edge), particles.number[row] * parts_of_row + part);
     }
   }
   particles = std::move(divided);

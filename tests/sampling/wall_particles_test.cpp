@@ -254,6 +254,37 @@ TEST(Dummies, HaveTheVolumeBehindATankOfAnySizeIn2D) {
               round_off);
 }
 
+/// Volume of the particles of wall 0 below the floor z or y = 0 of a tank 1 m long, up to `end` along x.
+template <int Dim>
+double volume_below_floor(const CaseSpec& spec, double end) {
+  const WallParticles<Dim> particles = make_dummy_particles<Dim>(make_boundary<Dim>(spec), 0.1, 3);
+  double volume = 0.0;
+  for (std::size_t row = 0; row < particles.size(); ++row) {
+    const Vec<Dim>& x = particles.position[row];
+    const bool is_across = Dim == 2 || (x[1] > 0.0 && x[1] < 0.6);
+    const bool counts = particles.wall[row] == 0 && x[0] > 0.0 && x[0] < end && x[Dim - 1] < 0.0 && is_across;
+    if (counts) volume += particles.share[row] * power<Dim>(0.1);
+  }
+  return volume;
+}
+
+/// A plate divides the cells of the floor on which it ends: the dummies on its either side fill the space there,
+/// wherever it stands.
+TEST(Dummies, AreDividedByAPlateThatEndsOnTheirWall) {
+  for (const double at : {0.5, 0.517, 0.537, 0.58}) {
+    CaseSpec flat = empty_case(0.1);
+    flat.walls = {polyline({{0, 1}, {0, 0}, {1, 0}, {1, 1}}), polyline({{at, 0}, {at, 0.3}})};
+    flat.walls[1].shape = WallShape::plate;
+    EXPECT_NEAR(volume_below_floor<2>(flat, at), 0.3 * at, round_off);
+    EXPECT_NEAR(volume_below_floor<2>(flat, 1.0), 0.3, round_off);
+    CaseSpec spec = empty_case(0.1, 3);
+    spec.walls = {box_wall({0, 0, 0}, {1, 0.6, 1}, {"+z"}),
+                  polyline({{at, 0, 0}, {at, 0.6, 0}, {at, 0.6, 0.3}, {at, 0, 0.3}})};
+    spec.walls[1].shape = WallShape::plate;
+    EXPECT_NEAR(volume_below_floor<3>(spec, at), 0.3 * 0.6 * at, round_off);
+  }
+}
+
 TEST(Dummies, HaveTheVolumeOfTheirRowsBehindAPlateIn3D) {
   const double dx = 0.1;
   CaseSpec spec = empty_case(dx, 3);
