@@ -17,9 +17,16 @@ namespace tailwater {
 /// A grid, and the particles in it.
 template <int Dim>
 struct SearchedGrid {
-  const CellGrid<Dim>& grid;
-  const std::int32_t* order;  ///< particle indices cell by cell; may be read a batch beyond its end
-  bool holds_searchers;       ///< whether the grid also contains the particles that search it
+  const CellGrid<Dim>* grid;
+  const std::int32_t* order;     ///< particle indices cell by cell; may be read a batch beyond its end
+  double largest_spacing = 1.0;  ///< of the particles, over that of the case
+};
+
+/// The grids of a set of particles: several where particles have several spacings.
+template <int Dim>
+struct SearchedSet {
+  std::vector<SearchedGrid<Dim>> grids;
+  bool holds_searchers;  ///< whether they also contain the particles that search them
 };
 
 /// Particles with consecutive indices that are near each other, so that they share their candidates.
@@ -48,6 +55,7 @@ struct Group {
   std::int32_t end;
   Vec<Dim> low;  ///< m; of the box around the particles
   Vec<Dim> high;
+  double largest_spacing = 1.0;  ///< of the particles, over that of the case
 };
 
 /// List of particle indices, written a batch at a time. A batch beyond the end can be read, and holds valid indices.
@@ -93,14 +101,19 @@ class IndexList {
 template <int Dim>
 class CandidateIndices {
  public:
-  void find(const SearchedGrid<Dim>& searched, const Pairs<Dim>& pairs, const Group<Dim>& group) {
-    search(searched, group);
+  void find(const SearchedSet<Dim>& searched, const Pairs<Dim>& pairs, const Group<Dim>& group) {
+    const double radius = kernel_radius(pairs.kernel);
+    bool has_large_cells = false;
+    near_.clear();
+    for (const SearchedGrid<Dim>& grid : searched.grids) {
+      search(grid, 0.5 * (group.largest_spacing + grid.largest_spacing) * radius, group);
+      has_large_cells = has_large_cells || grid.grid->reach() > 1.5 * grid.largest_spacing * radius;
+    }
     sort(pairs, group);
     own_.clear();
     if (searched.holds_searchers) own_.add_range(group.begin, group.end);
     // If a distant particle enlarges the cells, most candidates are far away, some so far that integer places repeat.
-    const double radius = kernel_radius(pairs.kernel);
-    if (searched.grid.reach() > 1.5 * radius) remove_beyond(radius, pairs, group);
+    if (has_large_cells) remove_beyond(radius, pairs, group);
   }
 
   const IndexList& below() const { return below_; }  ///< owned, before the group
@@ -110,9 +123,8 @@ class CandidateIndices {
 
  private:
   /// Copies the ranges of the grid into one list, because most of them are shorter than a batch.
-  void search(const SearchedGrid<Dim>& searched, const Group<Dim>& group) {
-    near_.clear();
-    searched.grid.for_each_range_near(group.low, group.high, [&](std::int32_t begin, std::int32_t end) {
+  void search(const SearchedGrid<Dim>& searched, double reach, const Group<Dim>& group) {
+    searched.grid->for_each_range_near(group.low, group.high, reach, [&](std::int32_t begin, std::int32_t end) {
       near_.add({searched.order + begin, searched.order + end});
     });
   }

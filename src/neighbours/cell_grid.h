@@ -32,11 +32,12 @@ class CellGrid {
   /// batch beyond the end can be read; it holds 0.
   std::span<const std::int32_t> order() const { return std::span(order_).first(size_); }
 
-  /// Calls body(begin, end) for successive ranges of order(), which together hold all particles within reach() of the
-  /// box from `low` to `high`, and some farther away.
+  /// Calls body(begin, end) for successive ranges of order(), which together hold all particles within `reach` [m] of
+  /// the box from `low` to `high`, and some farther away.
   template <class Body>
-  [[gnu::always_inline, gnu::flatten]] void for_each_range_near(const Vec<Dim>& low, const Vec<Dim>& high,
+  [[gnu::always_inline, gnu::flatten]] void for_each_range_near(const Vec<Dim>& low, const Vec<Dim>& high, double reach,
                                                                 Body&& body) const {
+    const double reach_in_cells = (1.0 + margin_of_reach) * reach / edge_;
     Vec<Dim> first;
     Vec<Dim> last;
     for (int d = 0; d < Dim; ++d) {
@@ -55,7 +56,7 @@ class CellGrid {
         visit_row(slab * count_[Dim - 2] + row, squared - squared_gap(Dim - 2, row, first, last));
       }
     };
-    constexpr double squared_reach = reach_in_cells * reach_in_cells;
+    const double squared_reach = reach_in_cells * reach_in_cells;
     if constexpr (Dim == 2) {
       visit_slab(0, squared_reach);
     } else {
@@ -69,14 +70,14 @@ class CellGrid {
   /// Calls body(j) for all particles within reach() of `place`, and for some farther away.
   template <class Body>
   void for_each_near(const Vec<Dim>& place, Body&& body) const {
-    for_each_range_near(place, place, [&](std::int32_t begin, std::int32_t end) {
+    for_each_range_near(place, place, reach(), [&](std::int32_t begin, std::int32_t end) {
       for (std::int32_t n = begin; n < end; ++n) body(order_[n]);
     });
   }
 
  private:
-  /// Reach in cells, with a margin for rounding errors.
-  static constexpr double reach_in_cells = cells_per_reach * (1.0 + 1e-6);
+  /// Fraction of a reach, for rounding errors.
+  static constexpr double margin_of_reach = 1e-6;
 
   /// Distance from the first cell to `place` along axis_[d], in edges of a cell.
   double in_cells(const Vec<Dim>& place, int d) const { return (place[axis_[d]] - origin_[axis_[d]]) / edge_; }

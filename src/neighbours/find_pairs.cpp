@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "base/batch.h"
@@ -35,35 +36,70 @@ constexpr double rounded_at_rim = 1e-6;
 constexpr int max_group_size = 32;
 constexpr double max_group_extent = 1.4;
 
-/// Grid of the fluid particles alone. Most dummies are dry and meet only empty cells in it.
+/// Grid of some particles.
 template <int Dim>
-struct FluidGrid {
-  FluidGrid(const Particles<Dim>& particles, double reach) {
-    const std::vector<std::size_t> fluid =
-        indices_where(particles.size(), [&](std::size_t n) { return particles.is_fluid(n); });
-    std::vector<Vec<Dim>> position(fluid.size());
-    for_each(fluid.size(), [&](std::size_t n) { position[n] = particles.position[fluid[n]]; });
+struct PartGrid {
+  PartGrid(const Particles<Dim>& particles, const std::vector<std::size_t>& part, double reach) {
+    std::vector<Vec<Dim>> position(part.size());
+    for_each(part.size(), [&](std::size_t n) { position[n] = particles.position[part[n]]; });
     grid = CellGrid<Dim>(position, reach);
-    order.resize(fluid.size() + batch_size);
-    for_each(fluid.size(), [&](std::size_t n) { order[n] = static_cast<std::int32_t>(fluid[grid.order()[n]]); });
+    order.resize(part.size() + batch_size);
+    for_each(part.size(), [&](std::size_t n) { order[n] = static_cast<std::int32_t>(part[grid.order()[n]]); });
   }
 
   CellGrid<Dim> grid;
   std::vector<std::int32_t> order;
 };
 
+/// Grids of the particles for which a condition holds. Where particles have several spacings, a grid has those with
+/// spacings from a power of 1/2 up to the next one, and cells to match: with the cells and the reach of the largest
+/// spacing, most candidates would be too far away.
+template <int Dim>
+class PartGrids {
+ public:
+  template <class Condition>
+  PartGrids(const Particles<Dim>& particles, const Pairs<Dim>& pairs, const Condition& is_in) {
+    const double radius = kernel_radius(pairs.kernel);
+    const auto level_of = [&](std::size_t n) { return std::ilogb(1.0F / pairs.relative_spacing[n]); };
+    int finest = 0;
+    if (pairs.is_graded()) {
+      for (std::size_t n = 0; n < particles.size(); ++n) finest = std::max(finest, level_of(n));
+    }
+    for (int level = 0; level <= finest; ++level) {
+      const std::vector<std::size_t> part = indices_where(
+          particles.size(), [&](std::size_t n) { return is_in(n) && (!pairs.is_graded() || level_of(n) == level); });
+      const double largest = std::ldexp(1.0, -level);
+      grids_.emplace_back(particles, part, largest * radius);
+      spacings_.push_back(largest);
+    }
+  }
+
+  SearchedSet<Dim> searched(bool holds_searchers) const {
+    SearchedSet<Dim> set{{}, holds_searchers};
+    for (std::size_t n = 0; n < grids_.size(); ++n) {
+      set.grids.push_back({&grids_[n].grid, grids_[n].order.data(), spacings_[n]});
+    }
+    return set;
+  }
+
+ private:
+  std::vector<PartGrid<Dim>> grids_;
+  std::vector<double> spacings_;  ///< the largest in each grid, over that of the case
+};
+
 /// Properties of a row as written by Candidates.
 struct FoundRow {
   std::size_t size;
   bool sees_wall;
-  bool is_crowded;  ///< whether a neighbour is nearer than the least distance
+  bool is_crowded;       ///< whether a neighbour is nearer than the least distance
+  bool has_one_spacing;  ///< whether all particles have the same spacing
 };
 
 /// Candidates of a group, one array per component, so that they are read in lanes.
 template <int Dim>
 class Candidates {
  public:
-  void find(const SearchedGrid<Dim>& searched, const Pairs<Dim>& pairs, const Group<Dim>& group) {
+  void find(const SearchedSet<Dim>& searched, const Pairs<Dim>& pairs, const Group<Dim>& group) {
     indices_.find(searched, pairs, group);
     count_ = 0;
     append(pairs, indices_.below());
@@ -108,6 +144,7 @@ class Candidates {
     const std::size_t count = count_;
     std::int32_t* end = j;
     IndexBatch walls{};
+    IndexBatch others{};  // of another spacing
     FloatBatch least = radius_squared;
     for (std::size_t n = 0; n < count; n += batch_size) {
       FloatBatch distances;
@@ -122,16 +159,21 @@ class Candidates {
         std::memcpy(reinterpret_cast<float*>(&distances) + m, &square, sizeof(square));
       }
       FloatBatch reach_squared = radius_squared;
+      IndexBatch is_other{};
       if constexpr (is_graded) {
-        const FloatBatch mean = 0.5F * (pairs.relative_spacing[i] + batch_at<FloatBatch>(relative_spacing_.data() + n));
+        const auto relative = batch_at<FloatBatch>(relative_spacing_.data() + n);
+        const FloatBatch mean = 0.5F * (pairs.relative_spacing[i] + relative);
         reach_squared *= mean * mean;
+        is_other = relative != pairs.relative_spacing[i];
       }
       const IndexBatch is_near = distances < reach_squared;
+      others |= is_near & is_other;
       walls |= is_near & batch_at<IndexBatch>(signed_volume + n);  // only the sign of the volume matters
       least = distances < least ? distances : least;
       end = write_chosen(index + n, bits_of(is_near), end);
     }
-    return {static_cast<std::size_t>(end - j), bits_of(walls < 0) != 0, bits_of(least < too_near) != 0};
+    return {static_cast<std::size_t>(end - j), bits_of(walls < 0) != 0, bits_of(least < too_near) != 0,
+            bits_of(others) == 0};
   }
 
   /// Appends candidates. Reads and writes up to a batch beyond the end.
@@ -199,17 +241,20 @@ template <int Dim>
 struct RowSearch {
   const Particles<Dim>& particles;
   WallRows wall_rows;
-  SearchedGrid<Dim> all;
-  SearchedGrid<Dim> fluid;
+  SearchedSet<Dim> all;
+  SearchedSet<Dim> fluid;
 
   bool sees_all(std::size_t i) const { return wall_rows == WallRows::all || particles.is_fluid(i); }
 
-  /// The longest group from `first` on that fits into a box of `max_extent` [m] and searches a single grid.
-  Group<Dim> group_from(std::size_t first, double max_extent) const {
+  /// The longest group from `first` on that fits into a box and searches a single set.
+  Group<Dim> group_from(std::size_t first, const Pairs<Dim>& pairs) const {
     Group<Dim> group(particles.position, first);
+    const double max_extent = max_group_extent * kernel_radius(pairs.kernel) * pairs.relative_spacing_of(first);
     const std::size_t end = std::min<std::size_t>(particles.owned, first + max_group_size);
+    group.largest_spacing = pairs.relative_spacing_of(first);
     for (std::size_t next = first + 1; next < end; ++next) {
       if (sees_all(next) != sees_all(first) || !group.add(particles.position[next], max_extent)) break;
+      group.largest_spacing = std::max(group.largest_spacing, pairs.relative_spacing_of(next));
     }
     return group;
   }
@@ -218,10 +263,9 @@ struct RowSearch {
 /// Calls body(candidates, i) for each owned particle i, in order.
 template <int Dim, class Body>
 void for_each_row(const RowSearch<Dim>& search, const Pairs<Dim>& pairs, Body&& body) {
-  const double max_extent = max_group_extent * kernel_radius(pairs.kernel);
   Candidates<Dim> candidates;
   for (std::size_t i = 0; i < search.particles.owned;) {  // in order: a group begins at the end of the previous one
-    const Group<Dim> group = search.group_from(i, max_extent);
+    const Group<Dim> group = search.group_from(i, pairs);
     candidates.find(search.sees_all(i) ? search.all : search.fluid, pairs, group);
     for (const auto end = static_cast<std::size_t>(group.end); i < end; ++i) body(candidates, i);
   }
@@ -245,6 +289,7 @@ std::size_t find_rows(const RowSearch<Dim>& search, Pairs<Dim>& pairs) {
   pairs.row_begin.resize(owned + 1);
   pairs.row_begin[0] = 0;
   pairs.sees_wall.resize(owned);
+  if (pairs.is_graded()) pairs.has_one_spacing.resize(owned);
   // The first search counts the pairs before it stores them; later ones expect as many as the last. A lattice, as at
   // the start, may have many particles just outside the support.
   std::size_t expected = pairs.j.size();
@@ -262,6 +307,7 @@ std::size_t find_rows(const RowSearch<Dim>& search, Pairs<Dim>& pairs) {
     const FoundRow row = candidates.write_neighbours(pairs, i, pairs.j.data() + begin);
     pairs.row_begin[i + 1] = begin + row.size;
     pairs.sees_wall[i] = row.sees_wall ? 1 : 0;
+    if (pairs.is_graded()) pairs.has_one_spacing[i] = row.has_one_spacing ? 1 : 0;
     crowded += row.is_crowded ? 1 : 0;
   });
   pairs.j.resize(pairs.row_begin.back());
@@ -280,9 +326,14 @@ void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Part
   pairs.least_squared = static_cast<float>(least_distance * least_distance);
   pairs.kernel = kernel;
   pairs.kernel_in_lanes = in_single_precision(kernel);
-  const FluidGrid<Dim> fluid(particles, kernel_radius(kernel));
-  const RowSearch<Dim> search{
-      particles, wall_rows, {grid, grid.order().data(), true}, {fluid.grid, fluid.order.data(), false}};
+  // Most dummies are dry and meet only empty cells in the grids of the fluid.
+  const PartGrids<Dim> fluid(particles, pairs, [&](std::size_t n) { return particles.is_fluid(n); });
+  const auto all = pairs.is_graded() ? std::optional<PartGrids<Dim>>(std::in_place, particles, pairs,
+                                                                     [](std::size_t /*n*/) { return true; })
+                                     : std::nullopt;
+  const RowSearch<Dim> search{particles, wall_rows,
+                              all ? all->searched(true) : SearchedSet<Dim>{{{&grid, grid.order().data()}}, true},
+                              fluid.searched(false)};
   while (find_rows(search, pairs) > 0) part_coinciding(pairs);
 }
 

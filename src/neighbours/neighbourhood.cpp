@@ -74,7 +74,7 @@ void Neighbourhood<Dim>::reorder(Particles<Dim>& particles, ParticleOrder order)
   if (order == ParticleOrder::slabs) {
     keep(particles, CellGrid<Dim>(particles.position, kernel_radius(kernel_)).order());
   } else {
-    keep(particles, order_along_z_curve<Dim>(particles.position, spacing_));
+    keep(particles, order_along_z_curve<Dim>(particles.position, spacing_ * field_.finest()));
   }
 }
 

@@ -59,6 +59,7 @@ struct PairBatch {
   /// Mean of both particles for each pair.
   Lanes relative_spacing() const {
     if constexpr (!is_graded) return in_all_lanes(1.0);
+    if (pairs.has_one_spacing[i] != 0) return in_all_lanes(pairs.relative_spacing[i]);
     return 0.5F * (pairs.relative_spacing[i] + of(std::span<const float>(pairs.relative_spacing)));
   }
   /// m^2; squared distances, scaled as if all pairs had the spacing of the case.

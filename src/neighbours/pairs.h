@@ -40,9 +40,10 @@ struct Pairs {
   /// Local particle spacing, and therefore radius of the support, relative to that of the case; of all particles. A
   /// pair uses the mean of both particles. Empty: 1 for all particles.
   std::vector<float> relative_spacing;
-  float inverse_cell = 1.0F;    ///< 1/m^Dim; inverse volume of a particle with the spacing of the case
-  double least_distance = 0.0;  ///< m; two particles nearer than this count as this far apart
-  float least_squared = 0.0F;   ///< m^2; square of the least distance
+  std::vector<std::uint8_t> has_one_spacing;  ///< of row i, where particles have several; 1: all of it has that of i
+  float inverse_cell = 1.0F;                  ///< 1/m^Dim; inverse volume of a particle with the spacing of the case
+  double least_distance = 0.0;                ///< m; two particles nearer than this count as this far apart
+  float least_squared = 0.0F;                 ///< m^2; square of the least distance
   Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
   Kernel<Dim, float> kernel_in_lanes = in_single_precision(kernel);
 

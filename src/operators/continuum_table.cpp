@@ -22,11 +22,6 @@ struct NodeCell {
       share[d] = place - first[d];
     }
   }
-  std::array<std::int32_t, Dim> corner(int n) const {
-    std::array<std::int32_t, Dim> node = first;
-    for (int d = 0; d < Dim; ++d) node[d] += n >> d & 1;
-    return node;
-  }
 };
 
 template <int Dim>
@@ -34,32 +29,47 @@ Vec<Dim> place_of(const std::array<std::int32_t, Dim>& node, double step) {
   return Vec<Dim>::NullaryExpr([&](int d) { return step * node[d]; });
 }
 
-constexpr int corners(int dim) { return 1 << dim; }
+/// Node n of a cell.
+template <std::size_t Dim>
+std::array<std::int32_t, Dim> corner(std::array<std::int32_t, Dim> node, int n) {
+  for (std::size_t d = 0; d < Dim; ++d) node[d] += n >> d & 1;
+  return node;
+}
 
 }  // namespace
 
 template <int Dim>
-void ContinuumTable<Dim>::prepare(const GradedSums<Dim>& sums, std::span<const Vec<Dim>> places) {
-  const double step = sums.spacing() / nodes_per_spacing<Dim>;
-  for (Vec<Dim> x : places) {
-    if (!sums.field().varies_around(x, kernel_radius(sums.kernel()))) continue;
-    const NodeCell<Dim> cell(x, step);
-    for (int n = 0; n < corners(Dim); ++n) {
-      const Node node = cell.corner(n);
-      if (!nodes_.contains(node)) nodes_.emplace(node, sums.continuum(place_of<Dim>(node, step)));
-    }
-  }
+std::size_t ContinuumTable<Dim>::Hash::operator()(const Node& node) const {
+  std::uint64_t hash = 0;
+  for (const std::int32_t number : node) hash = (hash + static_cast<std::uint32_t>(number)) * 0x9E3779B97F4A7C15U;
+  return hash ^ hash >> 32U;
 }
 
 template <int Dim>
-typename ContinuumTable<Dim>::Entry ContinuumTable<Dim>::at(const GradedSums<Dim>& sums, const Vec<Dim>& x) const {
+const typename ContinuumTable<Dim>::Corners& ContinuumTable<Dim>::corners_of(const GradedSums<Dim>& sums,
+                                                                             const Node& first) {
+  const auto [cell, is_new] = cell_.try_emplace(first);
+  if (!is_new) return cell->second;
+  const double step = sums.spacing() / nodes_per_spacing<Dim>;
+  for (int n = 0; n < corners; ++n) {
+    const Node node = corner(first, n);
+    const auto [number, is_unknown] = node_.try_emplace(node, static_cast<std::int32_t>(sums_.size()));
+    if (is_unknown) sums_.push_back(sums.continuum(place_of<Dim>(node, step)));
+    cell->second[n] = number->second;
+  }
+  return cell->second;
+}
+
+template <int Dim>
+typename ContinuumTable<Dim>::Entry ContinuumTable<Dim>::at(const GradedSums<Dim>& sums, const Vec<Dim>& x) {
   Vec<Dim> place = x;
   if (!sums.field().varies_around(place, kernel_radius(sums.kernel()))) return {};
   const double step = sums.spacing() / nodes_per_spacing<Dim>;
   const NodeCell<Dim> cell(place, step);
+  const Corners& nodes = corners_of(sums, cell.first);
   Entry entry{{0.0, Vec<Dim>::Zero(), Packed<Dim>::Zero()}, Vec<Dim>::Zero()};
-  for (int n = 0; n < corners(Dim); ++n) {
-    const ContinuumSums<Dim>& node = nodes_.at(cell.corner(n));
+  for (int n = 0; n < corners; ++n) {
+    const ContinuumSums<Dim>& node = sums_[nodes[n]];
     Vec<Dim> shares;
     Vec<Dim> signs;
     for (int d = 0; d < Dim; ++d) {

@@ -4,9 +4,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <map>
-#include <span>
+#include <unordered_map>
+#include <vector>
 
 #include "operators/graded_sums.h"
 
@@ -21,15 +22,22 @@ class ContinuumTable {
     Vec<Dim> slope = Vec<Dim>::Zero();
   };
 
-  /// Computes the nodes around these places that are not known.
-  void prepare(const GradedSums<Dim>& sums, std::span<const Vec<Dim>> places);
-  /// At a place around which the nodes are known, between them.
-  Entry at(const GradedSums<Dim>& sums, const Vec<Dim>& x) const;
+  /// At a place, between nodes; computes those of them that are not known.
+  Entry at(const GradedSums<Dim>& sums, const Vec<Dim>& x);
 
  private:
+  static constexpr int corners = 1 << Dim;
   using Node = std::array<std::int32_t, Dim>;
+  struct Hash {
+    std::size_t operator()(const Node& node) const;
+  };
+  using Corners = std::array<std::int32_t, corners>;
 
-  std::map<Node, ContinuumSums<Dim>> nodes_;
+  const Corners& corners_of(const GradedSums<Dim>& sums, const Node& first);
+
+  std::vector<ContinuumSums<Dim>> sums_;               ///< of nodes
+  std::unordered_map<Node, std::int32_t, Hash> node_;  ///< their numbers in sums_
+  std::unordered_map<Node, Corners, Hash> cell_;       ///< nodes of a cell, by its first
 };
 
 }  // namespace tailwater

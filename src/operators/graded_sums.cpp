@@ -10,50 +10,54 @@ namespace {
 /// Points of the quadrature along the radius of a support.
 constexpr int points_along_radius = 8;
 
-/// Lattice spacings over dx at a support of the case's, of which the sums are tabulated. Volumes keep within half and
-/// 1.34 of the wanted ones, those of walls within a third and 2.
-constexpr double least_ratio = 0.3;
-constexpr double largest_ratio = 2.0;
-constexpr int ratios = 171;
-
-/// Between two entries; outside those of the ends.
-template <class Entries>
-auto interpolate(const Entries& entries, double at) {
-  const double place = std::clamp(at, 0.0, static_cast<double>(entries.size() - 1));
-  const auto n = std::min(static_cast<std::size_t>(place), entries.size() - 2);
-  return std::pair(n, place - static_cast<double>(n));
-}
+/// Volumes over (h dx)^Dim of which the sums are tabulated: lattice spacings from 0.3 to 2 h dx. Volumes keep within
+/// half and 1.34 of the wanted ones, those of walls within a third and 2.
+template <int Dim>
+constexpr double least_volume = Dim == 2 ? 0.09 : 0.027;
+template <int Dim>
+constexpr double largest_volume = Dim == 2 ? 4.0 : 8.0;
+constexpr double entries_per_volume = 100.0;
 
 }  // namespace
 
 template <int Dim>
 GradedSums<Dim>::GradedSums(const Kernel<Dim>& kernel, double spacing, SpacingField<Dim> field)
-    : kernel_(kernel), spacing_(spacing), field_(std::move(field)), lattices_(ratios) {
-  for (int n = 0; n < ratios; ++n) {
-    const double ratio = least_ratio + (largest_ratio - least_ratio) * n / (ratios - 1);
-    lattices_[n] = lattice_sums<Dim>(kernel, ratio * spacing);
+    : kernel_(kernel), spacing_(spacing), field_(std::move(field)) {
+  const int last = static_cast<int>(std::ceil((largest_volume<Dim> - least_volume<Dim>)*entries_per_volume));
+  for (int n = 0; n <= last; ++n) {
+    const double volume = least_volume<Dim> + n / entries_per_volume;
+    lattices_.push_back(lattice_sums<Dim>(kernel, edge_of<Dim>(volume) * spacing));
   }
 }
 
 template <int Dim>
+typename GradedSums<Dim>::Entry GradedSums<Dim>::entry(double relative_spacing, double volume) const {
+  const double relative_volume = volume / power<Dim>(relative_spacing * spacing_);
+  const double place = std::clamp((relative_volume - least_volume<Dim>)*entries_per_volume, 0.0,
+                                  static_cast<double>(lattices_.size() - 1));
+  const auto n = std::min(static_cast<std::size_t>(place), lattices_.size() - 2);
+  return {lattices_[n], lattices_[n + 1], place - static_cast<double>(n), relative_volume};
+}
+
+template <int Dim>
 LatticeSums GradedSums<Dim>::lattice(double relative_spacing, double volume) const {
-  const double ratio = edge_of<Dim>(volume) / (relative_spacing * spacing_);
-  const auto [n, share] = interpolate(lattices_, (ratio - least_ratio) / (largest_ratio - least_ratio) * (ratios - 1));
-  const LatticeSums& low = lattices_[n];
-  const LatticeSums& high = lattices_[n + 1];
+  const auto [low, high, share, relative_volume] = entry(relative_spacing, volume);
   return {std::lerp(low.concentration, high.concentration, share),
           std::lerp(low.morris, high.morris, share) / (relative_spacing * relative_spacing),
           std::lerp(low.across_plane, high.across_plane, share) / relative_spacing};
 }
 
 template <int Dim>
+double GradedSums<Dim>::lattice_concentration(double relative_spacing, double volume) const {
+  const auto [low, high, share, relative_volume] = entry(relative_spacing, volume);
+  return low.concentration + share * (high.concentration - low.concentration);
+}
+
+template <int Dim>
 double GradedSums<Dim>::lattice_slope(double relative_spacing, double volume) const {
-  const double ratio = edge_of<Dim>(volume) / (relative_spacing * spacing_);
-  const double entries_per_ratio = (ratios - 1) / (largest_ratio - least_ratio);
-  const auto [n, share] = interpolate(lattices_, (ratio - least_ratio) * entries_per_ratio);
-  const double low = lattices_[n].concentration;
-  const double high = lattices_[n + 1].concentration;
-  return -ratio * (high - low) * entries_per_ratio / std::lerp(low, high, share);
+  const auto [low, high, share, relative_volume] = entry(relative_spacing, volume);
+  const double difference = high.concentration - low.concentration;
+  return -Dim * relative_volume * entries_per_volume * difference / (low.concentration + share * difference);
 }
 
 template <int Dim>

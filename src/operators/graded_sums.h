@@ -36,16 +36,27 @@ class GradedSums {
   double spacing() const { return spacing_; }  ///< m; of the case
   /// Sums over a full lattice of particles of this volume [m^Dim] with the support of a relative spacing h.
   LatticeSums lattice(double relative_spacing, double volume) const;
+  /// Their concentration alone, C_0.
+  double lattice_concentration(double relative_spacing, double volume) const;
   /// d ln C_0/d ln h of such a lattice, at its volume.
   double lattice_slope(double relative_spacing, double volume) const;
   /// At a place, by quadrature.
   ContinuumSums<Dim> continuum(const Vec<Dim>& x) const;
 
  private:
+  /// The entries around a volume.
+  struct Entry {
+    const LatticeSums& low;
+    const LatticeSums& high;
+    double share;            ///< of the way to the higher one
+    double relative_volume;  ///< over (h dx)^Dim
+  };
+  Entry entry(double relative_spacing, double volume) const;
+
   Kernel<Dim> kernel_;
   double spacing_;
   SpacingField<Dim> field_;
-  std::vector<LatticeSums> lattices_;  ///< of ratios of lattice spacing and support, in equal steps
+  std::vector<LatticeSums> lattices_;  ///< with the support of the case, in equal steps of the volume
 };
 
 }  // namespace tailwater

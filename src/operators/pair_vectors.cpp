@@ -37,10 +37,12 @@ struct alignas(Dim == 2 ? 16 : 32) InteriorMoment {
   std::array<float, symmetric_size<Dim>> first_moment;  ///< M, packed
 };
 
-/// M of a particle, over that of a continuum with the same supports.
+/// M of a particle, over that of a continuum with the same supports, which is I away from borders.
 template <int Dim>
 Packed<Dim> relative_moment(const CorrectionInput<Dim>& input, std::size_t i) {
-  if (input.support == nullptr || input.kind[i] != ParticleKind::fluid) return input.first_moment[i];
+  if (input.support == nullptr || !input.support->is_near_border(i) || input.kind[i] != ParticleKind::fluid) {
+    return input.first_moment[i];
+  }
   const Mat<Dim> inverse = unpacked<Dim>(input.support->first_moment[i]).inverse();
   const Mat<Dim> product = inverse * unpacked<Dim>(input.first_moment[i]);
   return packed<Dim>(0.5 * (product + product.transpose()));

@@ -86,7 +86,7 @@ struct PairVectorField {
   std::vector<PairVectorEnd<Dim>> ends;  ///< of all particles, ghosts included
 
   template <bool is_full, bool is_graded>
-  PairVectorLanes<Dim> operator()(const PairBatch<Dim, is_full, is_graded>& batch) const {
+  [[gnu::always_inline]] PairVectorLanes<Dim> operator()(const PairBatch<Dim, is_full, is_graded>& batch) const {
     using End = PairVectorEnd<Dim>;
     static_assert(offsetof(End, at) == offsetof(Place<Dim>, at) &&
                   offsetof(End, signed_volume) == offsetof(Place<Dim>, signed_volume));

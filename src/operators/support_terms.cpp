@@ -28,33 +28,35 @@ void find_references(const Pairs<Dim>& pairs, const GradedSums<Dim>& sums, std::
   const std::size_t owned = pairs.owned();
   const double radius = kernel_radius(pairs.kernel);
   terms.ends.assign(size, {});
-  terms.reference.assign(size, 1.0);
+  terms.reference.assign(size, case_reference);
   terms.first_moment.assign(size, packed_identity<Dim>());
-  terms.border.assign(owned, -1);
+  terms.border.assign(size, -1);
   terms.log_slope.assign(owned, Vec<Dim>::Zero());
   terms.crowding.assign(owned, Vec<Dim>::Zero());
   terms.kept_correction.assign(owned, 1.0);
-  terms.continuum.prepare(sums, pairs.position);
+  const auto counts = [&](std::size_t i) { return i >= owned || takes_part[i] != 0; };
   for_each(size, [&](std::size_t i) {
-    if (i < owned && takes_part[i] == 0) return;
+    if (counts(i)) terms.reference[i] = sums.lattice_concentration(pairs.relative_spacing_of(i), volume[i]);
+  });
+  for (std::size_t i = 0; i < size; ++i) {  // in order: fills the table
+    if (!counts(i)) continue;
     const Vec<Dim>& x = pairs.position[i];
-    const double relative = pairs.relative_spacing_of(i);
-    terms.reference[i] = sums.lattice(relative, volume[i]).concentration;
     const auto border = sums.field().nearest_border(x);
-    if (border.distance < radius) {
-      const auto continuum = terms.continuum.at(sums, x);
-      terms.reference[i] *= continuum.sums.concentration;
-      terms.first_moment[i] = continuum.sums.first_moment;
-      const Vec<Dim> slope = sums.field().slope(x);
-      for (int d = 0; d < Dim; ++d) terms.ends[i].slope[d] = static_cast<float>(slope[d]);
-      if (i < owned) {
-        terms.border[i] = border.zone;
-        terms.kept_correction[i] = kept_correction(border.distance / (relative * sums.spacing()));
-        terms.crowding[i] = continuum.sums.gradient;
-        terms.log_slope[i] =
-            continuum.slope / continuum.sums.concentration + sums.lattice_slope(relative, volume[i]) / relative * slope;
-      }
-    }
+    if (border.distance >= radius) continue;
+    const auto continuum = terms.continuum.at(sums, x);
+    terms.border[i] = border.zone;
+    terms.reference[i] *= continuum.sums.concentration;
+    terms.first_moment[i] = continuum.sums.first_moment;
+    const Vec<Dim> slope = sums.field().slope(x);
+    for (int d = 0; d < Dim; ++d) terms.ends[i].slope[d] = static_cast<float>(slope[d]);
+    if (i >= owned) continue;
+    const double relative = pairs.relative_spacing_of(i);
+    terms.kept_correction[i] = kept_correction(border.distance / (relative * sums.spacing()));
+    terms.crowding[i] = continuum.sums.gradient;
+    terms.log_slope[i] =
+        continuum.slope / continuum.sums.concentration + sums.lattice_slope(relative, volume[i]) / relative * slope;
+  }
+  for_each(size, [&](std::size_t i) {
     terms.ends[i].inverse_reference = static_cast<float>(case_reference / terms.reference[i]);
   });
 }

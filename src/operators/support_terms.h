@@ -38,7 +38,7 @@ struct SupportTerms {
   std::vector<SupportEnd> ends;           ///< of all particles; empty: all have one spacing
   std::vector<double> reference;          ///< c of all particles
   std::vector<Packed<Dim>> first_moment;  ///< M* of all particles
-  std::vector<std::int32_t> border;       ///< of owned particles: the zone whose border is near; -1: none
+  std::vector<std::int32_t> border;       ///< of all particles: the zone whose border is near; -1: none
   std::vector<double> kept_correction;    ///< of owned particles: applied fraction of the correction by <M>
   std::vector<Vec<Dim>> log_slope;        ///< 1/m; of owned particles: grad ln c
   std::vector<Vec<Dim>> crowding;         ///< 1/m; of owned particles: gradient of C in a continuum
@@ -47,7 +47,7 @@ struct SupportTerms {
   ContinuumTable<Dim> continuum;          ///< kept for speed
 
   bool is_empty() const { return ends.empty(); }
-  /// Whether supports vary within that of owned particle i.
+  /// Whether supports vary within that of particle i.
   bool is_near_border(std::size_t i) const { return !ends.empty() && border[i] >= 0; }
 };
 

@@ -69,12 +69,12 @@ double set_weights_of_liquids(const Flow<Dim>& flow, std::span<const float> volu
 /// a_i of a row whose weights sum to `sum`: air near the surface and on walls, open faces and softness inside.
 template <int Dim>
 double RobustDiscretisation<Dim>::closing_weight(const Flow<Dim>& flow, std::size_t i, double sum) const {
-  const double air = laws_.air.weight(sum, flow.lattice_of(i).morris);
   const double interior = flow.surroundings.interior[i];
-  if (interior == 0.0) return air;
+  const auto air = [&] { return laws_.air.weight(sum, flow.lattice_of(i).morris); };
+  if (interior == 0.0) return air();
   const double spacing = flow.setup.scale.spacing * flow.pairs().relative_spacing_of(i);
   const double inside = 4.0 * flow.surroundings.open_faces[i].squaredNorm() + softness / (spacing * spacing);
-  return std::lerp(air, inside, interior);
+  return interior == 1.0 ? inside : std::lerp(air(), inside, interior);
 }
 
 template <int Dim>

@@ -63,7 +63,7 @@ TYPED_TEST(CellGridTest, OffersEverythingWithinReachOfABoxInRangesThatFollowEach
     const Vec<Dim> high = low + Vec<Dim>::NullaryExpr([](int d) { return 0.25 * d / (Dim - 1); });
     std::vector<int> offered(positions.size(), 0);
     std::int32_t last = 0;
-    grid.for_each_range_near(low, high, [&](std::int32_t begin, std::int32_t end) {
+    grid.for_each_range_near(low, high, grid.reach(), [&](std::int32_t begin, std::int32_t end) {
       EXPECT_LE(last, begin);
       last = end;
       for (std::int32_t n = begin; n < end; ++n) ++offered[grid.order()[n]];

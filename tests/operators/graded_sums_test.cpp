@@ -94,12 +94,9 @@ TYPED_TEST(GradedSumsTest, TheTableIsTheQuadrature) {
   constexpr int Dim = TypeParam::value;
   const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, radius);
   const GradedSums<Dim> sums(kernel, dx, field_of_face<Dim>());
-  std::vector<Vec<Dim>> places;
-  for (double x = -4.0 * dx; x < 8.0 * dx; x += 0.31 * dx)
-    places.push_back(Vec<Dim>::Constant(0.7) + x * Vec<Dim>::Unit(0));
   ContinuumTable<Dim> table;
-  table.prepare(sums, places);
-  for (Vec<Dim> x : places) {
+  for (double along = -4.0 * dx; along < 8.0 * dx; along += 0.31 * dx) {
+    const Vec<Dim> x = Vec<Dim>::Constant(0.7) + along * Vec<Dim>::Unit(0);
     const auto entry = table.at(sums, x);
     const ContinuumSums<Dim> quadrature = sums.continuum(x);
     // C* bends by less than 0.04/dx^2, which leaves an eighth of it times the square of the distance of the nodes.
