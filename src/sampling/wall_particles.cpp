@@ -153,19 +153,10 @@ void cut_by_plates(const Boundary<Dim>& boundary, double spacing, WallParticles<
   particles = std::move(cut);
 }
 
-/// How often the edges of a wall particle at `x` are halved, by the field where its wall is nearest.
+/// The normal of a wall, and directions along it.
 template <int Dim>
-int level_at_wall(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& x) {
-  const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
-  const double relative = field.at(wall.face < 0 ? x : wall.point);
-  return static_cast<int>(std::lround(-std::log2(relative)));
-}
-
-/// The normal of the wall nearest to `x`, and directions along it.
-template <int Dim>
-Mat<Dim> axes_at_wall(const Boundary<Dim>& boundary, double spacing, const Vec<Dim>& x) {
+Mat<Dim> axes_at_wall(const Boundary<Dim>& boundary, const NearestWall<Dim>& wall) {
   Mat<Dim> axes = Mat<Dim>::Identity();
-  const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
   if (wall.face < 0) return axes;
   const Vec<Dim>& normal = boundary.faces[wall.face].normal;
   axes.put_column(0, normal);
@@ -202,24 +193,30 @@ WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, d
 }
 
 template <int Dim>
-void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing,
+void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, int layers,
                            WallParticles<Dim>& particles) {
   const std::int64_t parts_of_row = std::llround(power<Dim>(1.0 / field.finest()));
   WallParticles<Dim> divided;
   divided.numbers = particles.numbers * parts_of_row;
   divided.numbers_on_wall = particles.numbers_on_wall * parts_of_row;
   for (std::size_t row = 0; row < particles.size(); ++row) {
-    const int level = level_at_wall(field, boundary, spacing, particles.position[row]);
-    const int per_edge = 1 << level;
-    const Mat<Dim> axes = axes_at_wall(boundary, spacing, particles.position[row]);
+    const Vec<Dim>& x = particles.position[row];
+    const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
+    const int per_edge = 1 << std::lround(-std::log2(field.at(wall.face < 0 ? x : wall.point)));
+    const Mat<Dim> axes = axes_at_wall(boundary, wall);
     const double edge = spacing / per_edge;
+    // Where the spacing is the same all around, no water reaches parts behind the layers of this spacing.
+    const bool may_leave_out = particles.is_beyond_end[row] == 0 && wall.face >= 0 &&
+                               field.nearest_border(x).distance > 2.0 * layers * spacing;
     for (int part = 0; part < static_cast<int>(power<Dim>(per_edge)); ++part) {
       Vec<Dim> steps;
       for (int axis = 0, rest = part; axis < Dim; ++axis, rest /= per_edge) {
         steps[axis] = edge * (rest % per_edge - 0.5 * (per_edge - 1));
       }
-      append_part(divided, particles, row, Vec<Dim>(particles.position[row] + axes * steps),
-                  particles.share[row] / power<Dim>(per_edge), particles.number[row] * parts_of_row + part);
+      const Vec<Dim> place = x + axes * steps;
+      if (may_leave_out && boundary.nearest(place, layers * edge).face < 0) continue;
+      append_part(divided, particles, row, place, particles.share[row] / power<Dim>(per_edge),
+                  particles.number[row] * parts_of_row + part);
     }
   }
   particles = std::move(divided);

@@ -59,10 +59,10 @@ WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double sp
                                         const SpaceShare& share = {}, const Lattice<Dim>& lattice = {});
 
 /// Divides the particles behind walls in zones of refinement, each into 2^Dim along and across its wall, until
-/// their volumes are nearest to that of the local spacing at the wall. On flat walls the rows are the same as those of
-/// that spacing.
+/// their volumes are nearest to that of the local spacing at the wall. Away from borders only `layers` rows of them
+/// remain. On flat walls the rows are the same as those of that spacing.
 template <int Dim>
-void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing,
+void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, int layers,
                            WallParticles<Dim>& particles);
 
 /// One row of particles on the wall itself (F36-F39), dx apart, including its ends and all corners that turn by more
