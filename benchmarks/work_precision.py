@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The cost of an error: dam breaks by Tailwater and other codes, each at several spacings, against the laboratory.
 
-Usage: benchmarks/work_precision.py [--case zhou|box] [--dx SPACING]... [--program FILE] [--dfsph FILE] [--json FILE]
+Usage: benchmarks/work_precision.py [--case zhou|box|weir] [--dx SPACING]... [--program FILE] [--dfsph FILE] [--json FILE]
                                     [--picture FILE.webp] [--from FILE.json]
 
 Runs the codes that are there, one after the other, on one core each. For each run: CPU seconds and errors.
@@ -16,9 +16,12 @@ box, in 3D, SPHERIC's benchmark 2, Tailwater and interFoam to 2 s:
   impulse   at P1 to P4 over t = 0.4..1 s, mean relative difference
   arrival   at P1 to P4, mean difference, s
   level     mean difference of the water levels H2 and H4, over H
+weir, in 2D, the template of `tailwater new weir`, Tailwater and interFoam to 8 s:
+  head      relative difference from Rehbock's formula, mean of the second half
 --from draws and prints an earlier file again. The picture of the documentation:
     benchmarks/work_precision.py --json validation/tailwater_validation/work_precision.json \\
                                  --picture docs/images/work_precision.webp
+The tables of the documentation are of such files; those of other flows end in _box.json and _weir.json.
 """
 import argparse
 import json
@@ -31,6 +34,7 @@ import numpy as np
 
 import beside
 import box_precision
+import weir_precision
 
 ROOT = beside.ROOT
 import matplotlib  # noqa: E402
@@ -46,7 +50,8 @@ READERS = ("openmps", "fluidity")
 WINDOW, LEVEL_WINDOW = (2.4, 6.0), (0.0, 6.0)  # T
 ERRORS = {"pressure": ("pressure at z = 0.12 m", "RMS / ρgH"), "impulse": ("impulse at z = 0.12 m", "relative error"),
           "level": ("water level H1", "RMS / H"), "noise": ("noise of the pressure", "RMS / ρgH")}
-GRIDS = {3: (1, 3), 4: (2, 2)}  # rows and columns of plots
+OTHER_FLOWS = {"box": box_precision, "weir": weir_precision}
+GRIDS = {1: (1, 1), 3: (1, 3), 4: (2, 2)}  # rows and columns of plots
 COLOURS = {"Tailwater": plots.BLUE, "interFoam": plots.ORANGE, "SISPH": plots.SKY, "WCSPH": plots.GREY, "DFSPH": plots.BLACK}
 
 
@@ -97,10 +102,11 @@ def runs_of_zhou(dx, options, folder):
         yield name, code, done, message, errors_of(done, case) if done else {}
 
 
-def runs_of_box(dx, options, folder):
-    for name, code in box_precision.codes(dx, options, folder).items():
+def runs_of(flow, dx, options, folder):
+    """(name, Code, done or None, message, errors) of each code, for the flow of a module."""
+    for name, code in flow.codes(dx, options, folder).items():
         done, message = beside.attempt(name, code)
-        yield name, code, done, message, box_precision.errors_of(done) if done else {}
+        yield name, code, done, message, flow.errors_of(done) if done else {}
 
 
 def record(name, code, done, message, errors):
@@ -114,15 +120,15 @@ def record(name, code, done, message, errors):
 def measure(options):
     """All runs, as the JSON file has them."""
     runs = []
-    each_run, spacings, end = ((runs_of_zhou, SPACINGS, END) if options.case == "zhou" else
-                               (runs_of_box, box_precision.SPACINGS, box_precision.END))
+    flow = OTHER_FLOWS.get(options.case)
     with tempfile.TemporaryDirectory() as folder:
-        for dx in options.dx or spacings:
-            for one in each_run(dx, options, pathlib.Path(folder)):
+        for dx in options.dx or (flow.SPACINGS if flow else SPACINGS):
+            place = pathlib.Path(folder)
+            for one in runs_of(flow, dx, options, place) if flow else runs_of_zhou(dx, options, place):
                 runs.append(record(*one) | {"spacing_m": dx})
                 print(line(runs[-1]), flush=True)
-    between = between_readers() if options.case == "zhou" else box_precision.BETWEEN
-    return beside.provenance(options) | {"case": options.case, "end_s": end, "between_readers": between, "runs": runs}
+    return beside.provenance(options) | {"case": options.case, "end_s": flow.END if flow else END,
+                                         "between_readers": flow.BETWEEN if flow else between_readers(), "runs": runs}
 
 
 def line(run):
@@ -135,8 +141,8 @@ def line(run):
 def draw(told, path):
     with matplotlib.rc_context(plots.STYLE):
         figure = plots.new_figure(width=8.5, height=5.2)
-        errors = ERRORS if told["case"] == "zhou" else box_precision.ERRORS
-        for axes, (error, (title, unit)) in zip(figure.subplots(*GRIDS[len(errors)], sharex=True).flat, errors.items()):
+        errors = OTHER_FLOWS[told["case"]].ERRORS if told["case"] in OTHER_FLOWS else ERRORS
+        for axes, (error, (title, unit)) in zip(figure.subplots(*GRIDS[len(errors)], sharex=True, squeeze=False).flat, errors.items()):
             for code, colour in COLOURS.items():
                 points = [(run["cpu_s"], run["errors"][error]) for run in told["runs"]
                           if run["code"] == code and run["finished"] and error in run["errors"]]
@@ -157,7 +163,7 @@ def draw(told, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--case", default="zhou", choices=("zhou", "box"))
+    parser.add_argument("--case", default="zhou", choices=("zhou", *OTHER_FLOWS))
     parser.add_argument("--dx", type=float, action="append", help="m, may be repeated (three spacings)")
     parser.add_argument("--program", default=ROOT / "build/release/bin/tailwater")
     parser.add_argument("--dfsph", metavar="FILE", default=shutil.which("SPHSimulator"))

@@ -6,7 +6,7 @@ Usage: scripts/evidence.py           makes the file from docs/validation.json, t
        scripts/evidence.py --keys    prints the keys with their values
 
 A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where `WHAT` is `all`, names of studies, keys
-in quotes after `keys`, as in `keys "zhou1999.noise"`, `counts`, a sentence, or `work`, the cost of errors beside other
+in quotes after `keys`, as in `keys "zhou1999.noise"`, `counts`, a sentence, or `work CASE`, the cost of errors beside other
 codes. `short` before `WHAT` leaves only quantity, value, target, result and spacing. A figure in a sentence stands between
 `<!-- figure: KEY -->` and `<!-- figure: end -->`. docs/validation.json is what `tailwater validate` wrote.
 """
@@ -74,8 +74,8 @@ def table(evidence, what):
     lines = [f"<!-- evidence: {what} -->"]
     if what == "counts":
         return "\n".join([*lines, sentence(evidence), "<!-- evidence: end -->"])
-    if what == "work":
-        return "\n".join([*lines, *work_table(), "<!-- evidence: end -->"])
+    if what.split()[0] == "work":
+        return "\n".join([*lines, *work_table(*what.split()[1:]), "<!-- evidence: end -->"])
     words = what.removeprefix("short ")
     columns = HEAD if words == what else SHORT
     lines += [origin(evidence, what == "all"), ""]

@@ -17,6 +17,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 import beside
 import box_precision
 import interfoam_box
+import weir_precision
 import work_precision
 from tailwater.curves import Curve
 from tailwater_validation.studies import kleefsman2005, zhou1999
@@ -86,6 +87,22 @@ class Box(unittest.TestCase):
                  for name in ("left", "right", "bottom", "top", "sides", "box")}
         self.assertEqual(faces, {"left": 9, "right": 9, "bottom": 11, "top": 12, "sides": 24, "box": 5})
         self.assertEqual(sum(len(self.box.edges(axis)) - 1 for axis in range(3)), sum(map(sum, self.box.counts)))
+
+
+class Weir(unittest.TestCase):
+    def test_error_is_that_of_the_head(self):
+        head = weir_precision.rehbock_head()
+        self.assertAlmostEqual(head, 0.0877, delta=1e-4)
+        self.assertEqual(weir_precision.errors_of(weir_precision.Done(1.0, 8.0, 1, 1, head)), {"head": 0.0})
+        self.assertAlmostEqual(weir_precision.errors_of(weir_precision.Done(1.0, 8.0, 1, 1, 1.02 * head))["head"], 0.02)
+
+    def test_cells_on_both_sides_of_the_plate_share_no_corners_below_the_crest(self):
+        with tempfile.TemporaryDirectory() as folder:
+            weir = weir_precision.Weir(argparse.Namespace(out=Path(folder), dx=0.025, end=1.0, walls="slip", turbulence="none"))
+            weir.mesh()
+            text = (Path(folder) / "system/blockMeshDict").read_text()
+        self.assertEqual(text.count("(0.0 0 0.0)"), 2)  # the foot
+        self.assertEqual(text.count(f"(0.0 0 {weir_precision.HEIGHT})"), 1)  # the crest
 
 
 class File(unittest.TestCase):

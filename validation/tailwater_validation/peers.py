@@ -1,11 +1,17 @@
 """Figures of other codes, from files with settings and commands: beside.json, which `benchmarks/beside.py --json` has
-written, and work_precision.json of `benchmarks/work_precision.py --json`."""
+written, and files of `benchmarks/work_precision.py --json`."""
 
 import json
 from pathlib import Path
 
 FILE = Path(__file__).resolve().with_name("beside.json")
-WORK = FILE.with_name("work_precision.json")
+WORK = {case: FILE.with_name(f"work_precision{suffix}.json") for case, suffix in (("zhou", ""), ("box", "_box"), ("weir", "_weir"))}
+ERRORS = {  # and their columns in a table
+    "zhou": {"pressure": "pressure at z = 0.12 m, RMS over rho g H", "impulse": "its impulse, relative",
+             "level": "level H1, RMS over H", "noise": "noise of the pressure, over rho g H"},
+    "box": {"impulse": "impulse at P1 to P4, mean relative error", "arrival": "arrival at P1 to P4, mean error, s",
+            "level": "levels H2 and H4, mean error over H"},
+    "weir": {"head": "head above the crest, relative error"}}
 OURS = "Tailwater"
 QUANTITIES = {"cpu_s_per_simulated_s": "s", "noise_over_rho_g_H": "rho g H", "arrival_s": "s"}
 
@@ -30,17 +36,19 @@ def figures_of_peers(path=FILE):
             for quantity, unit in QUANTITIES.items() if code[quantity] is not None}
 
 
-def work_table(path=WORK):
-    """The runs of work_precision.json as a table in Markdown, by code, below a line that says where they are from."""
-    told = json.loads(path.read_text(encoding="utf-8"))
-    lines = [f"`benchmarks/work_precision.py`, {told['date']}, {told['processor']}.", "",
-             "| code | spacing, m | CPU s | pressure at z = 0.12 m, RMS over rho g H | its impulse, relative | level H1, RMS over H "
-             "| noise of the pressure, over rho g H |", "|" + " --- |" * 7]
+def work_table(case="zhou", path=None):
+    """The runs of a file of work_precision.py as a table in Markdown, by code, below a line that says where they are from."""
+    told = json.loads((path or WORK[case]).read_text(encoding="utf-8"))
+    errors = ERRORS[case]
+    lines = [f"`benchmarks/work_precision.py{'' if case == 'zhou' else f' --case {case}'}`, {told['date']}, {told['processor']}.", "",
+             f"| code | spacing, m | CPU s | {' | '.join(errors.values())} |", "|" + " --- |" * (3 + len(errors))]
     for code in dict.fromkeys(run["code"] for run in told["runs"]):
         for run in (run for run in told["runs"] if run["code"] == code):
-            cells = [f"{run['errors'][name]:.3g}" if name in run["errors"] else "-"
-                     for name in ("pressure", "impulse", "level", "noise")] if run["finished"] else ["did not finish"] + 3 * [""]
+            cells = [f"{run['errors'][name]:.3g}" if name in run["errors"] else "-" for name in errors] if run["finished"] else [
+                "did not finish"] + (len(errors) - 1) * [""]
             cost = f"{run['cpu_s']:.3g}" if run["finished"] else ""
-            lines.append(f"| {code} | {run['spacing_m']:g} | {cost} | {' | '.join(cells)} |")
-    between = [f"{told['between_readers'][name]:.3g}" for name in ("pressure", "impulse", "level")]
-    return [*lines, f"| the laboratory, one reading beside the other | | | {' | '.join(between)} | |"]
+            lines.append(f"| {code} | {run['spacing_m']:.3g} | {cost} | {' | '.join(cells)} |")
+    if not told["between_readers"]:
+        return lines
+    between = [f"{told['between_readers'][name]:.3g}" if name in told["between_readers"] else "" for name in errors]
+    return [*lines, f"| the laboratory, one reading beside the other | | | {' | '.join(between)} |"]
