@@ -46,7 +46,7 @@ max = [1, 0.25]
 USE = re.compile(r"# (?:(append to|replace in|in) )?(?:the template ([\w-]+)|(a case)|([\w-]*\.?[\w-]+\.toml))"
                  r"(?:, without ([\w\[\], ]+))?$")
 # Pages whose scripts run here. The scripts of the others run in tests, which name the page.
-RUN_HERE = {"docs/guide/stl.md", "docs/guide/terrain.md", "docs/guide/openings.md"}
+RUN_HERE = {f"docs/guide/{name}.md" for name in ("gauge", "openings", "stl", "terrain")}
 TESTS = "".join((ROOT / f"tests/python/test_{name}.py").read_text(encoding="utf-8") for name in ("guide", "report"))
 SIGNATURES = "docs/reference/python.md"
 # Files that a page expects of its reader, and what stands in for them.
