@@ -88,8 +88,7 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     findings.push_back(Finding::error(
         {"{} is fastened at {}, {:.4g} from {}, which lies between {} and {}", CaseLabel("mooring", name), place(x),
          Amount{away, "m"}, CaseLabel("body", body.name), place<Dim>(box.min()), place<Dim>(box.max())},
-        {"give as `at` a place on the first of its bodies as that is drawn, and as `anchor` the other end, on the "
-         "second "
+        {"give `at` as a place on the first body as drawn, and `anchor` as the other end of the line, on the second "
          "body if there is one"}));
   };
   const std::vector<Mooring<Dim>> moorings = make_moorings<Dim>(spec);

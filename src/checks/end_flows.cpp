@@ -174,8 +174,8 @@ class EndFlowCheck {
              time, Amount{speed, "m/s"}, froude},
             {"check the units: {}", unit_hint});
     } else if (q < 0.0 || froude < 1.0) {
-      error({"{} is given with a flow that is subcritical at t = {:.6g} s (Froude number {:.3g}), where the level "
-             "follows from the water inside",
+      error({"{} is given, but the flow is subcritical at t = {:.6g} s (Froude number {:.3g}), and its level follows "
+             "from the water inside",
              label_.with_key("level"), time, froude},
             {"remove the level, or the discharge and the velocity"});
     }

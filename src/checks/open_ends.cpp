@@ -108,10 +108,10 @@ template <int Dim>
 void check_direction(const CaseSpec& spec, const Opening<Dim>& end, Findings& findings) {
   for (int axis = 0; axis < Dim; ++axis) {
     if (periodic_range(spec.domain, axis).empty() || std::abs(end.normal[axis]) <= corner_tolerance) continue;
-    findings.push_back(
-        Finding::error({"{} at {} lets water {} in {}, but periodic_{} returns water in that direction", end.label(),
-                        place(end.corner), end.kind == OpeningKind::inlet ? "in" : "out", "xyz"[axis], "xyz"[axis]},
-                       {"remove the open end or periodic_{}", "xyz"[axis]}));
+    findings.push_back(Finding::error(
+        {"{} at {} lets water {} in {}, but with periodic_{} water returns to the other side", end.label(),
+         place(end.corner), end.kind == OpeningKind::inlet ? "in" : "out", "xyz"[axis], "xyz"[axis]},
+        {"remove the open end or periodic_{}", "xyz"[axis]}));
   }
 }
 

@@ -64,7 +64,7 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
   const auto late = std::ranges::count_if(probe.times, is_late);
   if (late == 0) return;
   findings.push_back(Finding::warning(
-      {"{}: {} of its {} times are after time.end = {:.6g} s, the last at {:.6g}, and are not taken", label(probe),
+      {"{}: {} of its {} times are after time.end = {:.6g} s, the last at {:.6g}; they give no readings", label(probe),
        late, probe.times.size(), spec.time.end, Amount{*std::ranges::max_element(probe.times), "s"}},
       {"end the run later, or leave them out"}));
 }

@@ -13,8 +13,7 @@ constexpr double largest_over_spacing = 15.0;
 /// Text with k_s, and with Manning's n if the wall has that.
 Clause roughness_text(const WallTable& wall, double roughness) {
   if (wall.manning == 0.0) return {"its roughness k_s = {:.3g}", Amount{roughness, "m"}};
-  return {"its roughness k_s = {:.3g}, which is that of manning = {:.6g} s/m^(1/3),", Amount{roughness, "m"},
-          wall.manning};
+  return {"its roughness k_s = {:.3g}, from manning = {:.6g} s/m^(1/3),", Amount{roughness, "m"}, wall.manning};
 }
 
 /// The largest value of the key for this roughness, as a remedy, rounded so that it does not exceed the bound.
@@ -44,8 +43,8 @@ Findings check_side_walls(const PhysicsTable& physics) {
   const double half = 0.5 * physics.channel_width;
   if (half == 0.0 || physics.channel_roughness <= half) return {};
   return {
-      Finding::error({"{} = {:.3g} is larger than half of the channel's width, {:.3g} m, over which the law of rough "
-                      "walls is averaged",
+      Finding::error({"{} = {:.3g} is larger than half of the channel's width, {:.3g} m, so the law of rough walls "
+                      "does not hold",
                       CaseLabel("physics").with_key("channel_roughness"), Amount{physics.channel_roughness, "m"}, half},
                      {"give a roughness of at most {:.3g} m", half})};
 }

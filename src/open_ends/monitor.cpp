@@ -21,7 +21,7 @@ constexpr double columns_that_wait = 3.0;
 /// may be below 0.
 std::string discharge_warning(const std::string& label, double time, double missing, double asked) {
   std::string_view problem = "draws less water than";
-  std::string_view remedy = "let it draw less, or make the opening or the water before it deeper";
+  std::string_view remedy = "let it draw less, or make the opening or the water in front of it deeper";
   if (missing * asked < 0.0) {
     problem = "passes more water than";
     remedy = "let it pass less, or use a smaller spacing";

@@ -97,7 +97,7 @@ std::vector<double> share_rank_log(const std::vector<double>& saved, std::size_t
 template <class Work>
 auto expecting_a_checkpoint(const std::filesystem::path& path, Work&& work) {
   const auto refuse = [&](const std::exception& error) {
-    throw IoError("checkpoint '{}' is not from this program: {}; remedy: remove it, to continue from the one before",
+    throw IoError("checkpoint '{}' is not from this program: {}; remedy: remove it, to continue from the previous one",
                   path.string(), error.what());
   };
   try {

@@ -25,7 +25,7 @@ void FolderOutput<Dim>::go_on_from(Simulation<Dim>& simulation, Checkpoint<Dim> 
                              checkpoint.is_repartitioned ? std::optional(std::move(checkpoint.cuts)) : std::nullopt)) {
     throw IoError(
         "the checkpoint does not fit the walls, bodies, open ends and probes of its case; remedy: remove the newest "
-        "file in '{}', to continue from the one before",
+        "file in '{}', to continue from the previous one",
         output_.folder().checkpoints().string());
   }
   keeper_.go_on_from(step);

@@ -1056,7 +1056,7 @@ TEST(Check, WhatAnInletCannotPassIsAnError) {
   fast.inlets[0].velocity = 50.0;
   expect_only(check(fast), Severity::error, {"at 50 m/s, which is implausible", "a velocity in m/s"});
   fast.inlets[0].velocity = 1.0;
-  expect_only(check(fast), Severity::error, {"level is given with a flow that is subcritical", "remove the level"});
+  expect_only(check(fast), Severity::error, {"level is given, but the flow is subcritical", "remove the level"});
   CaseSpec thin = flume(0.09);  // critical at 0.094 m
   expect_only(check(thin), Severity::warning,
               {"critical at a depth of 0.0938 m at most, less than the spacing of 0.1 m"});
