@@ -122,13 +122,14 @@ std::string case_help() {
 std::string case_reference_markdown() {
   std::string text = wrapped(
       "# The case file\n\n"
-      "For users who look up a table or a key. `tailwater run --help-case=markdown > docs/reference/case-file.md` writes "
-      "this page; change `src/case/spec.h` instead.\n\n"
+      "For users who look up a table or a key. `tailwater run --help-case=markdown > docs/reference/case-file.md` "
+      "writes this page; change `src/case/spec.h` instead.\n\n"
       "A case file is [TOML](https://toml.io). Unknown keys are errors, and all problems of a file are reported at "
       "once.\n\n"
       "## Numbers\n\n"
       "Numbers are SI, without units. Any number, also one in a list, may be written as an expression in quotes:\n\n"
-      "```toml\n# append to a case\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
+      "```toml\n# append to a case\n[parameters]\nH = 0.6\nL = \"2*H\"\n\n"
+      "[[fluid]]\nmin = [0, 0]\nmax = [\"L\", \"H\"]\n```\n\n"
       "- operators: `+ - * / ^` and parentheses; `^` binds tighter than the sign, `-2^2` is -4; `a < b ? c : d` is c "
       "or d\n"
       "- names: the keys of `[parameters]` (letters, digits, `_`), `pi`, `dx` = `particles.spacing`, `g` = the "
