@@ -55,7 +55,7 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, co
       dt_(equation.dt),
       drive_(drive),
       forces_(flow, bodies, flow.state.time),
-      gaps_(flow, bodies, flow.state.time) {
+      gaps_(flow, bodies.hulls(), flow.state.time) {
   for (std::size_t b = 0; b < bodies.bodies.size(); ++b) {
     for (const int entry : bodies.bodies[b].free) freedoms_.push_back({b, entry});
   }
@@ -81,8 +81,8 @@ template <int Dim>
 void BodyCoupling<Dim>::begin() {
   bodies_.stagnant = gaps_.find_stagnant();
   bodies_.has_stagnant_water = flow_.setup.ranks.any(!bodies_.stagnant.empty());
-  gaps_.measure();
-  gaps_.hold_water(flow_);
+  gaps_.measure(bodies_.stagnant);
+  gaps_.hold_water(flow_, bodies_.stagnant);
   allowed_tension_ = allowed_tension(flow_);
   add_air_stiffness();
 }
@@ -344,7 +344,7 @@ void BodyCoupling<Dim>::report_forces(const std::vector<Twist<Dim>>& forces) {
   for (std::size_t b = 0; b < forces.size(); ++b) {
     const int beside = gaps_.wall_beside(static_cast<int>(b));
     if (beside < 0) continue;
-    flow_.wall_forces.beside_walls.push_back({.body = static_cast<int>(b),
+    flow_.wall_forces.beside_walls.push_back({.walls = bodies_.bodies[b].walls,
                                               .beside = beside,
                                               .centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time),
                                               .force = forces[b].template head<Dim>(),

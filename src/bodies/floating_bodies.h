@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "bodies/hulls.h"
 #include "flow/flow.h"
 #include "flow/part.h"
 #include "geometry/wall_patches.h"
@@ -31,6 +32,12 @@ class FloatingBodies final : public Part<Dim> {
 
   /// Degrees of freedom of all bodies.
   std::size_t freedom_count() const;
+  Hulls<Dim> hulls() const {
+    return {.count = static_cast<int>(bodies.size()),
+            .of_wall = body_of_wall,
+            .surfaces = contact.each,
+            .patches = patches};
+  }
   /// Sets the velocity of each body after a step of dt with its present acceleration.
   void steer(Flow<Dim>& flow, double dt) const;
 

@@ -17,11 +17,20 @@ namespace {
 constexpr double closed_gap = 0.75;
 /// [dx]; a row of particles fits into a wider gap.
 constexpr double open_gap = 1.0;
-/// [dx]; gap width at which the effect of a film without water in it ends. It decreases from `open_gap` on.
-constexpr double widest_film = 1.5;
+/// [dx]; width of gaps beside fixed hulls in which the film takes the place of the water for the force. One or two rows
+/// there have too high a pressure, because they have less area than the gap.
+constexpr double closed_gap_of_fixed = 1.5;
+/// [dx]; the effect of a film without water in it decreases from `open_gap` on, and ends at a gap wider by this.
+constexpr double fading_film = 0.5;
 
-/// [dx]; pieces up to this distance from another wall belong to a gap.
-constexpr double widest_gap = 3.0;
+/// [dx]; a hull that can stand lies flat on a wall that is nearer than this and parallel.
+constexpr double flush_gap = 0.05;
+/// -cos of the angle between parallel walls, at least.
+constexpr double flush_cosine = 0.9999;
+/// [dx]; width up to which a flat contact counts as a line, beside which the pressure acts on the whole hull.
+constexpr double widest_line = 1.5;
+/// [dx]; size of the pieces by which a patch is divided where a hull stands in a wall.
+constexpr double longest_piece = 0.1;
 
 /// Least value of -cos of the angle between the normals of a piece and of the wall that it faces.
 constexpr double least_opposite = 0.5;
@@ -29,18 +38,17 @@ constexpr double least_opposite = 0.5;
 /// [dx]; pieces nearer to each other than this are neighbours.
 constexpr double reach_of_neighbours = 1.6;
 
-/// [dx]; a pair whose middle is farther than this from all pieces belongs to the rest of the body.
+/// [dx]; a pair whose middle is farther than this from all pieces belongs to the rest of the hull.
 constexpr double reach_of_pairs = 3.0;
 
-/// Sum of w W over the water from which on a piece counts as wet. In a right angle between a body and a bed the sum is
+/// Sum of w W over the water from which on a piece counts as wet. In a right angle between a hull and a bed the sum is
 /// 1/4, beside a row of particles in a gap of dx it is 0.3.
 constexpr double weight_beside_water = 0.15;
 
 }  // namespace
 
 template <int Dim>
-NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time)
-    : flow_(flow), bodies_(bodies) {
+NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const Hulls<Dim>& hulls, double time) : flow_(flow), hulls_(hulls) {
   find_pieces(time);
   if (pieces_.empty()) return;
   std::vector<Vec<Dim>> places;
@@ -57,24 +65,71 @@ template <int Dim>
 void NarrowGaps<Dim>::find_pieces(double time) {
   const double dx = flow_.setup.scale.spacing;
   const Boundary<Dim>& boundary = flow_.walls.boundary;
-  const double widest = widest_gap * dx;
-  for (const ContactSurface<Dim>& surface : bodies_.contact.each) {
+  const double widest = hulls_.reach * dx;
+  for (const ContactSurface<Dim>& surface : hulls_.surfaces) {
     placements_.push_back(placement_of(flow_, surface, time));
   }
-  for (const WallPatch<Dim>& patch : bodies_.patches) {
-    const int body = bodies_.body_of_wall[boundary.faces[patch.face].wall];
+  std::vector<std::uint8_t> is_flat;
+  if (hulls_.can_stand) is_flat = find_flat_contacts();
+  for (const WallPatch<Dim>& patch : hulls_.patches) {
+    const int hull = hulls_.of_wall[boundary.faces[patch.face].wall];
     const Vec<Dim> x = patch.centre(boundary);
-    const OtherWall wall = other_wall(body, x, widest);
+    const OtherWall wall = other_wall(hull, x, widest);
     if (wall.distance >= widest) continue;
+    const double measure = hulls_.can_stand ? wetted_measure(patch, wall, is_flat[hull] != 0) : patch.measure;
+    if (measure == 0.0) continue;
     const double gap = std::max(0.0, wall.distance);
-    pieces_.push_back({.body = body,
+    const double facing = -boundary.faces[patch.face].normal.dot(wall.normal);
+    pieces_.push_back({.hull = hull,
                        .other_wall = wall.wall,
                        .x = x,
-                       .towards_body = wall.normal,
+                       .towards_hull = wall.normal,
                        .gap = gap,
-                       .surface = -patch.measure * boundary.faces[patch.face].normal,
-                       .film = film_at(gap, -boundary.faces[patch.face].normal.dot(wall.normal))});
+                       .surface = -measure * boundary.faces[patch.face].normal,
+                       .faces = facing >= least_opposite,
+                       .film = film_at(gap, facing)});
   }
+}
+
+template <int Dim>
+bool NarrowGaps<Dim>::is_flush(const WallPatch<Dim>& patch, const OtherWall& wall) const {
+  return std::abs(wall.distance) < flush_gap * flow_.setup.scale.spacing &&
+         -flow_.walls.boundary.faces[patch.face].normal.dot(wall.normal) > flush_cosine;
+}
+
+/// A round hull that is drawn with straight sides may lie on one of them. So narrow a contact counts as a line.
+template <int Dim>
+std::vector<std::uint8_t> NarrowGaps<Dim>::find_flat_contacts() const {
+  std::vector<double> measure(static_cast<std::size_t>(hulls_.count), 0.0);
+  std::vector<Box<Dim>> box(measure.size());
+  for (const WallPatch<Dim>& patch : hulls_.patches) {
+    const int hull = hulls_.of_wall[flow_.walls.boundary.faces[patch.face].wall];
+    const Vec<Dim> x = patch.centre(flow_.walls.boundary);
+    if (!is_flush(patch, other_wall(hull, x, flush_gap * flow_.setup.scale.spacing))) continue;
+    measure[hull] += patch.measure;
+    box[hull].extend(x);
+  }
+  std::vector<std::uint8_t> is_flat(measure.size(), 0);
+  for (std::size_t k = 0; k < measure.size(); ++k) {
+    if (measure[k] == 0.0) continue;
+    const double length = std::max(box[k].sizes().norm(), flow_.setup.scale.spacing);
+    is_flat[k] = measure[k] > widest_line * flow_.setup.scale.spacing * (Dim == 2 ? 1.0 : length);
+  }
+  return is_flat;
+}
+
+template <int Dim>
+double NarrowGaps<Dim>::wetted_measure(const WallPatch<Dim>& patch, const OtherWall& wall, bool is_flat_there) const {
+  const Boundary<Dim>& boundary = flow_.walls.boundary;
+  if (is_flush(patch, wall)) return is_flat_there ? 0.0 : patch.measure;
+  const double dx = flow_.setup.scale.spacing;
+  if (wall.distance > dx) return patch.measure;
+  const int hull = hulls_.of_wall[boundary.faces[patch.face].wall];
+  const std::vector<WallPatch<Dim>> pieces = pieces_of(patch, boundary, longest_piece * dx);
+  const auto in_front = std::ranges::count_if(pieces, [&](const WallPatch<Dim>& piece) {
+    return other_wall(hull, piece.centre(boundary), widest_gap * dx).distance > 0.0;
+  });
+  return patch.measure * static_cast<double>(in_front) / static_cast<double>(pieces.size());
 }
 
 template <int Dim>
@@ -82,7 +137,7 @@ template <class Visit>
 void NarrowGaps<Dim>::visit_near(const Piece& piece, double reach, Visit&& visit) const {
   places_.for_each_near(piece.x, [&](std::int32_t m) {
     const Piece& other = pieces_[m];
-    if (other.body == piece.body && (other.x - piece.x).norm() < reach * flow_.setup.scale.spacing) {
+    if (other.hull == piece.hull && (other.x - piece.x).norm() < reach * flow_.setup.scale.spacing) {
       visit(static_cast<std::size_t>(m));
     }
   });
@@ -174,14 +229,14 @@ void NarrowGaps<Dim>::find_shares() {
 }
 
 template <int Dim>
-double NarrowGaps<Dim>::width_at(int body, const Vec<Dim>& x) const {
+double NarrowGaps<Dim>::width_at(int hull, const Vec<Dim>& x) const {
   const double dx = flow_.setup.scale.spacing;
-  const double widest = widest_film * dx;
-  const auto surface = std::ranges::find(bodies_.contact.each, body, &ContactSurface<Dim>::body);
-  const AffineMap<Dim>& placement = placements_[static_cast<std::size_t>(surface - bodies_.contact.each.begin())];
+  const double widest = widest_film() * dx;
+  const auto surface = std::ranges::find(hulls_.surfaces, hull, &ContactSurface<Dim>::hull);
+  const AffineMap<Dim>& placement = placements_[static_cast<std::size_t>(surface - hulls_.surfaces.begin())];
   const NearestWall<Dim> own = surface->boundary.nearest(placement.inverse(x), widest);
   if (own.face < 0) return widest;
-  const OtherWall wall = other_wall(body, x, widest - own.signed_distance);
+  const OtherWall wall = other_wall(hull, x, widest - own.signed_distance);
   const Vec<Dim> normal = placement.linear * surface->boundary.faces[own.face].normal;
   return -wall.normal.dot(normal) < least_opposite ? widest : std::max(0.0, own.signed_distance + wall.distance);
 }
@@ -189,14 +244,14 @@ double NarrowGaps<Dim>::width_at(int body, const Vec<Dim>& x) const {
 template <int Dim>
 void NarrowGaps<Dim>::find_water() {
   const Particles<Dim>& particles = flow_.state.particles;
-  for (int body = 0; body < static_cast<int>(bodies_.bodies.size()); ++body) {
-    if (std::ranges::none_of(pieces_, [&](const Piece& piece) { return piece.body == body && piece.film > 0.0; })) {
+  for (int hull = 0; hull < hulls_.count; ++hull) {
+    if (std::ranges::none_of(pieces_, [&](const Piece& piece) { return piece.hull == hull && piece.film > 0.0; })) {
       continue;
     }
     for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are in gaps
-      if (!particles.is_fluid(i) || nearest_piece(body, particles.position[i]) < 0) continue;
-      const double width = width_at(body, particles.position[i]);
-      if (width < widest_film * flow_.setup.scale.spacing) water_.push_back({i, body, width});
+      if (!particles.is_fluid(i) || nearest_piece(hull, particles.position[i]) < 0) continue;
+      const double width = width_at(hull, particles.position[i]);
+      if (width < widest_film() * flow_.setup.scale.spacing) water_.push_back({i, hull, width});
     }
   }
 }
@@ -204,8 +259,9 @@ void NarrowGaps<Dim>::find_water() {
 template <int Dim>
 std::vector<std::size_t> NarrowGaps<Dim>::find_stagnant() const {
   std::vector<std::size_t> stagnant;
+  const double closed = hulls_.can_stand ? closed_gap_of_fixed : closed_gap;
   for (const WaterInGap& water : water_) {
-    if (water.width < closed_gap * flow_.setup.scale.spacing && flow_.role[water.i] == Role::water) {
+    if (water.width < closed * flow_.setup.scale.spacing && flow_.role[water.i] == Role::water) {
       stagnant.push_back(water.i);
     }
   }
@@ -216,12 +272,12 @@ std::vector<std::size_t> NarrowGaps<Dim>::find_stagnant() const {
 
 // Writes rows like that of a dummy: stagnant water acts like a dummy on the water beside it.
 template <int Dim>
-void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
+void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow, std::span<const std::size_t> stagnant) const {
   if (pieces_.empty()) return;
   Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   const Eigen::VectorXd p = find_pressure(particles.pressure);
-  for (const std::size_t i : bodies_.stagnant) {
+  for (const std::size_t i : stagnant) {
     flow.role[i] = Role::stagnant;
     particles.velocity[i].setZero();
     Vec<Dim> offsets = Vec<Dim>::Zero();
@@ -237,16 +293,16 @@ void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow) const {
       row.finish(sum, weight_of(offsets));
     } else {
       const auto own = std::ranges::find(water_, i, &WaterInGap::i);
-      row.finish(1.0, p[nearest_piece(own->body, particles.position[i])]);
+      row.finish(1.0, p[nearest_piece(own->hull, particles.position[i])]);
     }
   }
 }
 
 template <int Dim>
-void NarrowGaps<Dim>::measure() {
+void NarrowGaps<Dim>::measure(std::span<const std::size_t> stagnant) {
   if (pieces_.empty()) return;
   is_stagnant_.assign(flow_.state.particles.size(), 0.0);
-  for (const std::size_t i : bodies_.stagnant) is_stagnant_[i] = 1.0;
+  for (const std::size_t i : stagnant) is_stagnant_[i] = 1.0;
   flow_.halo().exchange(is_stagnant_);
   look_at_water();
   find_shares();
@@ -254,13 +310,13 @@ void NarrowGaps<Dim>::measure() {
 }
 
 template <int Dim>
-std::int32_t NarrowGaps<Dim>::nearest_piece(int body, const Vec<Dim>& x) const {
+std::int32_t NarrowGaps<Dim>::nearest_piece(int hull, const Vec<Dim>& x) const {
   std::int32_t nearest = -1;
   if (!around_.contains(x)) return nearest;
   double least = reach_of_pairs * flow_.setup.scale.spacing;
   places_.for_each_near(x, [&](std::int32_t n) {
     const double distance = (x - pieces_[n].x).norm();
-    if (pieces_[n].body != body || distance >= least) return;
+    if (pieces_[n].hull != hull || distance >= least) return;
     nearest = n;
     least = distance;
   });
@@ -268,12 +324,12 @@ std::int32_t NarrowGaps<Dim>::nearest_piece(int body, const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int body, const Vec<Dim>& x, double reach) const {
+typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int hull, const Vec<Dim>& x, double reach) const {
   const double dx = flow_.setup.scale.spacing;
   OtherWall nearest{-1, reach, Vec<Dim>::Zero()};
-  for (std::size_t s = 0; s < bodies_.contact.each.size(); ++s) {
-    const ContactSurface<Dim>& surface = bodies_.contact.each[s];
-    if (surface.body == body) continue;
+  for (std::size_t s = 0; s < hulls_.surfaces.size(); ++s) {
+    const ContactSurface<Dim>& surface = hulls_.surfaces[s];
+    if (surface.hull == hull) continue;
     const Vec<Dim> drawn = placements_[s].inverse(x);
     const NearestWall<Dim> wall = surface.boundary.nearest(drawn, reach);
     if (wall.face < 0 || wall.signed_distance >= nearest.distance) continue;
@@ -286,16 +342,26 @@ typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int body, const 
   return nearest;
 }
 
-/// Film fraction of a place outside a body: 1 in a gap too narrow for a row of particles.
+template <int Dim>
+double NarrowGaps<Dim>::widest_film() const {
+  return (hulls_.can_stand ? closed_gap_of_fixed : open_gap) + fading_film;
+}
+
+/// Film fraction of a place outside a hull: 1 in a gap too narrow for a row of particles.
 template <int Dim>
 double NarrowGaps<Dim>::film_at(double width, double facing) const {
-  if (facing < least_opposite) return 0.0;
-  return std::clamp((widest_film - width / flow_.setup.scale.spacing) / (widest_film - open_gap), 0.0, 1.0);
+  return facing < least_opposite ? 0.0 : film_share(width);
+}
+
+template <int Dim>
+double NarrowGaps<Dim>::film_share(double width) const {
+  return std::clamp((widest_film() - width / flow_.setup.scale.spacing) / fading_film, 0.0, 1.0);
 }
 
 /// Fraction of the missing pair forces that is added: 1 beside a gap too narrow for a row of particles.
 template <int Dim>
 double NarrowGaps<Dim>::share_beside(const Piece& piece) const {
+  if (hulls_.can_stand) return film_share(piece.nearest);
   return std::clamp((resolved_gap - piece.nearest / flow_.setup.scale.spacing) / (resolved_gap - open_gap), 0.0, 1.0);
 }
 
@@ -312,10 +378,10 @@ void NarrowGaps<Dim>::add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& for
   both.add_to(sums.data() + static_cast<std::size_t>(n) * twist_size);
 }
 
-// The force of a pair acts midway between its ends, which is on the surface of the body on average. Acting at the wall
+// The force of a pair acts midway between its ends, which is on the surface of the hull on average. Acting at the wall
 // particle, it would move a force of first order in dx from one side of an edge to the other (docs/theory/probes.md).
 template <int Dim>
-void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int body, std::vector<double>& sums) const {
+void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int hull, std::vector<double>& sums) const {
   const Particles<Dim>& particles = flow_.state.particles;
   const Pairs<Dim>& pairs = flow_.pairs();
   const Vec<Dim>& x = flow_.walls.particles.position[particles.wall_row[i]];
@@ -323,10 +389,10 @@ void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int body, std::vector<double
     const auto j = static_cast<std::size_t>(pairs.j[k]);
     if (!particles.is_fluid(j) || is_stagnant_[j] != 0.0) continue;
     const Vec<Dim> middle = x - 0.5 * pairs.d(i, k);
-    const std::int32_t n = nearest_piece(body, middle);
+    const std::int32_t n = nearest_piece(hull, middle);
     if (n < 0) continue;
     const Piece& piece = pieces_[n];
-    const double share = share_beside(piece) * share_at(piece.gap + piece.towards_body.dot(middle - piece.x));
+    const double share = share_beside(piece) * share_at(piece.gap + piece.towards_hull.dot(middle - piece.x));
     if (share == 0.0) continue;
     const double unit = 2.0 * share * particles.volume[i] * particles.volume[j];
     add(n, middle, unit * flow_.surroundings.pair_vectors.at(pairs, i, k), sums);
@@ -340,9 +406,9 @@ void NarrowGaps<Dim>::measure_pairs() {
   std::vector<double> sums(twist_size * pieces_.size(), 0.0);
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: pairs beside one piece add up
     if (particles.is_fluid(i)) continue;
-    const int body = bodies_.body_of_wall[table.wall[particles.wall_row[i]]];
-    if (body < 0 || nearest_piece(body, table.position[particles.wall_row[i]]) < 0) continue;
-    if (flow_.surroundings.is_wet[i]) subtract_pairs(i, body, sums);
+    const int hull = hulls_.of_wall[table.wall[particles.wall_row[i]]];
+    if (hull < 0 || nearest_piece(hull, table.position[particles.wall_row[i]]) < 0) continue;
+    if (flow_.surroundings.is_wet[i]) subtract_pairs(i, hull, sums);
   }
   flow_.setup.ranks.sum_of_each(sums);
   for (std::size_t n = 0; n < pieces_.size(); ++n) {

@@ -1,6 +1,7 @@
-// Forces on floating bodies beside other walls. The force of the water on a body is the integral of the pressure over
-// its surface. The volume of another wall has no pairs with the body, nor does a gap that is too narrow for a row of
-// particles. A piece of the body's surface there therefore receives the missing force p m with
+// Forces on hulls beside other walls. A hull is a floating body, or a fixed wall that water surrounds. The force of the
+// water on it is the integral of the pressure over its surface. The volume of another wall has no pairs with the hull,
+// nor does a gap that is too narrow for a row of particles. A piece of the hull's surface there therefore receives the
+// missing force p m with
 //
 //   m = s (-A n - sum of the pair forces for a pressure of 1),
 //
@@ -18,10 +19,13 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "base/box.h"
 #include "bodies/floating_bodies.h"
+#include "bodies/hulls.h"
 #include "neighbours/cell_grid.h"
 
 namespace tailwater {
@@ -30,17 +34,16 @@ template <int Dim>
 class NarrowGaps {
  public:
   /// With walls and water at their present positions, at `time` [s].
-  NarrowGaps(const Flow<Dim>& flow, const FloatingBodies<Dim>& bodies, double time);
+  NarrowGaps(const Flow<Dim>& flow, const Hulls<Dim>& hulls, double time);
 
-  /// Owned water in gaps that are narrower than 0.75 dx.
+  /// Owned water in gaps that are narrower than 0.75 dx, beside fixed hulls 1.5 dx.
   std::vector<std::size_t> find_stagnant() const;
-  /// Measures the pair forces of the water that is not stagnant per pressure. Call when the stagnant water is known.
-  /// Collective.
-  void measure();
+  /// Measures the pair forces of the water that is not stagnant per pressure. Collective.
+  void measure(std::span<const std::size_t> stagnant);
   /// Holds the stagnant water at rest, with the pressure of the water around it. Changes the flow's rows. Collective.
-  void hold_water(Flow<Dim>& flow) const;
+  void hold_water(Flow<Dim>& flow, std::span<const std::size_t> stagnant) const;
 
-  /// Calls push(body, x, force, couple) for the force that pairs miss on each piece of a body in `pressure` [Pa], which
+  /// Calls push(hull, x, force, couple) for the force that pairs miss on each piece of a hull in `pressure` [Pa], which
   /// is up to date. All ranks make the same calls. Collective.
   template <class Push>
   void visit_forces(const std::vector<double>& pressure, Push&& push) const {
@@ -49,11 +52,11 @@ class NarrowGaps {
       const double on_piece = p[static_cast<Eigen::Index>(n)];
       const Piece& piece = pieces_[n];
       if (on_piece > 0.0)
-        push(piece.body, piece.x, Vec<Dim>(on_piece * piece.area), Turn<Dim>(on_piece * piece.couple));
+        push(piece.hull, piece.x, Vec<Dim>(on_piece * piece.area), Turn<Dim>(on_piece * piece.couple));
     }
   }
 
-  /// Calls push(body, x, force) for the pair forces of owned stagnant water on bodies, which the film replaces.
+  /// Calls push(hull, x, force) for the pair forces of owned stagnant water on hulls, which the film replaces.
   template <class Push>
   void visit_pairs_in_films(const std::vector<double>& pressure, Push&& push) const {
     const Particles<Dim>& particles = flow_.state.particles;
@@ -62,18 +65,30 @@ class NarrowGaps {
       visit_pair_forces(flow_, water.i, pressure, [&](std::size_t j, const Vec<Dim>& force) {
         if (particles.is_fluid(j)) return;
         const auto row = particles.wall_row[j];
-        if (bodies_.body_of_wall[flow_.walls.particles.wall[row]] != water.body) return;
-        push(water.body, flow_.walls.particles.position[row], force);
+        if (hulls_.of_wall[flow_.walls.particles.wall[row]] != water.hull) return;
+        push(water.hull, flow_.walls.particles.position[row], force);
       });
     }
   }
 
-  /// The nearest other wall of a body that has a force here, else -1.
-  int wall_beside(int body) const {
+  /// The nearest other wall of a hull that has a force here, else -1.
+  int wall_beside(int hull) const {
     int wall = -1;
     double least = resolved_gap * flow_.setup.scale.spacing;
     for (const Piece& piece : pieces_) {
-      if (piece.body != body || piece.gap >= least) continue;
+      if (piece.hull != hull || piece.gap >= least) continue;
+      least = piece.gap;
+      wall = piece.other_wall;
+    }
+    return wall;
+  }
+
+  /// The wall across the narrowest gap of a hull within the reach of pairs, else -1.
+  int wall_across(int hull) const {
+    int wall = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Piece& piece : pieces_) {
+      if (piece.hull != hull || !piece.faces || piece.gap >= least) continue;
       least = piece.gap;
       wall = piece.other_wall;
     }
@@ -86,12 +101,13 @@ class NarrowGaps {
   static constexpr double resolved_gap = 1.75;
 
   struct Piece {
-    int body;
+    int hull;
     int other_wall;                        ///< index into Boundary::walls
-    Vec<Dim> x;                            ///< on the body
-    Vec<Dim> towards_body;                 ///< unit normal from the wall
+    Vec<Dim> x;                            ///< on the hull
+    Vec<Dim> towards_hull;                 ///< unit normal from the wall
     double gap;                            ///< m
     Vec<Dim> surface;                      ///< m^(Dim-1); force of a pressure of 1 on it
+    bool faces;                            ///< whether water can be between it and a wall that faces it
     double film;                           ///< film fraction where there is no water: 1 in a gap too narrow for a row
     Vec<Dim> area = Vec<Dim>::Zero();      ///< m^(Dim-1); missing force per pressure
     Turn<Dim> couple = Turn<Dim>::Zero();  ///< m^Dim; missing couple per pressure, about x
@@ -103,7 +119,7 @@ class NarrowGaps {
     std::vector<double> weights = {};      ///< w W of these particles at x
   };
 
-  /// The nearest wall that does not belong to the body.
+  /// The nearest wall that does not belong to the hull.
   struct OtherWall {
     int wall;         ///< index into Boundary::walls, or -1
     double distance;  ///< m; negative behind the wall
@@ -113,13 +129,22 @@ class NarrowGaps {
   /// Owned water in a gap that has a film.
   struct WaterInGap {
     std::size_t i;
-    int body;
+    int hull;
     double width;  ///< m; of the gap
   };
 
   void find_pieces(double time);
-  OtherWall other_wall(int body, const Vec<Dim>& x, double reach) const;
+  OtherWall other_wall(int hull, const Vec<Dim>& x, double reach) const;
+  /// [dx]; width of a gap at which the effect of a film without water in it ends.
+  double widest_film() const;
   double film_at(double width, double facing) const;
+  double film_share(double width) const;
+  /// Whether the patch lies on the wall.
+  bool is_flush(const WallPatch<Dim>& patch, const OtherWall& wall) const;
+  /// By hull, whether it lies flat on other walls.
+  std::vector<std::uint8_t> find_flat_contacts() const;
+  /// Measure of the part of a patch that is in front of other walls and does not lie on them.
+  double wetted_measure(const WallPatch<Dim>& patch, const OtherWall& wall, bool is_flat_there) const;
   void find_water();
   void number_gaps();
   void find_nearest();
@@ -127,15 +152,15 @@ class NarrowGaps {
   void measure_pairs();
   void find_shares();
   bool is_film(const Piece& piece) const;
-  /// Width [m] of the gap between a body and another wall at x, at most that of the widest film.
-  double width_at(int body, const Vec<Dim>& x) const;
+  /// Width [m] of the gap between a hull and another wall at x, at most that of the widest film.
+  double width_at(int hull, const Vec<Dim>& x) const;
   double share_beside(const Piece& piece) const;
   double share_at(double gap) const;
   /// Adds a force per pressure at x to the sums of piece n.
   void add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& force, std::vector<double>& sums) const;
-  void subtract_pairs(std::size_t i, int body, std::vector<double>& sums) const;
-  /// The piece of the body that is nearest to x, or -1.
-  std::int32_t nearest_piece(int body, const Vec<Dim>& x) const;
+  void subtract_pairs(std::size_t i, int hull, std::vector<double>& sums) const;
+  /// The piece of the hull that is nearest to x, or -1.
+  std::int32_t nearest_piece(int hull, const Vec<Dim>& x) const;
   template <class Visit>
   void visit_near(const Piece& piece, double reach, Visit&& visit) const;
   /// Pressure [Pa] at each piece.
@@ -143,8 +168,8 @@ class NarrowGaps {
   double weight_of(const Vec<Dim>& x) const { return flow_.setup.liquid.density * flow_.setup.gravity.dot(x); }
 
   const Flow<Dim>& flow_;
-  const FloatingBodies<Dim>& bodies_;
-  std::vector<AffineMap<Dim>> placements_;  ///< of the surfaces that bodies can touch
+  Hulls<Dim> hulls_;
+  std::vector<AffineMap<Dim>> placements_;  ///< of the surfaces
   std::vector<Piece> pieces_;               ///< identical on all ranks, except for the water
   std::vector<std::size_t> films_;          ///< pieces whose pressure is that of a film
   std::vector<std::size_t> rim_;            ///< pieces beside films

@@ -62,12 +62,31 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
   }
   const std::vector<WallPatch<Dim>> patches = make_wall_patches(boundary, longest_patch_edge * spacing);
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
-    surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return body_of_wall[wall] == b; }), -1, b});
+    surfaces.each.push_back({part_of(boundary, reach, [&](int wall) { return body_of_wall[wall] == b; }), -1, b, b});
     surfaces.points.push_back(points_of(bodies[b], boundary, patches));
   }
   return surfaces;
 }
 
+template <int Dim>
+std::vector<ContactSurface<Dim>> make_hull_surfaces(const Boundary<Dim>& boundary, const std::vector<int>& hulls,
+                                                    const std::vector<int>& body_of_wall, double spacing) {
+  const double reach = reach_behind_walls * spacing;
+  std::vector<int> hull_of_wall(boundary.walls.size(), -1);
+  for (std::size_t k = 0; k < hulls.size(); ++k) hull_of_wall[hulls[k]] = static_cast<int>(k);
+  std::vector<ContactSurface<Dim>> surfaces;
+  surfaces.push_back(
+      {part_of(boundary, reach, [&](int wall) { return !boundary.walls[wall].moves() && hull_of_wall[wall] < 0; })});
+  for (int w = 0; w < static_cast<int>(boundary.walls.size()); ++w) {
+    const bool moves = boundary.walls[w].moves();
+    if (body_of_wall[w] >= 0 || (!moves && hull_of_wall[w] < 0)) continue;
+    surfaces.push_back(
+        {part_of(boundary, reach, [&](int wall) { return wall == w; }), moves ? w : -1, -1, hull_of_wall[w]});
+  }
+  return surfaces;
+}
+
 TAILWATER_IN_2D_AND_3D(make_contact_surfaces);
+TAILWATER_IN_2D_AND_3D(make_hull_surfaces);
 
 }  // namespace tailwater

@@ -1,4 +1,4 @@
-// Surfaces at which floating bodies can touch each other and all other walls.
+// Surfaces at which floating bodies can touch each other and all other walls, and between which narrow gaps can be.
 #pragma once
 
 #include <vector>
@@ -21,6 +21,7 @@ struct ContactSurface {
   Boundary<Dim> boundary;
   int wall = -1;  ///< index into Boundary::walls of a wall with prescribed motion, else -1
   int body = -1;  ///< index of the body to which the walls belong, or -1
+  int hull = -1;  ///< index of the hull to which the walls belong, or -1; of a body the same as `body`
 };
 
 template <int Dim>
@@ -33,5 +34,10 @@ struct ContactSurfaces {
 template <int Dim>
 ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const std::vector<FloatingBody<Dim>>& bodies,
                                            double spacing);
+
+/// The surfaces of a case with fixed hulls, where hull k is the wall `hulls[k]`. The walls of bodies are left out.
+template <int Dim>
+std::vector<ContactSurface<Dim>> make_hull_surfaces(const Boundary<Dim>& boundary, const std::vector<int>& hulls,
+                                                    const std::vector<int>& body_of_wall, double spacing);
 
 }  // namespace tailwater

@@ -8,11 +8,12 @@
 
 namespace tailwater {
 
-/// Pressure force on a floating body beside another wall, where the forces of pairs are incomplete.
+/// Pressure force on a hull, a floating body or a wall that water surrounds, beside another wall, where the forces of
+/// pairs are incomplete.
 template <int Dim>
 struct ForceBesideWall {
-  int body;
-  int beside;  ///< the nearest other wall, an index into Boundary::walls
+  std::vector<int> walls;  ///< of the hull, indices into Boundary::walls
+  int beside;              ///< the nearest other wall
   Vec<Dim> centre;
   Vec<Dim> force;                ///< N
   Vec<Dim == 2 ? 1 : 3> moment;  ///< N m; about the centre

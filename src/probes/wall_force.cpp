@@ -106,27 +106,41 @@ class WallForceProbe {
     return found;
   }
 
-  /// Beside another wall the pressure's force on a body is not that of its pairs alone. The rest has its reaction on
+  /// Beside another wall the pressure's force on a hull is not that of its pairs alone. The rest has its reaction on
   /// that wall, so the sum of all walls stays. Collective.
   WallLoads<Dim> loads_beside_walls(const ProbeContext<Dim>& context,
                                     const std::vector<AffineMap<Dim>>& velocity) const {
     WallLoads<Dim> sum;
-    for (const ForceBesideWall<Dim>& one : context.wall_forces->beside_walls) {
-      const auto is_of_body = [&](int wall) { return body_of_[wall] == one.body; };
-      const bool has_body = takes_all_of(context.boundary, is_of_body);
+    const auto& all = context.wall_forces->beside_walls;
+    for (const ForceBesideWall<Dim>& one : all) {
+      const auto is_of_hull = [&](int wall) { return std::ranges::find(one.walls, wall) != one.walls.end(); };
+      const bool has_hull = takes_all_of(context.boundary, is_of_hull);
       const bool has_wall = takes_all_of(context.boundary, [&](int wall) { return wall == one.beside; });
-      if (has_body == has_wall) continue;
-      const WallLoads<Dim> of_pairs = pressure_of_pairs(context, velocity, is_of_body);
-      const double sign = has_body ? 1.0 : -1.0;
+      const bool is_beside_hull = std::ranges::any_of(all, [&](const ForceBesideWall<Dim>& other) {
+        return std::ranges::find(other.walls, one.beside) != other.walls.end();
+      });  // which has a force of its own here
+      if (has_hull ? has_wall && !is_beside_hull : !has_wall || is_beside_hull) continue;
+      const WallLoads<Dim> of_pairs = pressure_of_pairs(context, velocity, is_of_hull);
+      const double sign = has_hull ? 1.0 : -1.0;
       const Vec<Dim> force = one.force - of_pairs.pressure;
       const Moment<Dim> about = moment(one.centre, one.force) + one.moment - of_pairs.moment;
       const Moment<Dim> about_centre = about - moment(one.centre, force);
-      const BodyState<Dim>& body = context.bodies[one.body];
+      const AffineMap<Dim>& motion = velocity[one.walls.front()];
       sum.pressure += sign * force;
       sum.moment += sign * about;
-      if (has_body) sum.power -= force.dot(body.linear_velocity()) + about_centre.dot(body.angular_velocity());
+      if (has_hull) sum.power -= force.dot(motion(one.centre)) + about_centre.dot(turn_of(motion));
     }
     return sum;
+  }
+
+  /// Angular velocity of a wall.
+  static Turn<Dim> turn_of(const AffineMap<Dim>& velocity) {
+    const Mat<Dim>& m = velocity.linear;
+    if constexpr (Dim == 2) {
+      return Turn<2>(m(1, 0));
+    } else {
+      return {m(2, 1), m(0, 2), m(1, 0)};
+    }
   }
 
   /// Whether the probe is for all of the walls for which is_part(wall).

@@ -1,0 +1,142 @@
+#include "bodies/fixed_hulls.h"
+
+#include <algorithm>
+
+#include "air/enclosed_air.h"
+#include "bodies/narrow_gaps.h"
+
+namespace tailwater {
+namespace {
+
+/// Whether water surrounds a wall of the case.
+bool is_hull(const WallTable& wall) {
+  const bool is_closed =
+      wall.shape == WallShape::polygon || wall.shape == WallShape::box || wall.shape == WallShape::mesh;
+  return is_closed && wall.fluid_side == FluidSide::outside;
+}
+
+}  // namespace
+
+template <int Dim>
+FixedHulls<Dim>::FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hulls, const std::vector<int>& body_of_wall,
+                            double spacing)
+    : hulls_(std::move(hulls)),
+      hull_of_wall_(boundary.walls.size(), -1),
+      surfaces_(make_hull_surfaces(boundary, hulls_, body_of_wall, spacing)) {
+  for (std::size_t k = 0; k < hulls_.size(); ++k) hull_of_wall_[hulls_[k]] = static_cast<int>(k);
+  const bool moves = std::ranges::any_of(boundary.walls, &WallProperties::moves);
+  const double reach = reach_of_shares * spacing;
+  for (const WallPatch<Dim>& patch : make_wall_patches(boundary, spacing)) {
+    const int hull = hull_of_wall_[boundary.faces[patch.face].wall];
+    const auto is_near = [&](const ContactSurface<Dim>& surface) {
+      return surface.hull != hull && surface.boundary.nearest(patch.centre(boundary), reach).face >= 0;
+    };
+    if (hull >= 0 && (moves || std::ranges::any_of(surfaces_, is_near))) patches_.push_back(patch);
+  }
+}
+
+/// Where all walls rest, hulls that no wall faces are dropped for good.
+template <int Dim>
+void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
+  const Boundary<Dim>& boundary = flow.walls.boundary;
+  if (std::ranges::any_of(boundary.walls, &WallProperties::moves)) return;
+  const NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
+  std::erase_if(patches_, [&](const WallPatch<Dim>& patch) {
+    return gaps.wall_across(hull_of_wall_[boundary.faces[patch.face].wall]) < 0;
+  });
+}
+
+/// Moments are about the origin.
+template <int Dim>
+ForceSums<Dim> FixedHulls<Dim>::new_sums(const Flow<Dim>& flow) const {
+  return ForceSums<Dim>(flow.setup.ranks, std::vector<Vec<Dim>>(hulls_.size(), Vec<Dim>(Vec<Dim>::Zero())));
+}
+
+template <int Dim>
+void FixedHulls<Dim>::report(Flow<Dim>& flow) {
+  reported_.clear();
+  if (!has_hulls() || !air_of(flow).state.pockets.empty()) return;
+  NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
+  gaps.measure(gaps.find_stagnant());
+  for (std::size_t k = 0; k < hulls_.size(); ++k) {
+    const int beside = gaps.wall_across(static_cast<int>(k));
+    if (beside < 0) continue;
+    reported_.push_back(k);
+    flow.wall_forces.beside_walls.push_back({.walls = {hulls_[k]},
+                                             .beside = beside,
+                                             .centre = Vec<Dim>::Zero(),
+                                             .force = Vec<Dim>::Zero(),
+                                             .moment = Turn<Dim>::Zero()});
+  }
+  if (reported_.empty()) return;
+  const std::vector<double>& pressure = flow.state.particles.pressure;
+  ForceSums<Dim> sums = new_sums(flow);
+  add_pressure_of_pairs<Dim>(flow, hull_of_wall_, pressure, sums);
+  const bool is_root = flow.setup.ranks.is_root();
+  gaps.visit_forces(pressure, [&](int hull, const Vec<Dim>& x, const Vec<Dim>& force, const Turn<Dim>& couple) {
+    if (is_root) sums.add(hull, x, force, couple);
+  });
+  gaps.visit_pairs_in_films(pressure,
+                            [&](int hull, const Vec<Dim>& x, const Vec<Dim>& force) { sums.add(hull, x, -force); });
+  add_to_report(flow, sums);
+}
+
+template <int Dim>
+void FixedHulls<Dim>::add_to_report(Flow<Dim>& flow, ForceSums<Dim>& sums) const {
+  const std::vector<Twist<Dim>> forces = sums.gather();
+  for (ForceBesideWall<Dim>& one : flow.wall_forces.beside_walls) {
+    const int hull = hull_of_wall_[one.walls.front()];
+    if (hull < 0) continue;
+    one.force += forces[hull].template head<Dim>();
+    one.moment += forces[hull].template tail<turns<Dim>>();
+  }
+}
+
+template <int Dim>
+void FixedHulls<Dim>::stay(Flow<Dim>& flow) {
+  report(flow);
+}
+
+template <int Dim>
+void FixedHulls<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
+  report(flow);
+}
+
+template <int Dim>
+void FixedHulls<Dim>::project_again(Flow<Dim>& flow, const std::vector<double>& correction, double /*dt*/) {
+  if (reported_.empty()) return;
+  ForceSums<Dim> sums = new_sums(flow);
+  add_pressure_of_pairs<Dim>(flow, hull_of_wall_, correction, sums);
+  add_to_report(flow, sums);
+}
+
+template <int Dim>
+void FixedHulls<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*start*/, double /*dt*/) {
+  if (reported_.empty()) return;
+  ForceSums<Dim> sums = new_sums(flow);
+  add_guard<Dim>(flow, hull_of_wall_, sums);
+  add_to_report(flow, sums);
+}
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_fixed_hulls(const CaseSpec& spec, const Setup<Dim>& setup,
+                                            const Boundary<Dim>& boundary) {
+  const bool is_covered = spec.scheme.formulation == Formulation::robust && spec.liquids.empty() &&
+                          spec.refinement.empty() && has_force_probe(spec);
+  if (!is_covered) return nullptr;
+  const std::vector<int> body_of_wall = bodies_of_walls(make_bodies<Dim>(spec), boundary.walls.size());
+  std::vector<int> hulls;
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    if (is_hull(spec.walls[w]) && body_of_wall[w] < 0) hulls.push_back(static_cast<int>(w));
+  }
+  if (hulls.empty()) return nullptr;
+  auto part = std::make_unique<FixedHulls<Dim>>(boundary, std::move(hulls), body_of_wall, setup.scale.spacing);
+  if (!part->has_hulls()) return nullptr;
+  return part;
+}
+
+template class FixedHulls<2>;
+template class FixedHulls<3>;
+TAILWATER_IN_2D_AND_3D(make_fixed_hulls);
+
+}  // namespace tailwater

@@ -1,0 +1,60 @@
+// Fixed hulls, as a part of a flow: closed walls with water around them that are no bodies, such as a pipe on the bed.
+// Where another wall is near such a hull, force probes get the integral of the pressure over its surface
+// (narrow_gaps.h). The water is not changed.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "bodies/force_sums.h"
+#include "bodies/hulls.h"
+#include "flow/part.h"
+
+namespace tailwater {
+
+/// dx; within it a force probe divides the force of a pair between the hull and another wall (docs/theory/probes.md).
+inline constexpr double reach_of_shares = 5.5;
+
+template <int Dim>
+class FixedHulls final : public Part<Dim> {
+ public:
+  FixedHulls() = default;  ///< none
+  /// The walls in `hulls`, indices into Boundary::walls; `body_of_wall` has the body of each wall, or -1.
+  FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hulls, const std::vector<int>& body_of_wall,
+             double spacing);
+
+  /// False where no wall is so near a hull that its force is not that of pairs, unless walls move.
+  bool has_hulls() const { return !patches_.empty(); }
+
+  std::string_view name() const override { return "fixed_hulls"; }
+  void begin(Flow<Dim>& flow) override;
+  void stay(Flow<Dim>& flow) override;
+  void correct(Flow<Dim>& flow, double dt) override;
+  void project_again(Flow<Dim>& flow, const std::vector<double>& correction, double dt) override;
+  void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
+
+ private:
+  Hulls<Dim> hulls() const {
+    return {.count = static_cast<int>(hulls_.size()),
+            .of_wall = hull_of_wall_,
+            .surfaces = surfaces_,
+            .patches = patches_,
+            .can_stand = true,
+            .reach = reach_of_shares};
+  }
+  ForceSums<Dim> new_sums(const Flow<Dim>& flow) const;
+  void report(Flow<Dim>& flow);
+  void add_to_report(Flow<Dim>& flow, ForceSums<Dim>& sums) const;
+
+  std::vector<int> hulls_;         ///< wall of each
+  std::vector<int> hull_of_wall_;  ///< of each wall, or -1
+  std::vector<ContactSurface<Dim>> surfaces_;
+  std::vector<WallPatch<Dim>> patches_;
+  std::vector<std::size_t> reported_;  ///< hulls in the report of this step, which has them in this order
+};
+
+template <int Dim>
+std::unique_ptr<Part<Dim>> make_fixed_hulls(const CaseSpec& spec, const Setup<Dim>& setup,
+                                            const Boundary<Dim>& boundary);
+
+}  // namespace tailwater
