@@ -39,7 +39,20 @@ struct DeclaredColumn {
   Need need = Need::nothing;
 };
 
-enum class Statistic { mean, max, max_magnitude, max_smoothed, last, range, rate, max_rate, rise, last_min, last_max };
+enum class Statistic {
+  mean,
+  max,
+  max_magnitude,
+  max_smoothed,
+  last,
+  range,
+  rate,
+  max_rate,  ///< of a column that adds up; a mean over ProbeTable::averaging_time, as is the next
+  max_mean,
+  rise,
+  last_min,
+  last_max
+};
 
 /// A number that a run prints at its end and writes to the block "results" of summary.json. It is left out in the
 /// dimension in which its column does not exist.

@@ -989,6 +989,7 @@ struct ProbeTable {
   double step = 0.0;
   std::vector<double> times;
   double interval = 0.0;
+  double averaging_time = 0.0;
 
   bool operator==(const ProbeTable&) const = default;
 
@@ -1025,6 +1026,9 @@ struct ProbeTable {
              "Distance between the points of a level map or a velocity profile; 0: dx");
     v.numbers("times", self.times, "s", "Times at which a profile or velocity profile is taken");
     v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two readings; 0: every step");
+    v.number("averaging_time", self.averaging_time, "s", Range::at_least(0.0),
+             "Largest pressures in the summary are means over this time, for instance the rise time of the sensor; 0: "
+             "3 dx over the speed sqrt(2 g H), with the depth H of the water");
   }
 };
 

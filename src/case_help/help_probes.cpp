@@ -40,15 +40,16 @@ std::string comparison_cell(const DeclaredColumn& column, ProbeType type) {
 }
 
 // In the order of Statistic.
-constexpr std::array<std::string_view, 11> statistics{"average over the second half of the run",
+constexpr std::array<std::string_view, 12> statistics{"average over the second half of the run",
                                                       "maximum",
                                                       "maximum magnitude of the vector",
                                                       "maximum, with the time constant of its smoothing",
                                                       "last reading",
                                                       "minimum and maximum",
                                                       "rate of change, averaged over the second half of the run",
-                                                      "largest rate of change between two lines of the table",
-                                                      "time in which that rate rises from a tenth to its largest value",
+                                                      "largest mean rate of change over `averaging_time`",
+                                                      "largest mean over `averaging_time`",
+                                                      "time in which that mean rises from a tenth to its largest value",
                                                       "minimum of the last profile",
                                                       "maximum of the last profile"};
 

@@ -74,6 +74,7 @@ struct ProbeContext {
   const SpacingField<Dim>* spacing_field = nullptr;
   const ParticleLiquids* liquids = nullptr;  ///< null: one
   int liquid = -1;                           ///< the one whose level or front a probe measures; -1: all
+  double speed = 0.0;                        ///< m/s; of the case, sqrt(2 g H) with its depth H
 
   /// kg/m^3; of fluid particle j.
   double density_of(std::size_t j) const {
@@ -101,7 +102,8 @@ struct ProbeContext {
             .air_pressure = air_pressure,
             .spacing_field = spacing_field,
             .liquids = liquids,
-            .liquid = liquid};
+            .liquid = liquid,
+            .speed = speed};
   }
 };
 

@@ -168,6 +168,12 @@ Reading<Dim> mean_over(const std::vector<Vec<Dim>>& places, const ProbeTable& pr
 
 }  // namespace
 
+double averaging_time(double key, double spacing, double speed) {
+  constexpr double rows = 3.0;  // dx
+  if (key > 0.0) return key;
+  return speed > 0.0 ? rows * spacing / speed : 0.0;
+}
+
 template <int Dim>
 void WallPressureSums<Dim>::add(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, std::int32_t j,
                                 const Vec<Dim>& x_j, double weight) {

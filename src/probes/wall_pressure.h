@@ -19,6 +19,11 @@
 
 namespace tailwater {
 
+/// Time [s] over which the largest pressures of a probe are means: the key of the probe, with the dx and the speed
+/// [m/s] of the case. If the key is 0, it is the time in which water crosses the kernel's radius: rows of particles
+/// that arrive at a wall are then averaged (docs/theory/probes.md). 0 without gravity.
+double averaging_time(double key, double spacing, double speed);
+
 /// The sums of this formula and of c, over all or some particles.
 template <int Dim>
 struct WallPressureSums {

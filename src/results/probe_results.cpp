@@ -8,6 +8,7 @@
 
 #include "case/probe_columns.h"
 #include "probes/discharge.h"
+#include "probes/wall_pressure.h"
 #include "results/probe_table.h"
 
 namespace tailwater {
@@ -16,7 +17,7 @@ namespace {
 constexpr const char* second_half = "mean of the second half";
 
 Quantity quantity_of(const DeclaredResult& declared, Measure measure, const ColumnDigest& column, double last_time,
-                     const ProbeTable& probe, const CaseSpec& spec) {
+                     const ProbeTable& probe, const CaseSpec& spec, double speed) {
   const int dimension = spec.general.dimension;
   const auto at = [](double time) { return fmt::format("at {:.4g} s", time); };
   const auto quantity = [&](double value, const std::string& what) {
@@ -32,9 +33,15 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
     case Statistic::rate:
       return quantity(column.rate_in_second_half(), second_half);
     case Statistic::max_rate:
-      return quantity(column.largest_rate, at(column.time_of_largest_rate));
+    case Statistic::max_mean: {
+      const LargestMean& largest =
+          declared.statistic == Statistic::max_rate ? column.largest_rate : column.largest_mean;
+      const double over = std::max(averaging_time(probe.averaging_time, spec.particles.spacing, speed), probe.interval);
+      if (over == 0.0) return quantity(largest.value(), at(largest.time()));
+      return quantity(largest.value(), fmt::format("{}, mean over {:.2g} s", at(largest.time()), over));
+    }
     case Statistic::rise:
-      return quantity(column.rise, "from a tenth of it");
+      return quantity(column.largest_rate.rise(), "from a tenth of it");
     case Statistic::max:
     case Statistic::max_magnitude:
       return quantity(column.largest, at(column.time_of_largest));
@@ -84,10 +91,11 @@ std::string ProbeResult::words() const {
   return text;
 }
 
-std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time) {
+std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time, double speed) {
   std::vector<ProbeResult> results;
   for (const ProbeTable& probe : spec.probes) {
-    const TableDigest table = digest_probe_table(folder.probe(probe.name), 0.5 * time);
+    const TableDigest table = digest_probe_table(folder.probe(probe.name), 0.5 * time,
+                                                 averaging_time(probe.averaging_time, spec.particles.spacing, speed));
     ProbeResult result{probe.name, std::string(name_of(probe.type)), {}};
     const std::vector<OutputColumn> columns = columns_of(probe, spec.general.dimension);
     for (const DeclaredResult& declared : info_of(probe.type).results) {
@@ -97,9 +105,10 @@ std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& fo
       if (place == std::ssize(table.names)) continue;
       const ColumnDigest& digest =
           declared.statistic == Statistic::max_magnitude ? table.magnitude_of_force : table.columns[place];
-      const bool is_known = digest.count > 0 && (declared.statistic != Statistic::rise || digest.rise > 0.0);
+      const bool is_known =
+          digest.count > 0 && (declared.statistic != Statistic::rise || digest.largest_rate.rise() > 0.0);
       if (!is_known) continue;
-      result.quantities.push_back(quantity_of(declared, column->measure, digest, table.last_time, probe, spec));
+      result.quantities.push_back(quantity_of(declared, column->measure, digest, table.last_time, probe, spec, speed));
     }
     if (!result.quantities.empty()) results.push_back(std::move(result));
   }

@@ -31,8 +31,8 @@ struct ProbeResult {
 };
 
 /// The result of each probe that has taken a reading, in the order of the case, after a run up to `time` [s]. Throws
-/// IoError if a table cannot be read.
-std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time);
+/// IoError if a table cannot be read. `speed` is that of the case, sqrt(2 g H) [m/s].
+std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time, double speed = 0.0);
 
 /// The block "results" of the summary: by probe its type, quantities and words.
 Json json_of(const std::vector<ProbeResult>& results);

@@ -57,7 +57,37 @@ void read_column(const std::filesystem::path& path, std::string_view heading, co
 
 }  // namespace
 
-void ColumnDigest::add(double time, double value, double half) {
+void LargestMean::add(double time, double sum, double over) {
+  constexpr double low = 0.1;
+  constexpr double rounding = 1e-9;
+  lines_.push_back({time, sum});
+  const double begin = std::min(time - over, lines_.size() > 1 ? lines_[lines_.size() - 2].time : time);
+  if (begin < lines_.front().time - rounding * over || lines_.size() == 1) return;
+  while (lines_[1].time <= begin) lines_.pop_front();
+  const double mean = (sum - sum_at(begin)) / (time - begin);
+  while (!means_.empty() && means_.back().value >= mean) means_.pop_back();
+  if (!is_whole_ || mean > value_) {
+    value_ = mean;
+    time_ = time;
+    const auto above = std::ranges::partition_point(means_, [&](const Line& one) { return one.value < low * mean; });
+    rise_ = above == means_.begin() ? 0.0 : time - std::prev(above)->time;
+  }
+  is_whole_ = true;
+  means_.push_back({time, mean});
+}
+
+double LargestMean::sum_at(double time) const {
+  const Line &before = lines_[0], &after = lines_[1];
+  const double share = std::clamp((time - before.time) / (after.time - before.time), 0.0, 1.0);
+  return before.value + share * (after.value - before.value);
+}
+
+double LargestMean::value() const {
+  if (is_whole_ || lines_.size() < 2) return value_;
+  return (lines_.back().value - lines_.front().value) / (lines_.back().time - lines_.front().time);
+}
+
+void ColumnDigest::add(double time, double value, double half, double over) {
   const bool is_first = count++ == 0;
   if (is_first || value < least) least = value;
   if (is_first || value > largest) {
@@ -65,7 +95,11 @@ void ColumnDigest::add(double time, double value, double half) {
     time_of_largest = time;
   }
   const bool is_same_time = !is_first && time == last_time;
-  if (!is_first && time > last_time) add_rate(time, (value - last) / (time - last_time));
+  if (is_first || time > last_time) {
+    if (!is_first) sum_ += 0.5 * (last + value) * (time - last_time);
+    largest_rate.add(time, value, over);
+    largest_mean.add(time, sum_, over);
+  }
   least_of_last = is_same_time ? std::min(least_of_last, value) : value;
   largest_of_last = is_same_time ? std::max(largest_of_last, value) : value;
   if (time >= half && !has_begun_half_) {
@@ -79,18 +113,6 @@ void ColumnDigest::add(double time, double value, double half) {
   }
   last = value;
   last_time = time;
-}
-
-void ColumnDigest::add_rate(double time, double rate) {
-  constexpr double low = 0.1;
-  while (!rates_.empty() && rates_.back().value >= rate) rates_.pop_back();
-  if (rate > largest_rate) {
-    largest_rate = rate;
-    time_of_largest_rate = time;
-    const auto above = std::ranges::partition_point(rates_, [&](const Rate& one) { return one.value < low * rate; });
-    rise = above == rates_.begin() ? 0.0 : time - std::prev(above)->time;
-  }
-  rates_.push_back({time, rate});
 }
 
 double ColumnDigest::mean_of_second_half() const {
@@ -128,7 +150,7 @@ ProbeProfiles read_probe_profiles(const std::filesystem::path& path, std::string
   return profiles;
 }
 
-TableDigest digest_probe_table(const std::filesystem::path& path, double half) {
+TableDigest digest_probe_table(const std::filesystem::path& path, double half, double over) {
   std::ifstream file = open_input_file(path);
   if (!file) throw_io_error("read", path, errno);
   TableDigest table;
@@ -152,12 +174,12 @@ TableDigest digest_probe_table(const std::filesystem::path& path, double half) {
     if (std::isnan(time)) continue;
     table.last_time = time;
     for (std::size_t k = 0; k < row.size(); ++k) {
-      if (!std::isnan(row[k])) table.columns[k].add(time, row[k], half);
+      if (!std::isnan(row[k])) table.columns[k].add(time, row[k], half, over);
     }
     if (force.empty()) continue;
     double squares = 0.0;
     for (const std::size_t k : force) squares += row[k] * row[k];
-    if (!std::isnan(squares)) table.magnitude_of_force.add(time, std::sqrt(squares), half);
+    if (!std::isnan(squares)) table.magnitude_of_force.add(time, std::sqrt(squares), half, over);
   }
   return table;
 }

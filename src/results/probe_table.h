@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,20 +11,47 @@
 
 namespace tailwater {
 
+/// The largest mean over a stretch of time of a rate, from its sum since the start, linear between lines.
+class LargestMean {
+ public:
+  /// Adds the sum at a later time. Each mean is over a time of `over` [s], or between two lines that are farther apart.
+  void add(double time, double sum, double over);
+
+  /// Over the whole table if that is shorter.
+  double value() const;
+  double time() const { return time_; }  ///< s; end of the stretch
+  /// s; from the last line at which the mean is below a tenth of the largest to the largest; 0: there is none
+  double rise() const { return rise_; }
+
+ private:
+  struct Line {
+    double time;
+    double value;
+  };
+  double sum_at(double time) const;
+
+  std::deque<Line> lines_;   ///< sums of the last stretch, and the line before it
+  std::vector<Line> means_;  ///< ascending: each is the last with a value so small
+  bool is_whole_ = false;    ///< whether a stretch was within the table
+  double value_ = 0.0;
+  double time_ = 0.0;
+  double rise_ = 0.0;
+};
+
 struct ColumnDigest {
   std::size_t count = 0;  ///< number of values; "nan" is none
   double least = 0.0;
   double largest = 0.0;
   double time_of_largest = 0.0;  ///< s
   double last = 0.0;
-  double last_time = 0.0;             ///< s
-  double least_of_last = 0.0;         ///< smallest value in the lines of the last time
-  double largest_of_last = 0.0;       ///< largest value in the lines of the last time
-  double largest_rate = 0.0;          ///< largest growth per second from a line to the next
-  double time_of_largest_rate = 0.0;  ///< s; time of the later of the two lines
-  double rise = 0.0;  ///< s; from the last line below a tenth of the largest to the largest; 0: there is none
+  double last_time = 0.0;        ///< s
+  double least_of_last = 0.0;    ///< smallest value in the lines of the last time
+  double largest_of_last = 0.0;  ///< largest value in the lines of the last time
+  LargestMean largest_rate;      ///< of the growth per second
+  LargestMean largest_mean;
 
-  void add(double time, double value, double half);
+  /// The second half begins at `half` [s]; largest means are over a time of `over` [s].
+  void add(double time, double value, double half, double over);
 
   /// Mean over time, linear between readings; the last reading if there is only one.
   double mean_of_second_half() const;
@@ -31,13 +59,7 @@ struct ColumnDigest {
   double rate_in_second_half() const;
 
  private:
-  void add_rate(double time, double rate);
-
-  struct Rate {
-    double time;
-    double value;
-  };
-  std::vector<Rate> rates_;  ///< ascending: each is the last with a value so small
+  double sum_ = 0.0;  ///< integral since the first line
   bool has_begun_half_ = false;
   double half_begin_ = 0.0;  ///< s
   double value_at_half_ = 0.0;
@@ -70,7 +92,7 @@ struct ProbeProfiles {
 /// See read_probe_column; the places are in the table's second column.
 ProbeProfiles read_probe_profiles(const std::filesystem::path& path, std::string_view heading);
 
-/// The second half begins at `half` [s]. Throws IoError if the file cannot be read.
-TableDigest digest_probe_table(const std::filesystem::path& path, double half);
+/// See ColumnDigest::add. Throws IoError if the file cannot be read.
+TableDigest digest_probe_table(const std::filesystem::path& path, double half, double over = 0.0);
 
 }  // namespace tailwater

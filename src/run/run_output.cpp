@@ -228,7 +228,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .bodies = flow.state.motion.bodies.each,
                   .air_pressure = air_of(flow).pressure_field(),
                   .spacing_field = flow.setup.graded == nullptr ? nullptr : &flow.setup.graded->field(),
-                  .liquids = flow.setup.liquids.are_several() ? &flow.setup.liquids : nullptr});
+                  .liquids = flow.setup.liquids.are_several() ? &flow.setup.liquids : nullptr,
+                  .speed = flow.setup.time_step_rule.reference_speed});
 }
 
 template <int Dim>
@@ -337,7 +338,7 @@ void RunOutput<Dim>::write_summary(const Flow<Dim>& flow, const std::string& sta
   if (code) {
     do_on_root(ranks_, [&] {
       try {
-        results_ = probe_results(spec_, folder_, flow.state.time);
+        results_ = probe_results(spec_, folder_, flow.state.time, flow.setup.time_step_rule.reference_speed);
         scores_ = measurement_scores(spec_, folder_.path());
       } catch (const IoError&) {
         if (message.empty()) throw;  // the summary of a failed run counts more than its results

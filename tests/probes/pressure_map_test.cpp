@@ -67,6 +67,23 @@ TYPED_TEST(PressureMapTest, OfStillWaterIsHydrostatic) {
   EXPECT_EQ(again.totals(), totals);
 }
 
+/// The pressure of still water for two stretches, with a spike of a hundredth of a stretch.
+TEST(PressureMap, LargestPressuresAreMeansOverTheTimeGiven) {
+  Tank<2> tank = Tank<2>::filled(0.8);
+  ProbeTable probe = map_probe();
+  probe.averaging_time = 1.0;
+  const Reading<2> reading = pressure_map_reading<2>(probe, tank.spec, tank.boundary);
+  const double still = reading.take(tank.context(0.0)).at(0)[0];
+  reading.take(tank.context(1.0));
+  for (double& p : tank.particles.pressure) p *= 30.0;
+  const double spike = reading.take(tank.context(1.01)).at(0)[0];
+  EXPECT_GT(spike, 25.0 * still);
+  for (double& p : tank.particles.pressure) p /= 30.0;
+  reading.take(tank.context(1.5));
+  reading.take(tank.context(2.0));
+  EXPECT_NEAR(reading.totals()[0], 0.99 * still + 0.01 * spike, 1e-6 * still);
+}
+
 /// Above the water of the right wall, 0.7 m of 1.5 m, there is air below the pressure of the atmosphere. Where all is
 /// dry, the highest pressure is below 0.
 TYPED_TEST(PressureMapTest, OfDryPatchesIsThatOfTheAir) {

@@ -31,6 +31,25 @@ TEST(ProbeTable, MeansAreOverTimeAndLinearBetweenReadings) {
   EXPECT_DOUBLE_EQ(digest_probe_table(path, 1.5).columns[0].mean_of_second_half(), (0.5 * 2.0 + 1.0 + 2.0) / 2.5);
 }
 
+TEST(ProbeTable, LargestMeansAreOverTheTimeGiven) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  // A spike of 5000 for 0.01 s, then 2000 until the end.
+  std::ofstream(path) << "time_s,impulse_Pa_s\n0,0\n0.1,0\n0.11,50\n0.15,130\n0.2,230\n";
+  const auto largest = [&](double over) { return digest_probe_table(path, 0.0, over).columns[0].largest_rate; };
+  EXPECT_NEAR(largest(0.0).value(), 5000.0, 1e-8);
+  EXPECT_NEAR(largest(0.0).time(), 0.11, 1e-12);
+  // Over 0.05 s: 1000 at the end of the spike, 130/0.05 at 0.15 s, which has all of it, and 2000 at the end.
+  EXPECT_NEAR(largest(0.05).value(), 2600.0, 1e-8);
+  EXPECT_NEAR(largest(0.05).time(), 0.15, 1e-12);
+  EXPECT_NEAR(largest(0.1).value(), 2300.0, 1e-8);
+  EXPECT_NEAR(largest(1.0).value(), 230.0 / 0.2, 1e-8);  // longer than the table
+  // A rate of its own, linear between lines: 1 from 1 s to 2 s.
+  std::ofstream(path) << "time_s,pressure_Pa\n0,0\n1,1\n2,1\n3,0\n";
+  EXPECT_NEAR(digest_probe_table(path, 0.0, 1.0).columns[0].largest_mean.value(), 1.0, 1e-12);
+  EXPECT_NEAR(digest_probe_table(path, 0.0, 2.0).columns[0].largest_mean.value(), 0.75, 1e-12);
+}
+
 TEST(ProbeTable, OneReadingAndNumbersThatAreNone) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "probe.csv";
