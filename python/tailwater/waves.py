@@ -235,6 +235,27 @@ def response_numbers(run, names, gauges, incident, is_regular):
     return found
 
 
+def damper_power(run, names, gauges, period):
+    """Mean power (W) that the dampers of bodies take, with its interval, per motion probe of a body with dampers."""
+    probes = {probe["name"]: probe for probe in run.case.get("probe", []) if probe["type"] == "motion"}
+    bodies = {body["name"]: body for body in run.case.get("body", [])}
+    found = {}
+    for name in (name for name in names if name in probes):
+        body = bodies[probes[name]["body"]]
+        heading = (run.path / "probes" / f"{name}.csv").read_text(encoding="utf-8").splitlines()
+        columns = [column.strip() for column in next(line for line in heading if not line.startswith("#")).split(",")]
+        power = np.zeros(gauges.time.size)
+        for key, exponent in (("damping", 2), ("quadratic_damping", 3)):
+            velocities = [column for column in columns if "velocity" in column]
+            for strength, column in zip(body.get(key, ()), velocities):
+                curve = run.curve(name, column)
+                power += strength * np.abs(np.interp(gauges.time, curve.time, curve.value)) ** exponent
+        if power.any():
+            mean, interval = mean_with_interval(period_means(gauges.time, power, period)[1])
+            found[name] = {"mean": mean, "interval": interval}
+    return found
+
+
 def overtopping_numbers(run, name, window, period, height):
     """Mean discharge with its interval, and the volumes of single waves, of a discharge probe behind a crest."""
     volume = run.curve(name, "volume_m3").window(*window)
@@ -253,8 +274,9 @@ def overtopping_numbers(run, name, window, period, height):
 
 
 def period_of_case(run):
-    """The period (s) of the case's makers of regular waves, if they have one period."""
-    periods = {maker["period"] for maker in run.case.get("wave_maker", []) if maker["waves"] == "regular"}
+    """The period (s) of the case's makers and zones of regular waves, if they have one period."""
+    makers = [*run.case.get("wave_maker", []), *run.case.get("damping", [])]
+    periods = {maker["period"] for maker in makers if maker["waves"] == "regular"}
     return periods.pop() if len(periods) == 1 else None
 
 
@@ -298,6 +320,7 @@ def analyse(run, names=(), start=None, end=None, depth=None, period=None, respon
         incident = separation(gauges, numbers, still, run.gravity, harmonics)
         height = float(4 * np.sqrt((np.abs(incident.amplitude) ** 2).sum() / 2))
         numbers["responses"] = response_numbers(run, responses, gauges, incident, bool(harmonics))
+        numbers["damper_power_W"] = damper_power(run, responses, gauges, mean_period)
     elif responses:
         raise DataError("a response needs two gauges or more, which separate the incident waves; remedy: add gauges")
     numbers["overtopping"] = {name: overtopping_numbers(run, name, window, mean_period, height) for name in overtopping}
@@ -387,7 +410,7 @@ def separation_lines(numbers):
 
 
 def response_lines(numbers):
-    """Lines on responses of bodies and forces."""
+    """Lines on responses of bodies and forces, and on the power of dampers."""
     lines = []
     for name, columns in numbers.get("responses", {}).items():
         for column, found in columns.items():
@@ -396,10 +419,11 @@ def response_lines(numbers):
             if "amplitude" in found:
                 head += f"; {found['rao']:.5g} per m of wave amplitude, leads the crest by {found['phase_deg']:.1f} deg"
             lines.append(head)
-            for row in zip(*(found.get(key, ()) for key in ("frequency_Hz", "rao", "phase_deg", "coherence"))):
-                if "amplitude" not in found:
-                    lines.append("   {:.4f} Hz: {:.5g} per m, leads by {:.1f} deg, coherence {:.2f}".format(*row))
-    return lines
+            if "frequency_Hz" in found:
+                lines += ["   {:.4f} Hz: {:.5g} per m, leads by {:.1f} deg, coherence {:.2f}".format(*row)
+                          for row in zip(*(found[key] for key in ("frequency_Hz", "rao", "phase_deg", "coherence")))]
+    return lines + [f"{name}: dampers take {found['mean']:.4g} +- {found['interval']:.2g} W"
+                    for name, found in numbers.get("damper_power_W", {}).items()]
 
 
 def overtopping_lines(numbers):

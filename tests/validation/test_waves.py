@@ -173,6 +173,23 @@ class WaveGauges(unittest.TestCase):
             self.assertAlmostEqual(rao, 1.7, delta=1.7 * tolerance)
             self.assertAlmostEqual(phase, 40.0, delta=100 * tolerance)
 
+    def test_dampers_take_the_power_of_the_velocity(self):
+        """A heave of amplitude a: c (a omega)^2/2, and with the square of the velocity 4/(3 pi) q (a omega)^3."""
+        run = self.run_with([(0.05, PERIOD, 1, 0.3)])
+        t = np.arange(0.0, 20.0, 0.01)
+        speed = 0.1 * 2 * np.pi / PERIOD
+        rows = (t, 0 * t, 0.1 * np.sin(2 * np.pi * t / PERIOD), 0 * t, 0 * t, speed * np.cos(2 * np.pi * t / PERIOD), 0 * t)
+        run = self.add_probe(run, '[[body]]\nname = "box"\ncentre = [5.0, 0.4]\ndamping = [9, 20, 9]\nquadratic_damping = [0, 30, 0]\n'
+                             '[[probe]]\nname = "box"\ntype = "motion"\nbody = "box"\n', "box",
+                             "displacement_x_m,displacement_y_m,angle_rad,velocity_x_m_per_s,velocity_y_m_per_s,"
+                             "angular_velocity_rad_per_s", rows)
+        numbers = waves.analyse(run, list(PLACES), responses=["box"])[0]
+        found = numbers["damper_power_W"]["box"]
+        self.assertIn("box.displacement_y_m: mean", waves.report(numbers))
+        self.assertIn("box: dampers take", waves.report(numbers))
+        expected = 0.5 * 20 * speed**2 + 4 / (3 * np.pi) * 30 * speed**3
+        self.assertAlmostEqual(found["mean"], expected, delta=0.01 * expected)
+
     def test_overtopping_volumes_are_those_of_single_waves(self):
         run = self.run_with([(0.05, PERIOD, 1, 0.3)])
         t = np.arange(0.0, 20.0, 0.005)
