@@ -12,6 +12,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
+#include "refinement/spacing_field.h"
 
 namespace tailwater {
 namespace {
@@ -214,8 +215,9 @@ std::vector<Gap<Dim>> gaps_of(const Boundary<Dim>& boundary, double dx) {
   return gaps;
 }
 
+/// `local` is the spacing in the gap [m]. Whether it counts as closed depends on that of the case (hang_screens).
 template <int Dim>
-Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx) {
+Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx, double local) {
   const CaseLabel a = wall_label(boundary, gap.wall);
   const CaseLabel b = wall_label(boundary, gap.other);
   const Amount width{gap.width, "m"};
@@ -229,7 +231,7 @@ Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx
   return Finding::warning(
       {"the gap of {:.3g} between {} and {} at {} is {:.1f} spacings wide, so less water passes than should, by about "
        "20 % at half a spacing and 4 % at four",
-       width, a, b, place(gap.where), gap.width / dx},
+       width, a, b, place(gap.where), gap.width / local},
       {"use a spacing of at most {:.3g} m", good_spacing});
 }
 
@@ -238,13 +240,16 @@ Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx
 template <int Dim>
 Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
+  const SpacingField<Dim> field(spec, boundary);
   std::vector<Gap<Dim>> gaps = gaps_of<Dim>(boundary, dx);
   std::stable_sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) { return a.width < b.width; });
   Findings findings;
   std::set<std::pair<int, int>> reported;
   for (const Gap<Dim>& gap : gaps) {
+    const double local = dx * field.at(gap.where);
+    if (gap.width > closed * dx && gap.width >= narrow * local) continue;
     if (!reported.insert(std::minmax(gap.wall, gap.other)).second) continue;
-    findings.push_back(finding_of(boundary, gap, dx));
+    findings.push_back(finding_of(boundary, gap, dx, local));
   }
   return findings;
 }

@@ -19,10 +19,12 @@ constexpr double least_motion = 0.4;
 struct Gauges {
   std::vector<std::string> names;
   double largest = 0.0;  ///< m
+  double rows = 0.0;     ///< the largest of them over the spacing at its probe
 
-  void add(const std::string& name, double height) {
+  void add(const std::string& name, double height, double spacing) {
     names.push_back(fmt::format("'{}'", name));
     largest = std::max(largest, height);
+    rows = std::max(rows, height / spacing);
   }
   std::string text() const {
     return fmt::format("{} {}", names.size() == 1 ? "probe" : "probes", fmt::join(names, ", "));
@@ -39,11 +41,20 @@ ColumnDigest connected_surface(const ProbeTable& probe, const CaseSpec& spec, co
   return place == table.names.end() ? ColumnDigest() : table.columns[place - table.names.begin()];
 }
 
+/// m; the largest spacing at the places that a probe names.
+template <int Dim>
+double coarsest_at(const Setup<Dim>& setup, const ProbeTable& probe) {
+  double relative = 0.0;
+  for (const Coordinates& at : {probe.at, probe.from, probe.to}) {
+    if (at.size() == Dim) relative = std::max(relative, setup.relative_spacing(Vec<Dim>::Map(at.data())));
+  }
+  return setup.scale.spacing * (relative > 0.0 ? relative : 1.0);
+}
+
 }  // namespace
 
-std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder) {
-  const double dx = spec.particles.spacing;
-  const double lowest = lowest_resolved_wave * dx;
+template <int Dim>
+std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder, const Setup<Dim>& setup) {
   const auto makes_waves = [](const WaveKeys& waves) { return waves.waves != WaveKind::none; };
   const bool has_waves =
       std::ranges::any_of(spec.wave_makers, makes_waves) || std::ranges::any_of(spec.damping, makes_waves);
@@ -53,10 +64,12 @@ std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFold
     const ColumnDigest surface = connected_surface(probe, spec, folder);
     if (surface.count == 0) continue;
     const double motion = surface.largest - surface.least;
+    const double dx = coarsest_at(setup, probe);
+    const double lowest = lowest_resolved_wave * dx;
     if (probe.type == ProbeType::depth && surface.largest > 0.0 && surface.largest < lowest) {
-      films.add(probe.name, surface.largest);
+      films.add(probe.name, surface.largest, dx);
     } else if (has_waves && motion > least_motion * dx && motion < lowest) {
-      waves.add(probe.name, motion);
+      waves.add(probe.name, motion, dx);
     }
   }
   std::vector<std::string> lines;
@@ -65,12 +78,14 @@ std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFold
     lines.push_back(fmt::format(
         "at {} {} {:.3g} m or less, {:.2g} spacings: {} of less than {:g} spacings are not resolved; remedy: use a "
         "spacing of at most {:.3g} m",
-        gauges.text(), what, gauges.largest, gauges.largest / dx, thing, lowest_resolved_wave,
+        gauges.text(), what, gauges.largest, gauges.rows, thing, lowest_resolved_wave,
         0.99 * gauges.largest / lowest_resolved_wave));
   };
   add_line(waves, "the surface moved by", "waves");
   add_line(films, "the largest depth was", "films");
   return lines;
 }
+
+TAILWATER_IN_2D_AND_3D(unresolved_surfaces);
 
 }  // namespace tailwater

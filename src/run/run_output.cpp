@@ -287,7 +287,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   limits_.warn_of_largest();
   for (const auto& part : flow.parts) part->warn_at_end(flow);
   do_on_root(ranks_, [&] {
-    for (const std::string& line : unresolved_surfaces(spec_, folder_)) warn(line);
+    for (const std::string& line : unresolved_surfaces(spec_, folder_, flow.setup)) warn(line);
   });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);
