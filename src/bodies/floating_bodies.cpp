@@ -36,7 +36,7 @@ FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setu
       moorings(make_moorings<Dim>(spec)),
       body_of_wall(bodies_of_walls(bodies, boundary.walls.size())),
       contact(make_contact_surfaces(boundary, bodies, setup.scale.spacing)) {
-  for (const WallPatch<Dim>& patch : make_wall_patches(boundary, setup.scale.spacing)) {
+  for (const WallPatch<Dim>& patch : make_wall_patches(boundary, setup.finest_spacing() * setup.scale.spacing)) {
     if (body_of_wall[boundary.faces[patch.face].wall] >= 0) patches.push_back(patch);
   }
 }

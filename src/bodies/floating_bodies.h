@@ -9,6 +9,7 @@
 #include "flow/part.h"
 #include "geometry/wall_patches.h"
 #include "motion/body_contact.h"
+#include "operators/support_operators.h"
 
 namespace tailwater {
 
@@ -69,9 +70,11 @@ template <int Dim, class Visit>
 void visit_pair_forces(const Flow<Dim>& flow, std::size_t i, const std::vector<double>& pressure, Visit&& visit) {
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
+  const SupportTerms<Dim>& terms = flow.surroundings.support_terms;
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = static_cast<std::size_t>(pairs.j[k]);
-    const double strength = particles.volume[i] * particles.volume[j] * (pressure[i] + pressure[j]);
+    const double sum = inverse_reference(terms, i) * pressure[i] + inverse_reference(terms, j) * pressure[j];
+    const double strength = particles.volume[i] * particles.volume[j] * sum;
     visit(j, Vec<Dim>(strength * flow.surroundings.pair_vectors.at(pairs, i, k)));
   }
 }

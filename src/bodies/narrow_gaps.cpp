@@ -8,6 +8,7 @@
 #include "base/for_each.h"
 #include "bodies/contacts.h"
 #include "geometry/screen.h"
+#include "operators/support_operators.h"
 
 namespace tailwater {
 namespace {
@@ -63,9 +64,7 @@ NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const Hulls<Dim>& hulls, doub
 
 template <int Dim>
 void NarrowGaps<Dim>::find_pieces(double time) {
-  const double dx = flow_.setup.scale.spacing;
   const Boundary<Dim>& boundary = flow_.walls.boundary;
-  const double widest = hulls_.reach * dx;
   for (const ContactSurface<Dim>& surface : hulls_.surfaces) {
     placements_.push_back(placement_of(flow_, surface, time));
   }
@@ -74,8 +73,9 @@ void NarrowGaps<Dim>::find_pieces(double time) {
   for (const WallPatch<Dim>& patch : hulls_.patches) {
     const int hull = hulls_.of_wall[boundary.faces[patch.face].wall];
     const Vec<Dim> x = patch.centre(boundary);
-    const OtherWall wall = other_wall(hull, x, widest);
-    if (wall.distance >= widest) continue;
+    const double dx = spacing_at(x);
+    const OtherWall wall = other_wall(hull, x, hulls_.reach * dx);
+    if (wall.distance >= hulls_.reach * dx) continue;
     const double measure = hulls_.can_stand ? wetted_measure(patch, wall, is_flat[hull] != 0) : patch.measure;
     if (measure == 0.0) continue;
     const double gap = std::max(0.0, wall.distance);
@@ -83,11 +83,12 @@ void NarrowGaps<Dim>::find_pieces(double time) {
     pieces_.push_back({.hull = hull,
                        .other_wall = wall.wall,
                        .x = x,
+                       .spacing = dx,
                        .towards_hull = wall.normal,
                        .gap = gap,
                        .surface = -measure * boundary.faces[patch.face].normal,
                        .faces = facing >= least_opposite,
-                       .film = film_at(gap, facing)});
+                       .film = facing < least_opposite ? 0.0 : film_share(gap / dx)});
   }
 }
 
@@ -137,7 +138,7 @@ template <class Visit>
 void NarrowGaps<Dim>::visit_near(const Piece& piece, double reach, Visit&& visit) const {
   places_.for_each_near(piece.x, [&](std::int32_t m) {
     const Piece& other = pieces_[m];
-    if (other.hull == piece.hull && (other.x - piece.x).norm() < reach * flow_.setup.scale.spacing) {
+    if (other.hull == piece.hull && (other.x - piece.x).norm() < reach * piece.spacing) {
       visit(static_cast<std::size_t>(m));
     }
   });
@@ -180,10 +181,11 @@ template <int Dim>
 void NarrowGaps<Dim>::look_at_water() {
   const Particles<Dim>& particles = flow_.state.particles;
   const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(flow_.setup.domain);
-  const double reach = kernel_radius(flow_.setup.scale.kernel);
   std::vector<double> sums(pieces_.size(), 0.0);
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     Piece& piece = pieces_[n];
+    const double relative = piece.spacing / flow_.setup.scale.spacing;
+    const double reach = kernel_radius(flow_.setup.scale.kernel) * relative;
     for (const Vec<Dim>& shift : shifts) {
       const Vec<Dim> x = flow_.neighbourhood.wrapped(piece.x) - shift;
       flow_.neighbourhood.grid().for_each_near(x, [&](std::int32_t j) {
@@ -193,7 +195,8 @@ void NarrowGaps<Dim>::look_at_water() {
         if (distance >= reach) return;
         piece.water.push_back(i);
         piece.places.push_back(particles.position[i] - x + piece.x);
-        piece.weights.push_back(particles.volume[i] * kernel_value(flow_.setup.scale.kernel, distance));
+        const double W = kernel_value(flow_.setup.scale.kernel, distance / relative) / power<Dim>(relative);
+        piece.weights.push_back(particles.volume[i] * W);
       });
     }
     sums[n] = std::accumulate(piece.weights.begin(), piece.weights.end(), 0.0);
@@ -230,8 +233,7 @@ void NarrowGaps<Dim>::find_shares() {
 
 template <int Dim>
 double NarrowGaps<Dim>::width_at(int hull, const Vec<Dim>& x) const {
-  const double dx = flow_.setup.scale.spacing;
-  const double widest = widest_film() * dx;
+  const double widest = widest_film() * spacing_at(x);
   const auto surface = std::ranges::find(hulls_.surfaces, hull, &ContactSurface<Dim>::hull);
   const AffineMap<Dim>& placement = placements_[static_cast<std::size_t>(surface - hulls_.surfaces.begin())];
   const NearestWall<Dim> own = surface->boundary.nearest(placement.inverse(x), widest);
@@ -250,8 +252,8 @@ void NarrowGaps<Dim>::find_water() {
     }
     for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: few are in gaps
       if (!particles.is_fluid(i) || nearest_piece(hull, particles.position[i]) < 0) continue;
-      const double width = width_at(hull, particles.position[i]);
-      if (width < widest_film() * flow_.setup.scale.spacing) water_.push_back({i, hull, width});
+      const WaterInGap water{i, hull, width_at(hull, particles.position[i]), spacing_at(particles.position[i])};
+      if (water.width < widest_film() * water.spacing) water_.push_back(water);
     }
   }
 }
@@ -261,7 +263,7 @@ std::vector<std::size_t> NarrowGaps<Dim>::find_stagnant() const {
   std::vector<std::size_t> stagnant;
   const double closed = hulls_.can_stand ? closed_gap_of_fixed : closed_gap;
   for (const WaterInGap& water : water_) {
-    if (water.width < closed * flow_.setup.scale.spacing && flow_.role[water.i] == Role::water) {
+    if (water.width < closed * water.spacing && flow_.role[water.i] == Role::water) {
       stagnant.push_back(water.i);
     }
   }
@@ -316,7 +318,7 @@ std::int32_t NarrowGaps<Dim>::nearest_piece(int hull, const Vec<Dim>& x) const {
   double least = reach_of_pairs * flow_.setup.scale.spacing;
   places_.for_each_near(x, [&](std::int32_t n) {
     const double distance = (x - pieces_[n].x).norm();
-    if (pieces_[n].hull != hull || distance >= least) return;
+    if (pieces_[n].hull != hull || distance >= std::min(least, reach_of_pairs * pieces_[n].spacing)) return;
     nearest = n;
     least = distance;
   });
@@ -347,29 +349,23 @@ double NarrowGaps<Dim>::widest_film() const {
   return (hulls_.can_stand ? closed_gap_of_fixed : open_gap) + fading_film;
 }
 
-/// Film fraction of a place outside a hull: 1 in a gap too narrow for a row of particles.
-template <int Dim>
-double NarrowGaps<Dim>::film_at(double width, double facing) const {
-  return facing < least_opposite ? 0.0 : film_share(width);
-}
-
 template <int Dim>
 double NarrowGaps<Dim>::film_share(double width) const {
-  return std::clamp((widest_film() - width / flow_.setup.scale.spacing) / fading_film, 0.0, 1.0);
+  return std::clamp((widest_film() - width) / fading_film, 0.0, 1.0);
 }
 
 /// Fraction of the missing pair forces that is added: 1 beside a gap too narrow for a row of particles.
 template <int Dim>
 double NarrowGaps<Dim>::share_beside(const Piece& piece) const {
-  if (hulls_.can_stand) return film_share(piece.nearest);
-  return std::clamp((resolved_gap - piece.nearest / flow_.setup.scale.spacing) / (resolved_gap - open_gap), 0.0, 1.0);
+  if (hulls_.can_stand) return film_share(piece.nearest / piece.spacing);
+  return std::clamp((resolved_gap - piece.nearest / piece.spacing) / (resolved_gap - open_gap), 0.0, 1.0);
 }
 
-/// Weight of a pair or piece at the distance `gap` [m] from the wall beside a narrow gap. Up to half a support there
-/// are pairs that the space of the wall lacks.
+/// Weight of a piece, or of a pair `beyond` [m] it, by the distance from the wall beside a narrow gap. Up to half a
+/// support there are pairs that the space of the wall lacks.
 template <int Dim>
-double NarrowGaps<Dim>::share_at(double gap) const {
-  return std::clamp(2.0 - 2.0 * gap / (widest_gap * flow_.setup.scale.spacing), 0.0, 1.0);
+double NarrowGaps<Dim>::share_at(const Piece& piece, double beyond) const {
+  return std::clamp(2.0 - 2.0 * (piece.gap + beyond) / (widest_gap * piece.spacing), 0.0, 1.0);
 }
 
 template <int Dim>
@@ -384,6 +380,7 @@ template <int Dim>
 void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int hull, std::vector<double>& sums) const {
   const Particles<Dim>& particles = flow_.state.particles;
   const Pairs<Dim>& pairs = flow_.pairs();
+  const SupportTerms<Dim>& terms = flow_.surroundings.support_terms;
   const Vec<Dim>& x = flow_.walls.particles.position[particles.wall_row[i]];
   for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
     const auto j = static_cast<std::size_t>(pairs.j[k]);
@@ -392,9 +389,10 @@ void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int hull, std::vector<double
     const std::int32_t n = nearest_piece(hull, middle);
     if (n < 0) continue;
     const Piece& piece = pieces_[n];
-    const double share = share_beside(piece) * share_at(piece.gap + piece.towards_hull.dot(middle - piece.x));
+    const double share = share_beside(piece) * share_at(piece, piece.towards_hull.dot(middle - piece.x));
     if (share == 0.0) continue;
-    const double unit = 2.0 * share * particles.volume[i] * particles.volume[j];
+    const double both = inverse_reference(terms, i) + inverse_reference(terms, j);
+    const double unit = both * share * particles.volume[i] * particles.volume[j];
     add(n, middle, unit * flow_.surroundings.pair_vectors.at(pairs, i, k), sums);
   }
 }
@@ -414,7 +412,7 @@ void NarrowGaps<Dim>::measure_pairs() {
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     Piece& piece = pieces_[n];
     const auto sum = Twist<Dim>::Map(sums.data() + n * twist_size);
-    piece.area = sum.template head<Dim>() + share_beside(piece) * share_at(piece.gap) * piece.surface;
+    piece.area = sum.template head<Dim>() + share_beside(piece) * share_at(piece, 0.0) * piece.surface;
     piece.couple = sum.template tail<turns<Dim>>();
   }
 }

@@ -19,6 +19,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -76,7 +77,7 @@ class NarrowGaps {
     int wall = -1;
     double least = resolved_gap * flow_.setup.scale.spacing;
     for (const Piece& piece : pieces_) {
-      if (piece.hull != hull || piece.gap >= least) continue;
+      if (piece.hull != hull || piece.gap >= std::min(least, resolved_gap * piece.spacing)) continue;
       least = piece.gap;
       wall = piece.other_wall;
     }
@@ -104,6 +105,7 @@ class NarrowGaps {
     int hull;
     int other_wall;                        ///< index into Boundary::walls
     Vec<Dim> x;                            ///< on the hull
+    double spacing;                        ///< m; dx here
     Vec<Dim> towards_hull;                 ///< unit normal from the wall
     double gap;                            ///< m
     Vec<Dim> surface;                      ///< m^(Dim-1); force of a pressure of 1 on it
@@ -130,14 +132,17 @@ class NarrowGaps {
   struct WaterInGap {
     std::size_t i;
     int hull;
-    double width;  ///< m; of the gap
+    double width;    ///< m; of the gap
+    double spacing;  ///< m; dx here
   };
 
+  /// m; dx at a place.
+  double spacing_at(const Vec<Dim>& x) const { return flow_.setup.scale.spacing * flow_.setup.relative_spacing(x); }
   void find_pieces(double time);
   OtherWall other_wall(int hull, const Vec<Dim>& x, double reach) const;
   /// [dx]; width of a gap at which the effect of a film without water in it ends.
   double widest_film() const;
-  double film_at(double width, double facing) const;
+  /// Film fraction of a place where a gap is `width` [dx] wide: 1 in a gap too narrow for a row of particles.
   double film_share(double width) const;
   /// Whether the patch lies on the wall.
   bool is_flush(const WallPatch<Dim>& patch, const OtherWall& wall) const;
@@ -155,7 +160,7 @@ class NarrowGaps {
   /// Width [m] of the gap between a hull and another wall at x, at most that of the widest film.
   double width_at(int hull, const Vec<Dim>& x) const;
   double share_beside(const Piece& piece) const;
-  double share_at(double gap) const;
+  double share_at(const Piece& piece, double beyond) const;
   /// Adds a force per pressure at x to the sums of piece n.
   void add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& force, std::vector<double>& sums) const;
   void subtract_pairs(std::size_t i, int hull, std::vector<double>& sums) const;

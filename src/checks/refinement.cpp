@@ -11,8 +11,8 @@
 namespace tailwater {
 namespace {
 
-/// dx; from a zone to meshes and to open ends, with the water that enters or leaves behind them, and to walls that move
-/// outside of the zone. Those have the spacing of the case, and so has all water in their supports.
+/// dx; from a zone to meshes, and to open ends, walls that move and bodies outside of the zone. Those have the spacing
+/// of the case, and so has all water in their supports.
 constexpr double clearance = 8.0;
 
 Finding refused(const CaseLabel& owner, const std::string& what, Clause remedy) {
@@ -29,7 +29,6 @@ Findings check_features(const CaseSpec& spec, const CaseLabel& owner) {
   refuse(!choice.empty(), std::string(choice), {"remove the zone, or this key"});
   refuse(spec.air.pockets != AirPockets::none, "enclosed air", {"give pockets = \"none\" in [air]"});
   refuse(!spec.porous.empty(), "porous layers", {"remove the zone or the layers"});
-  refuse(!spec.bodies.empty(), "floating bodies", {"remove the zone or the bodies"});
   refuse(!spec.liquids.empty(), "other liquids than water", {"remove the zone or [[liquid]]"});
   return findings;
 }
@@ -102,11 +101,20 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
                           const typename SpacingField<Dim>::Zone& zone, const CaseLabel& owner) {
   Findings findings;
   const std::string within = fmt::format(" within {:g} spacings", clearance);
+  const std::vector<int> body_of_wall = bodies_of_walls(make_bodies<Dim>(spec), boundary.walls.size());
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const int wall = static_cast<int>(w);
     if (!boundary.walls[wall].moves()) continue;
     const Box<Dim> swept = swept_box(spec, boundary, wall);
     if (!is_near<Dim>(spec, zone, swept) || is_inside<Dim>(spec, zone, swept)) continue;
+    if (body_of_wall[wall] >= 0) {
+      findings.push_back(refused(
+          owner, "bodies" + within + " of its border",
+          {"end the zone farther from all places that {} reaches, which starts from {} to {}, or let it reach at "
+           "least {:.4g} m beyond them",
+           wall_label(boundary, wall), place(swept.min()), place(swept.max()), margin_inside<Dim>(spec, zone)}));
+      continue;
+    }
     findings.push_back(
         refused(owner, "walls that move" + within + " of its border",
                 {"end the zone at least {:.4g} m before the path of {}, which is from {} to {}, or let it "
@@ -123,8 +131,11 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
     }
   }
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
-    if (!is_near<Dim>(spec, zone, box_around(end.as_faces()))) continue;
-    findings.push_back(refused(owner, "inlets and outlets" + within, {"end the zone farther from {}", end.label()}));
+    const Box<Dim> box = box_around(end.as_faces());
+    if (!is_near<Dim>(spec, zone, box) || is_inside<Dim>(spec, zone, box)) continue;
+    findings.push_back(refused(owner, "inlets and outlets" + within + " of its border",
+                               {"end the zone farther from {}, or let it reach at least {:.4g} m beyond it",
+                                end.label(), margin_inside<Dim>(spec, zone)}));
   }
   return findings;
 }

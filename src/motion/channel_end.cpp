@@ -251,7 +251,8 @@ double ChannelEnd<Dim>::largest_depth(double end_time) const {
 }
 
 template <int Dim>
-std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec, std::span<const Duct<Dim>> ducts) {
+std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec, std::span<const Duct<Dim>> ducts,
+                                               const SpacingField<Dim>& field) {
   const NamedNumbers numbers = named_numbers(spec);
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   std::vector<ChannelEnd<Dim>> ends;
@@ -275,7 +276,8 @@ std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec, std::span<c
       duct = ducts.front().length;
       ducts = ducts.subspan(1);
     }
-    ends.emplace_back(opening, std::move(flow), gravity, spec.particles.spacing, duct);
+    const double relative = field.is_uniform() ? 1.0 : field.at(box_around(opening.as_faces()).center());
+    ends.emplace_back(opening, std::move(flow), gravity, relative * spec.particles.spacing, duct);
     if (opening.meets_air) ends.back().far_out = lead_over_spacing * spec.particles.spacing;
   }
   for (std::size_t k = 0; k < spec.inlets.size(); ++k) {

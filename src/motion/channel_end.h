@@ -8,6 +8,7 @@
 #include "case/time_function.h"
 #include "geometry/boundary.h"
 #include "geometry/opening.h"
+#include "refinement/spacing_field.h"
 
 namespace tailwater {
 
@@ -93,8 +94,9 @@ struct ChannelEnd {
 };
 
 /// The inlets of a case, then its outlets, at the ends of the `ducts` of its boundary, or of the longest that there can
-/// be. Throws InputError as make_open_ends does.
+/// be, with columns as wide as the spacing of the `field` there. Throws InputError as make_open_ends does.
 template <int Dim>
-std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec, std::span<const Duct<Dim>> ducts = {});
+std::vector<ChannelEnd<Dim>> make_channel_ends(const CaseSpec& spec, std::span<const Duct<Dim>> ducts = {},
+                                               const SpacingField<Dim>& field = {});
 
 }  // namespace tailwater

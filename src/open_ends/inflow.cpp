@@ -184,7 +184,7 @@ template <int Dim>
 std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow,
                                          const WaterAmount& sump) {
   const double number = static_cast<double>(sump.particles);
-  const double cell = power<Dim>(flow.setup.scale.spacing);
+  const double cell = power<Dim>(end.spacing);
   std::vector<Entrant<Dim>> entrants =
       find_entrants(end, state, flow, std::optional(sump.particles > 0 ? sump.volume / number : cell));
   const auto waiting = static_cast<std::size_t>(sump.particles);

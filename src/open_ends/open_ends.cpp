@@ -12,6 +12,7 @@
 #include "closures/fluid_pairs.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
+#include "operators/support_operators.h"
 
 namespace tailwater {
 
@@ -229,10 +230,12 @@ double OpenEnds<Dim>::work_of_driven_particle(const Flow<Dim>& flow, std::size_t
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   const OpenEnd<Dim>& end = ends_[end_of_[i]];
+  const SupportTerms<Dim>& terms = flow.surroundings.support_terms;
   const Vec<Dim> recoil = sum_over_fluid<Dim>(pairs, particles, i, [&](std::size_t j, std::size_t k) {
     if (end.holds(particles.position[j])) return Vec<Dim>(Vec<Dim>::Zero());
-    return Vec<Dim>((particles.volume[j] * (particles.pressure[i] + particles.pressure[j])) *
-                    flow.surroundings.pair_vectors.at(pairs, i, k));
+    const double sum =
+        inverse_reference(terms, i) * particles.pressure[i] + inverse_reference(terms, j) * particles.pressure[j];
+    return Vec<Dim>((particles.volume[j] * sum) * flow.surroundings.pair_vectors.at(pairs, i, k));
   });
   const Vec<Dim> weight = flow.setup.liquid.density * flow.setup.gravity;
   return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
@@ -248,9 +251,10 @@ template <int Dim>
 std::unique_ptr<Part<Dim>> make_open_ends_part(const CaseSpec& spec, const Setup<Dim>& setup,
                                                const Boundary<Dim>& boundary) {
   std::vector<OpenEnd<Dim>> ends;
-  for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec, boundary.ducts)) {
-    ends.emplace_back(std::move(end), setup.gravity, setup.scale.spacing,
-                      traits_of(spec).support * setup.scale.spacing);
+  const SpacingField<Dim> field = setup.graded == nullptr ? SpacingField<Dim>() : setup.graded->field();
+  for (ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec, boundary.ducts, field)) {
+    const double spacing = setup.scale.spacing * setup.relative_spacing(box_around(end.opening.as_faces()).center());
+    ends.emplace_back(std::move(end), setup.gravity, spacing, traits_of(spec).support * spacing);
     ends.back().reach = reach_of(ends.back().opening, boundary);
   }
   if (ends.empty()) return nullptr;

@@ -20,6 +20,12 @@ template <int Dim>
 Vec<Dim> find_delta(const Pairs<Dim>& pairs, std::size_t i, double concentration, double W_0,
                     const SupportTerms<Dim>& terms);
 
+/// C_0/c of particle i, by which pair forces multiply its pressure; 1 if all particles have one spacing.
+template <int Dim>
+double inverse_reference(const SupportTerms<Dim>& terms, std::size_t i) {
+  return terms.is_empty() ? 1.0 : static_cast<double>(terms.ends[i].inverse_reference);
+}
+
 /// Mean of C_0/c over both particles of several pairs.
 template <class Batch, int Dim>
 Lanes mean_inverse_reference(const Batch& batch, const SupportTerms<Dim>& terms) {

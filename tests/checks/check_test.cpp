@@ -748,6 +748,17 @@ TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
   EXPECT_NE(listed(check(spec)).find(refused), std::string::npos) << listed(check(spec));
   spec.refinement[0].max[1] = 9.0;  // the whole tank
   EXPECT_EQ(listed(check(spec)).find(refused), std::string::npos) << listed(check(spec));
+  InletTable inlet;
+  inlet.name = "spring";
+  inlet.from = {0.0, 0.1};
+  inlet.to = {0.0, 0.3};
+  inlet.direction = {1.0, 0.0};
+  inlet.discharge = "0.1";
+  spec.inlets = {inlet};
+  const std::string of_inlets = "do not work with inlets and outlets within 8 spacings of its border";
+  EXPECT_EQ(listed(check(spec)).find(of_inlets), std::string::npos) << listed(check(spec));
+  spec.refinement[0].max[1] = 0.5;  // its border reaches the inlet
+  EXPECT_NE(listed(check(spec)).find(of_inlets), std::string::npos) << listed(check(spec));
 }
 
 // A yield stress of 20 Pa, a depth of 1 m or less and 100 Pa s make a creep of at most 0.1 m/s.

@@ -485,5 +485,34 @@ TEST(FloatingBody, HangsOnALineOfAnyDamping) {
   EXPECT_NEAR(body.velocity[1], -spec.bodies[0].mass * g / line.damping, 1e-7);
 }
 
+/// Height [m] of a box that is half as heavy as water, 0.15 s after it is let go a spacing above its draught.
+double height_of_box(const CaseSpec& tank) {
+  CaseSpec spec = tank;
+  add_box(spec, {0.1, 0.25}, {0.3, 0.45}, 500.0);
+  spec.bodies[0].free = {"y"};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  while (flow.state.time < 0.15) {
+    adapt(flow);
+    step(flow);
+  }
+  return flow.state.motion.bodies.each[0].centre[1];
+}
+
+TEST(FloatingBody, MovesInAZoneOfFinerParticlesAsInAFineRun) {
+  CaseSpec spec = tank_case<2>(0.025, 0.9, 0.325);
+  RefinementTable zone;
+  zone.min = {-1.0, -1.0};
+  zone.max = {0.55, 9.0};  // the border is 6 dx from the box
+  spec.refinement = {zone};
+  const double in_zone = height_of_box(spec);
+  spec.refinement.clear();
+  const double coarse = height_of_box(spec);
+  spec.particles.spacing = 0.0125;
+  const double fine = height_of_box(spec);
+  EXPECT_NEAR(in_zone, fine, 0.05 * (0.35 - fine)) << "coarse: " << coarse;
+  EXPECT_GT(std::abs(coarse - fine), 2.0 * std::abs(in_zone - fine));
+}
+
 }  // namespace
 }  // namespace tailwater

@@ -7,6 +7,7 @@
 #include "flow/stages.h"
 #include "parts/refinement.h"
 #include "schemes/cases.h"
+#include "schemes/open_ends.h"
 #include "support/particle_set.h"
 
 namespace tailwater {
@@ -239,6 +240,36 @@ TEST(RefinementTest, PressureAndVelocityAreAdjointAndMomentumIsExact) {
   EXPECT_GT(beside_border, 50u);
 }
 
+/// The water that comes in within 0.4 s of even flow through a channel.
+WaterAmount inflow_of_channel(CaseSpec spec) {
+  spec.inlets[0].discharge = "0.15";
+  spec.fluid[0].velocity = {0.5, 0.0};
+  spec.walls[0].friction = 0.0;
+  Flow<2> flow = make_flow<2>(spec);
+  tailwater::start(flow);
+  while (flow.state.time < 0.4) {
+    adapt(flow);
+    pass_and_step(flow);
+  }
+  return flow.part<OpenEnds<2>>().arrived();
+}
+
+TEST(RefinementTest, WaterEntersAZoneAtItsSpacing) {
+  CaseSpec spec = channel<2>(1.6, 0.3);
+  RefinementTable zone;
+  zone.min = {-1.0, -1.0};
+  zone.max = {1.0, 9.0};  // the inlet, with its buffer
+  spec.refinement = {zone};
+  const WaterAmount in_zone = inflow_of_channel(spec);
+  spec.refinement.clear();
+  spec.particles.spacing = 0.5 * dx;
+  const WaterAmount fine = inflow_of_channel(spec);
+  constexpr double column = 12.0;  // particles
+  EXPECT_GT(fine.particles, 5 * column);
+  EXPECT_NEAR(static_cast<double>(in_zone.particles), static_cast<double>(fine.particles), column);
+  EXPECT_NEAR(in_zone.volume, fine.volume, column * 0.25 * dx * dx);
+}
+
 TEST(RefinementTest, WallsInAZoneHaveItsSpacing) {
   CaseSpec spec = tank_case<2>(dx, 1.0, 0.5);
   const Flow<2> coarse = make_flow<2>(spec);
@@ -260,6 +291,8 @@ TEST(RefinementTest, WallsInAZoneHaveItsSpacing) {
   EXPECT_EQ(cells_behind_floor(zoned), cells_behind_floor(fine));
   EXPECT_EQ(cells_behind_floor(moving), cells_behind_floor(fine));
   EXPECT_EQ(cells_behind_floor(fine), 4 * cells_behind_floor(coarse));
+  // No rows behind those; the edges are rounded to whole rows of the case.
+  EXPECT_LT(zoned.walls.particles.size(), 1.2 * static_cast<double>(fine.walls.particles.size()));
   const auto water = [](const Flow<2>& flow) {
     return count_each(flow.state.particles.owned, [&](std::size_t i) { return flow.state.particles.is_fluid(i); });
   };
