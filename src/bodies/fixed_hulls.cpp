@@ -4,6 +4,7 @@
 
 #include "air/enclosed_air.h"
 #include "bodies/narrow_gaps.h"
+#include "case/formulation.h"
 
 namespace tailwater {
 namespace {
@@ -121,8 +122,8 @@ void FixedHulls<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*start
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_fixed_hulls(const CaseSpec& spec, const Setup<Dim>& setup,
                                             const Boundary<Dim>& boundary) {
-  const bool is_covered = spec.scheme.formulation == Formulation::robust && spec.liquids.empty() &&
-                          spec.refinement.empty() && has_force_probe(spec);
+  const bool is_covered =
+      traits_of(spec).no_floating.empty() && spec.liquids.empty() && spec.refinement.empty() && has_force_probe(spec);
   if (!is_covered) return nullptr;
   const std::vector<int> body_of_wall = bodies_of_walls(make_bodies<Dim>(spec), boundary.walls.size());
   std::vector<int> hulls;

@@ -327,6 +327,14 @@ void check_study(const CaseSpec& spec, const toml::table& root, Problems& proble
   }
 }
 
+/// Walls of the published formulations have rows of their own, without a limit of the tension.
+void check_tension(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  const toml::node* const key = root["physics"]["tension"].node();
+  if (key == nullptr || spec.physics.tension == 0.0 || spec.scheme.formulation == Formulation::robust) return;
+  problems.wrong(CaseLabel("physics").with_key("tension"), *key,
+                 "is not used with scheme.formulation = \"published\"; remove it");
+}
+
 void check_names_of_others(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   for (std::size_t k = 0; k < spec.moorings.size(); ++k) {
     const CaseLabel key = CaseLabel("mooring", k).with_key("body");
@@ -354,6 +362,7 @@ void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems
   check_porous(spec, root, problems);
   check_liquids(spec, root, problems);
   check_study(spec, root, problems);
+  check_tension(spec, root, problems);
   check_names_of_others(spec, root, problems);
 }
 

@@ -106,6 +106,7 @@ struct PhysicsTable {
   double density = 1000.0;
   double viscosity = 1e-6;
   Coordinates gravity = {0.0, -9.81};
+  double tension = 0.0;
   double channel_width = 0.0;
   double channel_roughness = 0.0;
 
@@ -117,6 +118,9 @@ struct PhysicsTable {
     v.number("viscosity", self.viscosity, "m^2/s", Range::at_least(0.0), "Kinematic viscosity of the fluid, nu_0");
     v.coordinates("gravity", self.gravity, "m/s^2",
                   "Acceleration of gravity, one number per dimension (default in 3D: 0, 0, -9.81)");
+    v.number("tension", self.tension, "Pa", Range::at_least(0.0),
+             "Pressure below that of the atmosphere up to which walls hold water where no air is near, as in a siphon, "
+             "at most 1e5 for cold water; 0: water separates from walls");
     v.number("channel_width", self.channel_width, "m", Range::at_least(0.0),
              "2D: width of the channel between two side walls, whose friction acts on all the water; 0: no side walls");
     v.number("channel_roughness", self.channel_roughness, "m", Range::at_least(0.0),

@@ -14,6 +14,9 @@ namespace {
 /// [edge of a cell]; minimum height above its surface at which water counts as hanging.
 constexpr double least_height = 2.0;
 
+/// Pa; the pressure of the atmosphere. Below it by this much cold water boils.
+constexpr double largest_tension = 1e5;
+
 struct ConnectedWater {
   double surface = -std::numeric_limits<double>::infinity();  ///< m, upwards; highest place beside air
   double ceiling = -std::numeric_limits<double>::infinity();  ///< m; highest place below a wall
@@ -76,12 +79,17 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
     if (connected.is_at_end || !has_surface) continue;
     const double above = connected.ceiling - connected.surface;
     if (above < least_height * space.edge()) continue;
+    const double tension = spec.physics.density * gravity.norm() * above;
+    if (tension <= spec.physics.tension) continue;
+    const auto remedy = tension <= largest_tension
+                            ? Clause("fill it no higher, or give physics.tension = {:.2g}", 1.2 * tension)
+                            : Clause("fill it no higher");
     findings.push_back(Finding::warning(
-        {"the water below {} at {} stands {:.3g} above its own surface, as in a siphon, and will separate, because the "
-         "model sustains no tension there",
+        {"the water below {} at {} stands {:.3g} above its own surface, as in a siphon, and will separate, because "
+         "walls hold water up to {:.3g} below the pressure of the atmosphere (physics.tension)",
          wall_label(boundary, boundary.faces[connected.face_above].wall),
-         place(space.centre(space.cell(connected.cell_below))), Amount{above, "m"}},
-        {"fill it no higher"}));
+         place(space.centre(space.cell(connected.cell_below))), Amount{above, "m"}, Amount{spec.physics.tension, "Pa"}},
+        remedy));
   }
   return findings;
 }

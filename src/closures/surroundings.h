@@ -23,6 +23,7 @@ struct Surroundings {
   std::vector<std::uint8_t> is_surface;          ///< ghosts too where the published rows depend on it
   std::vector<double> interior;                  ///< 0 near the surface, 1 inside (free_surface.h); robust: ghosts too
   std::vector<double> mean_interior;             ///< of owned fluid inside: mean over its fluid neighbours, weights W
+  std::vector<double> wall_tension;              ///< Pa; by which owned wall particles hold water; empty: not at all
   std::vector<Vec<Dim>> crowding;                ///< 1/m; of owned fluid (concentration.h)
   PairVectorField<Dim> pair_vectors;             ///< data of the pair vectors (pair_vectors.h); ghosts too
   std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij

@@ -8,6 +8,7 @@ namespace tailwater {
 struct Liquid {
   double density;          ///< kg/m^3
   ViscosityLaw viscosity;  ///< m^2/s
+  double tension = 0.0;    ///< Pa; up to which walls hold it where no air is near
 };
 
 }  // namespace tailwater

@@ -171,7 +171,8 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       formulation(chosen),
       liquid{.density = spec.physics.density,
              .viscosity = {.molecular = spec.physics.viscosity,
-                           .artificial = formulation.artificial_viscosity * spec.particles.spacing}},
+                           .artificial = formulation.artificial_viscosity * spec.particles.spacing},
+             .tension = spec.physics.tension},
       scale(spec.particles.spacing, formulation.kernel),
       graded(drawing.spacing_field.is_uniform()
                  ? nullptr

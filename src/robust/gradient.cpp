@@ -9,6 +9,21 @@
 
 namespace tailwater {
 
+namespace {
+
+/// Among disordered particles a uniform pressure has the gradient 2 p sum_j w_j a_ij, which drives them together where
+/// p < 0 (tensile instability). Inside water under tension it is subtracted: pairs then have p_j - p_i for p_j + p_i
+/// (Sun et al. 2018).
+template <int Dim>
+void remove_attraction(const Flow<Dim>& flow, const std::vector<double>& pressure, std::span<Vec<Dim>> gradient) {
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] != Role::water || pressure[i] >= 0.0) return;
+    gradient[i] -= 2.0 * pressure[i] * flow.surroundings.interior[i] * flow.surroundings.open_faces[i];
+  });
+}
+
+}  // namespace
+
 template <int Dim>
 void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure,
                                               std::span<Vec<Dim>> gradient) const {
@@ -24,6 +39,7 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
                       : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, is_graded ? scaled : pressure);
   });
   if (is_graded) add_support_gradient<Dim>(flow, scaled, gradient);
+  if (flow.setup.liquid.tension > 0.0) remove_attraction(flow, pressure, gradient);
 }
 
 template <int Dim>

@@ -96,7 +96,9 @@ class Dummies final : public WallModel<Dim> {
       LaneSum sum;
       const double excess = excess_over_water(
           scene, force, i, [&](const auto& batch, const Lanes& weight) { sum += weight * batch.of(pressure); });
-      pressure[i] = std::max(0.0, sum.total() / scene.surroundings.wall_fluid_weight[i] + excess);
+      const std::vector<double>& tension = scene.surroundings.wall_tension;
+      const double least = tension.empty() ? 0.0 : -tension[i];
+      pressure[i] = std::max(least, sum.total() / scene.surroundings.wall_fluid_weight[i] + excess);
     });
     return true;
   }
