@@ -38,7 +38,7 @@ CaseSpec siphon(double tension) {
   return spec;
 }
 
-/// Of the water that hangs above the levels, where no surface is near.
+/// The largest speed of the water that hangs above the levels, where no surface is near.
 double largest_speed_of(const Flow<2>& flow) {
   const Particles<2>& particles = flow.state.particles;
   double largest = 0.0;
