@@ -71,6 +71,7 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, co
     before[b].velocity = bodies.start_velocity[b];
     loads_.push_back(bodies.bodies[b].load(before[b], flow.setup.gravity) + frictions[b] +
                      before[b].carried_over / dt_);
+    damping_.push_back(bodies.bodies[b].damping(before[b]));
   }
   flow.template part<ScriptLoads<Dim>>().add_to_bodies(loads_);
   one_sided_ = find_contacts<Dim>(flow, bodies.contact, before, dt_, freedoms_);
@@ -218,7 +219,9 @@ Eigen::VectorXd BodyCoupling<Dim>::residual() {
     const BodyState<Dim>& state = flow_.state.motion.bodies.each[b];
     const auto k = static_cast<Eigen::Index>(w);
     forces[k] = std::max({std::abs(loads_[b][entry]), std::abs(pressures[b][entry]), std::abs(push_[k])});
-    g[k] = body.force_of(state, state.acceleration)[entry] - pressures[b][entry] - loads_[b][entry];
+    // Dampers act with the velocity at the end of the step.
+    g[k] = body.force_of(state, state.acceleration)[entry] + dt_ * damping_[b][entry] * state.acceleration[entry] -
+           pressures[b][entry] - loads_[b][entry];
   }
   largest_force_ = size(forces);
   return g - push_;

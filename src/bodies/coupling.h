@@ -80,6 +80,7 @@ class BodyCoupling final : public CoupledUnknowns {
   std::vector<Freedom> freedoms_;
   Eigen::VectorXd scale_;                ///< mass or moment of inertia of each degree of freedom
   std::vector<Twist<Dim>> loads_;        ///< on each body, without pressure, contacts and lines; the same in all passes
+  std::vector<Twist<Dim>> damping_;      ///< force of the dampers of each body over its velocity at the end of the step
   std::vector<Twist<Dim>> last_forces_;  ///< of the pressure on each body, in the last residual
   std::vector<OneSidedForce> one_sided_;  ///< contacts and lines
   std::vector<double> allowed_tension_;   ///< Pa; of all particles (pressure/tension.h)

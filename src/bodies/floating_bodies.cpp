@@ -10,8 +10,8 @@
 namespace tailwater {
 namespace {
 
-/// [1 over the frequency of a line with its load]; the force of a line is that of the start of the step.
-constexpr double longest_step_of_moorings = 0.5;
+/// [1 over the frequency of a line or spring with its load]; their force is that of the start of the step.
+constexpr double longest_step_of_springs = 0.5;
 
 /// Speed that a unit impulse gives the place x of a body as drawn, at most [1/kg].
 template <int Dim>
@@ -62,8 +62,15 @@ StepLimits FloatingBodies<Dim>::step_limits(const Flow<Dim>& /*flow*/) const {
   for (const Mooring<Dim>& mooring : moorings) {
     double mobility = mobility_at<Dim>(bodies[mooring.body], mooring.at);
     if (mooring.to_body >= 0) mobility += mobility_at<Dim>(bodies[mooring.to_body], mooring.anchor);
-    if (mobility == 0.0) continue;
-    limits.step = std::min(limits.step, longest_step_of_moorings / std::sqrt(mooring.stiffness * mobility));
+    if (mobility == 0.0 || mooring.stiffness == 0.0) continue;
+    limits.step = std::min(limits.step, longest_step_of_springs / std::sqrt(mooring.stiffness * mobility));
+  }
+  for (const FloatingBody<Dim>& body : bodies) {
+    const Twist<Dim> mass = body.scale();
+    for (const int entry : body.free) {
+      if (body.springs[entry] == 0.0) continue;
+      limits.step = std::min(limits.step, longest_step_of_springs * std::sqrt(mass[entry] / body.springs[entry]));
+    }
   }
   return limits;
 }

@@ -77,11 +77,24 @@ void check(const WaveMakerTable& maker, TableReader& reader) {
 }
 
 void check(const BodyTable& body, TableReader& reader) {
+/// Checks numbers of a body for all its degrees of freedom, free or not.
+void check_numbers_of_freedoms(const std::vector<double>& numbers, std::string_view key, TableReader& reader) {
+  const std::size_t needed = reader.dimension() == 2 ? 3 : 6;
+  if (numbers.empty() || reader.is_wrong(key)) return;
+  if (numbers.size() == needed && std::ranges::none_of(numbers, [](double number) { return number < 0.0; })) return;
+  reader.wrong(key, "give {} numbers of at least 0, for {}", needed,
+               needed == 3 ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z");
+}
+
   if (body.walls.empty() && !reader.is_wrong("walls")) {
     reader.missing("walls", "a body needs a surface; give the names of its walls, as in [\"hull\"]");
   }
   if (reader.dimension() == 0) return;  // the names of the free motions depend on it
   const bool is_flat = reader.dimension() == 2;
+  check_numbers_of_freedoms(body.springs, "springs", reader);
+  check_numbers_of_freedoms(body.damping, "damping", reader);
+  check_numbers_of_freedoms(body.quadratic_damping, "quadratic_damping", reader);
+  check_numbers_of_freedoms(body.extra_mass, "extra_mass", reader);
   for (const std::string& degree : body.free) {
     const bool is_turn = degree.starts_with("rotation");
     if (degree.find('z') != std::string::npos ? is_flat : is_turn && (degree == "rotation") != is_flat) {
@@ -119,6 +132,9 @@ void check(const MooringTable& mooring, TableReader& reader) {
     }
   }
   if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
+  if (mooring.stiffness == 0.0 && (mooring.damping == 0.0 || mooring.length > 0.0) && !reader.is_wrong("stiffness")) {
+    reader.wrong("stiffness", "a line without stiffness is a damper, which needs damping above 0 and no length");
+  }
     reader.wrong("anchor", "is where the line is fastened to the body, so it has no direction; give another place");
   }
 }

@@ -529,6 +529,10 @@ struct BodyTable {
   std::vector<std::string> free;
   Coordinates velocity;
 
+  std::vector<double> springs;
+  std::vector<double> damping;
+  std::vector<double> quadratic_damping;
+  std::vector<double> extra_mass;
   bool operator==(const BodyTable&) const = default;
 
   template <class Self, class Visitor>
@@ -546,6 +550,16 @@ struct BodyTable {
     v.texts("free", self.free, freedom_names, "Degrees of freedom (default: all; in 2D [\"x\", \"y\", \"rotation\"])");
     v.coordinates("velocity", self.velocity, "m/s", "Initial velocity of the body (default: at rest)");
   }
+    v.numbers("springs", self.springs, "N/m, N m/rad",
+              "Stiffness of springs that return the body to its drawn position, for each of x, y, rotation (2D) or x, "
+              "y, z, rotation_x, rotation_y, rotation_z (3D), as in [0, 0, 20]; in 2D per metre of width");
+    v.numbers("damping", self.damping, "N s/m, N m s/rad",
+              "Force against each velocity of the body, over that velocity: linear dampers, or a power take-off; in "
+              "the order of `springs`");
+    v.numbers("quadratic_damping", self.quadratic_damping, "N s^2/m^2, N m s^2/rad^2",
+              "Force against each velocity of the body, over the square of that velocity; in the order of `springs`");
+    v.numbers("extra_mass", self.extra_mass, "kg, kg m^2",
+              "Mass that accelerates with the body, but has no weight; in the order of `springs`");
 };
 
 /// A line that holds a body, or connects it to another.
@@ -567,8 +581,10 @@ struct MooringTable {
     v.coordinates("at", self.at, "m", "Fastening point on the first body as drawn", Presence::required);
     v.coordinates("anchor", self.anchor, "m",
                   "Other end of the line: a fixed point, or a point on the second body as drawn", Presence::required);
-    v.number("stiffness", self.stiffness, "N/m", Range::above(0.0),
-             "Force per elongation beyond the length of the line; in 2D per metre of width", Presence::required);
+    v.number("stiffness", self.stiffness, "N/m", Range::at_least(0.0),
+             "Force per elongation beyond the length of the line; 0: a damper alone, of length 0; in 2D per metre of "
+             "width",
+             Presence::required);
     v.number(
         "length", self.length, "m", Range::at_least(0.0),
         "Length of the slack line, which pulls only when it is longer and never pushes. 0: a spring that always pulls");

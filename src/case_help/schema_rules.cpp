@@ -116,6 +116,13 @@ Json rules_of_damping() {
   });
 }
 
+/// Numbers for the three or six degrees of freedom of a body.
+Json rule_for_freedoms(const char* key) {
+  const Json lengths = Json::array(
+      {Json{{"maxItems", 0}}, Json{{"minItems", 3}, {"maxItems", 3}}, Json{{"minItems", 6}, {"maxItems", 6}}});
+  return rule_for(key, {{"items", {{"minimum", 0}}}, {"anyOf", lengths}});
+}
+
 /// A body that is free to turn, as by default, needs its inertia.
 Json rules_of_bodies() {
   const Json turn{{"pattern", "^rotation"}};
@@ -127,6 +134,10 @@ Json rules_of_bodies() {
       needs("walls"),
       rule_for("walls", at_least(1)),
       {{"anyOf", Json::array({does_not_turn, is_given("inertia")})}},
+      rule_for_freedoms("springs"),
+      rule_for_freedoms("damping"),
+      rule_for_freedoms("quadratic_damping"),
+      rule_for_freedoms("extra_mass"),
   });
 }
 

@@ -27,6 +27,14 @@ int body_named(const CaseSpec& spec, const std::string& name) {
   return body == spec.bodies.end() ? -1 : static_cast<int>(body - spec.bodies.begin());
 }
 
+/// Zeros where no numbers are given.
+template <int Dim>
+Twist<Dim> to_twist(const std::vector<double>& numbers) {
+  Twist<Dim> twist = Twist<Dim>::Zero();
+  for (std::size_t k = 0; k < numbers.size(); ++k) twist[static_cast<int>(k)] = numbers[k];
+  return twist;
+}
+
 }  // namespace
 
 // A body is exactly where its walls were placed, to the last bit, because a resumed run places them from the state.
@@ -49,7 +57,13 @@ void BodyState<Dim>::go_on(double t) {
 
 template <int Dim>
 FloatingBody<Dim>::FloatingBody(const CaseSpec& spec, const BodyTable& table)
-    : name(table.name), mass(table.mass), inertia(Turn<Dim>::Ones()) {
+    : name(table.name),
+      mass(table.mass),
+      inertia(Turn<Dim>::Ones()),
+      springs(to_twist<Dim>(table.springs)),
+      linear_damping(to_twist<Dim>(table.damping)),
+      quadratic_damping(to_twist<Dim>(table.quadratic_damping)),
+      extra_mass(to_twist<Dim>(table.extra_mass)) {
   const CaseLabel owner("body", name);
   for (std::size_t k = 0; k < table.inertia.size(); ++k) inertia[static_cast<int>(k)] = table.inertia[k];
   for (const std::string& degree : table.free) free.push_back(entry_of<Dim>(degree));
@@ -74,12 +88,18 @@ Mat<Dim == 2 ? 1 : 3> FloatingBody<Dim>::inertia_of(const BodyState<Dim>& state)
 template <int Dim>
 Twist<Dim> FloatingBody<Dim>::force_of(const BodyState<Dim>& state, const Twist<Dim>& acceleration) const {
   return twist_of<Dim>(mass * acceleration.template head<Dim>(),
-                       inertia_of(state) * acceleration.template tail<turns<Dim>>());
+                       inertia_of(state) * acceleration.template tail<turns<Dim>>()) +
+         extra_mass.cwiseProduct(acceleration);
 }
 
 template <int Dim>
 Twist<Dim> FloatingBody<Dim>::scale() const {
-  return twist_of<Dim>(Vec<Dim>::Constant(mass), Turn<Dim>::Constant(inertia.mean()));
+  return twist_of<Dim>(Vec<Dim>::Constant(mass), Turn<Dim>::Constant(inertia.mean())) + extra_mass;
+}
+
+template <int Dim>
+Twist<Dim> FloatingBody<Dim>::damping(const BodyState<Dim>& state) const {
+  return linear_damping + quadratic_damping.cwiseProduct(state.velocity.cwiseAbs());
 }
 
 template <int Dim>
@@ -90,6 +110,8 @@ Twist<Dim> FloatingBody<Dim>::load(const BodyState<Dim>& state, const Vec<Dim>& 
     const Vec<3> omega = state.angular_velocity();
     load.put(3, -omega.cross(inertia_of(state) * omega));
   }
+  const Twist<Dim> displacement = twist_of<Dim>(state.centre - drawn.centre, angle_of<Dim>(state.placement.linear));
+  load -= springs.cwiseProduct(displacement) + damping(state).cwiseProduct(state.velocity);
   return load;
 }
 

@@ -127,12 +127,20 @@ struct FloatingBody {
   std::vector<int> free;   ///< indices of the free entries of a Twist
   BodyState<Dim> drawn;    ///< at the start
   std::vector<int> walls;  ///< indices into Boundary::walls
+  // Entries for each degree of freedom, along and about the axes of the case.
+  Twist<Dim> springs;            ///< N/m, N m/rad; towards the drawn position
+  Twist<Dim> linear_damping;     ///< N s/m, N m s/rad
+  Twist<Dim> quadratic_damping;  ///< N s^2/m^2, N m s^2/rad^2
+  Twist<Dim> extra_mass;         ///< kg, kg m^2; without weight
 
   /// Force and moment that cause an acceleration of the body, without gyration.
   Twist<Dim> force_of(const BodyState<Dim>& state, const Twist<Dim>& acceleration) const;
   /// Mass, or the mean moment of inertia, for each entry of a Twist: a scale for comparisons.
   Twist<Dim> scale() const;
-  /// Force and moment of weight and gyration.
+  /// Force and moment of dampers against a velocity, over that velocity. A quadratic damper has the factor of the
+  /// velocity of `state`, so that no damping is too strong for the step.
+  Twist<Dim> damping(const BodyState<Dim>& state) const;
+  /// Force and moment of weight, gyration, springs and dampers.
   Twist<Dim> load(const BodyState<Dim>& state, const Vec<Dim>& gravity) const;
 
  private:

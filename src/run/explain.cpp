@@ -162,10 +162,17 @@ void add_bodies(const CaseSpec& spec, std::vector<std::string>& sentences) {
     const auto lines = std::ranges::count_if(spec.moorings, [&](const MooringTable& mooring) {
       return std::ranges::find(mooring.bodies, body.name) != mooring.bodies.end();
     });
-    sentences.push_back(
-        fmt::format("Body '{}' of {:.4g} kg{} floats, free in {}{}.", body.name, body.mass, per_width(spec),
-                    body.free.empty() ? "no way" : listed(body.free),
-                    lines > 0 ? fmt::format(", on {}", plural(static_cast<double>(lines), "line")) : ""));
+    std::vector<std::string> held;
+    if (lines > 0) held.push_back(plural(static_cast<double>(lines), "line"));
+    const auto add = [&](const std::vector<double>& numbers, const char* words) {
+      if (std::ranges::any_of(numbers, [](double number) { return number > 0.0; })) held.emplace_back(words);
+    };
+    add(body.springs, "springs");
+    add(body.damping, "linear dampers");
+    add(body.quadratic_damping, "quadratic dampers");
+    sentences.push_back(fmt::format("Body '{}' of {:.4g} kg{} floats, free in {}{}.", body.name, body.mass,
+                                    per_width(spec), body.free.empty() ? "no way" : listed(body.free),
+                                    held.empty() ? "" : ", on " + listed(held)));
   }
 }
 

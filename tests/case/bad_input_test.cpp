@@ -176,6 +176,23 @@ const std::vector<BadInput> table{
      required_keys + water + "[[mooring]]\nbody = [\"a\", \"b\", \"c\"]\nat = [0, 0]\nanchor = [0, 1]\nstiffness = 1\n",
      "7:8",
      {"mooring[0].body", "a line has two ends"}},
+    {"body_with_two_springs_in_a_plane",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
+         "\"outside\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = [\"y\"]\nsprings = [0, 1]\n",
+     "17:11",
+     {"body[0].springs", "give 3 numbers of at least 0, for x, y, rotation"}},
+    {"body_with_a_negative_damper",
+     required_keys + water +
+         "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
+         "\"outside\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = [\"y\"]\ndamping = [0, -1, "
+         "0]\n",
+     "17:11",
+     {"body[0].damping", "at least 0"}},
+    {"mooring_without_a_force",
+     required_keys + water + "[[mooring]]\nbody = \"a\"\nat = [0, 0]\nanchor = [0, 1]\nstiffness = 0\n",
+     "10:13",
+     {"mooring[0].stiffness", "is a damper, which needs damping above 0"}},
     {"gate_with_the_name_of_a_wall",
      required_keys + water +
          "[[wall]]\nname = \"a\"\npoints = [[0, 0], [1, 0]]\n[[gate]]\nname = \"a\"\nfrom = [1, 0]\nto = [1, 1]\nspeed "
@@ -217,6 +234,11 @@ const std::vector<BadInput> table{
     {"zone_of_a_solitary_wave",
      required_keys + water +
          "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nwaves = \"solitary\"\nheight = 0.1\nperiod = 1\ndepth = 1\n",
+     "9:9",
+     {"damping[0].waves", "use a piston"}},
+    {"zone_of_an_n_wave",
+     required_keys + water +
+         "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nwaves = \"n-wave\"\nheight = 0.1\nperiod = 1\ndepth = 1\n",
      "9:9",
      {"damping[0].waves", "use a piston"}},
     {"zone_of_waves_without_a_level",
