@@ -64,10 +64,14 @@ enum class MakerType { piston, flap };
 template <>
 inline constexpr auto choices<MakerType> = std::to_array<std::string_view>({"piston", "flap"});
 
-enum class WaveKind { regular, solitary, jonswap, focused, none };
+enum class WaveKind { regular, solitary, n_wave, jonswap, focused, none };
 template <>
-inline constexpr auto choices<WaveKind> = std::to_array<std::string_view>({"regular", "solitary", "jonswap", "focused",
-                                                                           "none"});
+inline constexpr auto choices<WaveKind> = std::to_array<std::string_view>({"regular", "solitary", "n-wave", "jonswap",
+                                                                           "focused", "none"});
+/// Whether waves have a period, at least that of the peak of their spectrum.
+inline constexpr bool has_period(WaveKind waves) {
+  return waves != WaveKind::none && waves != WaveKind::solitary && waves != WaveKind::n_wave;
+}
 
 enum class Absorption { none, active };
 template <>

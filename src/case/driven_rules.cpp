@@ -43,11 +43,11 @@ constexpr double highest_over_depth = 0.78;
 
 /// Keys that makers and zones share.
 void check_waves(const WaveKeys& waves, double depth, std::string_view place, TableReader& reader) {
-  const bool has_period = waves.waves != WaveKind::solitary && waves.waves != WaveKind::none;
-  if (has_period && waves.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
+  const bool is_periodic = has_period(waves.waves);
+  if (is_periodic && waves.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
     reader.wrong("period", "waves need a period; give a number above 0 in s");
   }
-  if (has_period && waves.waves != WaveKind::regular && waves.ramp == 0.0 && reader.given("ramp") != nullptr &&
+  if (is_periodic && waves.waves != WaveKind::regular && waves.ramp == 0.0 && reader.given("ramp") != nullptr &&
       !reader.is_wrong("ramp")) {
     reader.wrong("ramp", "{} waves do not begin at rest; give a time above 0 s",
                  waves.waves == WaveKind::focused ? "focused" : "irregular");
@@ -70,13 +70,13 @@ void check(const WaveMakerTable& maker, TableReader& reader) {
     reader.missing("absorption",
                    "a plate that makes no waves would rest; give absorption = \"active\", or other waves");
   }
-  if (maker.type == MakerType::flap && maker.waves == WaveKind::solitary && !reader.is_wrong("type")) {
-    reader.wrong("type", "a solitary wave moves the water evenly over the depth; use a piston");
+  const bool is_long = maker.waves == WaveKind::solitary || maker.waves == WaveKind::n_wave;
+  if (maker.type == MakerType::flap && is_long && !reader.is_wrong("type")) {
+    reader.wrong("type", "such a long wave moves the water evenly over the depth; use a piston");
   }
   check_waves(maker, maker.depth, "maker", reader);
 }
 
-void check(const BodyTable& body, TableReader& reader) {
 /// Checks numbers of a body for all its degrees of freedom, free or not.
 void check_numbers_of_freedoms(const std::vector<double>& numbers, std::string_view key, TableReader& reader) {
   const std::size_t needed = reader.dimension() == 2 ? 3 : 6;
@@ -86,15 +86,16 @@ void check_numbers_of_freedoms(const std::vector<double>& numbers, std::string_v
                needed == 3 ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z");
 }
 
+void check(const BodyTable& body, TableReader& reader) {
   if (body.walls.empty() && !reader.is_wrong("walls")) {
     reader.missing("walls", "a body needs a surface; give the names of its walls, as in [\"hull\"]");
   }
   if (reader.dimension() == 0) return;  // the names of the free motions depend on it
-  const bool is_flat = reader.dimension() == 2;
   check_numbers_of_freedoms(body.springs, "springs", reader);
   check_numbers_of_freedoms(body.damping, "damping", reader);
   check_numbers_of_freedoms(body.quadratic_damping, "quadratic_damping", reader);
   check_numbers_of_freedoms(body.extra_mass, "extra_mass", reader);
+  const bool is_flat = reader.dimension() == 2;
   for (const std::string& degree : body.free) {
     const bool is_turn = degree.starts_with("rotation");
     if (degree.find('z') != std::string::npos ? is_flat : is_turn && (degree == "rotation") != is_flat) {
@@ -131,10 +132,10 @@ void check(const MooringTable& mooring, TableReader& reader) {
       reader.wrong("body", "a line has two ends; name one body, or the two that it ties");
     }
   }
-  if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
   if (mooring.stiffness == 0.0 && (mooring.damping == 0.0 || mooring.length > 0.0) && !reader.is_wrong("stiffness")) {
     reader.wrong("stiffness", "a line without stiffness is a damper, which needs damping above 0 and no length");
   }
+  if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
     reader.wrong("anchor", "is where the line is fastened to the body, so it has no direction; give another place");
   }
 }
@@ -145,8 +146,14 @@ void check(const DampingTable& damping, TableReader& reader) {
       node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
     reader.wrong("towards", "a case of two dimensions has no z; give a direction in x or y");
   }
-  if (damping.waves == WaveKind::solitary && !reader.is_wrong("waves")) {
-    reader.wrong("waves", "a zone makes no solitary wave; use a piston");
+  if (reader.dimension() == 2 && damping.direction != 0.0 && !reader.is_wrong("direction")) {
+    reader.wrong("direction", "waves of a case of two dimensions have one direction; leave it out");
+  }
+  if (reader.dimension() == 2 && damping.spreading != 0.0 && !reader.is_wrong("spreading")) {
+    reader.wrong("spreading", "waves of a case of two dimensions have one direction; leave it out");
+  }
+  if (damping.waves != WaveKind::none && !has_period(damping.waves) && !reader.is_wrong("waves")) {
+    reader.wrong("waves", "a zone makes no solitary waves and no N-waves; use a piston");
   } else if (damping.waves != WaveKind::none) {
     check_waves(damping, damping.depth, "zone", reader);
   }

@@ -461,13 +461,14 @@ struct WaveKeys {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
-    v.choice("waves", self.waves,
-             "regular: waves of one period; solitary: one wave of Rayleigh's shape; jonswap: irregular waves with a "
-             "JONSWAP spectrum; focused: a group with this spectrum whose crests meet at one place; none: the plate or "
-             "zone only absorbs");
+    v.choice(
+        "waves", self.waves,
+        "regular: waves of one period; solitary: one wave of Rayleigh's shape; n-wave: one long wave with a trough "
+        "ahead of its crest; jonswap: irregular waves with a JONSWAP spectrum; focused: a group with this "
+        "spectrum whose crests meet at one place; none: the plate or zone only absorbs");
     v.number("height", self.height, "m", Range::above(0.0),
-             "Height of a regular or solitary wave; significant height Hm0 of irregular ones; twice the crest of a "
-             "focused group by linear theory");
+             "Height of a regular or solitary wave; of the crest of an N-wave, as high as its trough is deep; "
+             "significant height Hm0 of irregular ones; twice the crest of a focused group by linear theory");
     v.number("period", self.period, "s", Range::at_least(0.0),
              "Period of regular waves, of the peak of irregular ones; with waves = \"none\" that of the waves to be "
              "absorbed best (0: long waves at a plate, those of the wave maker in a zone)");
@@ -528,11 +529,11 @@ struct BodyTable {
   std::vector<double> inertia;
   std::vector<std::string> free;
   Coordinates velocity;
-
   std::vector<double> springs;
   std::vector<double> damping;
   std::vector<double> quadratic_damping;
   std::vector<double> extra_mass;
+
   bool operator==(const BodyTable&) const = default;
 
   template <class Self, class Visitor>
@@ -549,7 +550,6 @@ struct BodyTable {
         "x, y and z in the drawn position, which must be the principal axes (required if the body can rotate)");
     v.texts("free", self.free, freedom_names, "Degrees of freedom (default: all; in 2D [\"x\", \"y\", \"rotation\"])");
     v.coordinates("velocity", self.velocity, "m/s", "Initial velocity of the body (default: at rest)");
-  }
     v.numbers("springs", self.springs, "N/m, N m/rad",
               "Stiffness of springs that return the body to its drawn position, for each of x, y, rotation (2D) or x, "
               "y, z, rotation_x, rotation_y, rotation_z (3D), as in [0, 0, 20]; in 2D per metre of width");
@@ -560,6 +560,7 @@ struct BodyTable {
               "Force against each velocity of the body, over the square of that velocity; in the order of `springs`");
     v.numbers("extra_mass", self.extra_mass, "kg, kg m^2",
               "Mass that accelerates with the body, but has no weight; in the order of `springs`");
+  }
 };
 
 /// A line that holds a body, or connects it to another.
@@ -603,6 +604,8 @@ struct DampingTable : WaveKeys {
   double depth = 0.0;
   double level = 0.0;
   double transport = 0.0;
+  double direction = 0.0;
+  double spreading = 0.0;
 
   DampingTable() { waves = WaveKind::none; }
   bool operator==(const DampingTable&) const = default;
@@ -624,6 +627,12 @@ struct DampingTable : WaveKeys {
     v.number("level", self.level, "m", {}, "Height of the still water's surface, from the origin of the case");
     v.number("transport", self.transport, "m/s", {},
              "Discharge over depth, along the waves and averaged over them; 0 where the case is closed");
+    v.number("direction", self.direction, "degrees", Range::between(-75.0, 75.0),
+             "3D: angle between the waves and the way out of the zone, positive towards the level axis across it. In "
+             "a case that is periodic across, it is changed until whole waves fit into the period");
+    v.number("spreading", self.spreading, "", Range::at_least(0.0),
+             "3D: exponent s of cos^2s of half the angle from `direction`, the distribution of irregular waves over "
+             "directions; 0: one direction");
   }
 };
 

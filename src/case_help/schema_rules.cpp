@@ -102,7 +102,7 @@ Json rules_of_outlets() {
 Json rules_of_wave_makers() {
   return Json::array({
       if_then(is("waves", {"none"}), is("absorption", {"active"})),
-      if_then(is("type", {"flap"}), rule_for("waves", none_of({"solitary"}))),
+      if_then(is("type", {"flap"}), rule_for("waves", none_of({"solitary", "n-wave"}))),
       if_then(is("waves", {"jonswap", "focused"}), rule_for("ramp", {{"exclusiveMinimum", 0}})),
       if_then(is("waves", {"focused"}), rule_for("focus", {{"minItems", 2}, {"maxItems", 2}})),
   });
@@ -110,7 +110,7 @@ Json rules_of_wave_makers() {
 
 Json rules_of_damping() {
   return Json::array({
-      rule_for("waves", none_of({"solitary"})),
+      rule_for("waves", none_of({"solitary", "n-wave"})),
       if_then(is("waves", {"jonswap", "focused"}), rule_for("ramp", {{"exclusiveMinimum", 0}})),
       if_then(is("waves", {"focused"}), rule_for("focus", {{"minItems", 2}, {"maxItems", 2}})),
   });

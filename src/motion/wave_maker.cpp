@@ -6,15 +6,18 @@
 #include <numbers>
 
 #include "geometry/from_spec.h"
-#include "motion/second_order.h"
 #include "motion/wave_components.h"
 #include "motion/wave_theory.h"
 
 namespace tailwater {
 namespace {
 
-/// A solitary wave begins where its elevation is this fraction of its height: sech^2 of this phase, 0.2 %.
-constexpr double phase_at_start = -3.8;
+/// A solitary wave begins where its elevation is 0.2 % of its height: sech^2 of this phase. An N-wave begins at 0.05 %.
+constexpr double first_phase_of_solitary_wave = -3.8;
+constexpr double first_phase_of_n_wave = -5.0;
+
+/// Elevation of an N-wave over its height and sech^2 tanh, whose largest value is 2/(3 sqrt 3).
+constexpr double n_wave_factor = 1.5 * std::numbers::sqrt3;
 
 /// Number of periods in which an absorbing plate drifts back to its mean position. Many, so that the drift hardly
 /// changes the waves.
@@ -25,6 +28,9 @@ constexpr double gauge_distance = 2.0;
 
 /// kh; in deeper water, second-order waves are negligible, and their hyperbolic functions would overflow.
 constexpr double deepest_second_order = 20.0;
+
+/// [1/period]; lower differences of frequencies are left out, because they need strokes that grow like 1/frequency.
+constexpr double lowest_difference = 0.05;
 
 double sech_squared(double x) {
   const double cosh_x = std::cosh(std::min(std::abs(x), 300.0));
@@ -42,71 +48,81 @@ double gain_of(const WaveMakerTable& maker, double gravity) {
 
 }  // namespace
 
-SolitaryWave::SolitaryWave(double height, double depth, double gravity)
-    : height_(height),
+LongWave::LongWave(WaveKind kind, double height, double depth, double gravity)
+    : is_solitary_(kind == WaveKind::solitary),
+      height_(height),
       depth_(depth),
-      celerity_(std::sqrt(gravity * (depth + height))),
-      beta_(std::sqrt(0.75 * height / (depth * depth * (depth + height)))) {}
+      celerity_(std::sqrt(gravity * (is_solitary_ ? depth + height : depth))),
+      beta_(is_solitary_ ? std::sqrt(0.75 * height / (depth * depth * (depth + height)))
+                         : 1.5 / depth * std::sqrt(0.5 * std::numbers::sqrt3 * height / depth)),
+      first_phase_(is_solitary_ ? first_phase_of_solitary_wave : first_phase_of_n_wave) {}
 
-double SolitaryWave::displacement(double phase) const { return height_ / (beta_ * depth_) * std::tanh(phase); }
+// The integral of the elevation over the phase, over beta h.
+double LongWave::displacement(double phase) const {
+  const double scale = height_ / (beta_ * depth_);
+  return is_solitary_ ? scale * std::tanh(phase) : -0.5 * scale * n_wave_factor * sech_squared(phase);
+}
 
-// The plate moves with the water, dX/dt = c eta/(h + eta). With theta = beta (c t - X) this becomes dX/dtheta = H/(beta
-// h) sech^2 theta, and so c t = theta/beta + X(theta).
-double SolitaryWave::phase(double since) const {
-  const double distance = celerity_ * since + phase_at_start / beta_ + displacement(phase_at_start);
+double LongWave::elevation_at(double phase) const {
+  const double bell = height_ * sech_squared(phase);
+  return is_solitary_ ? bell : bell * n_wave_factor * std::tanh(phase);
+}
+
+// The plate moves with the water, dX/dt = c eta/(h + eta). With theta = beta (c t - X) this becomes dX/dtheta =
+// eta/(beta h), and so c t = theta/beta + X(theta).
+double LongWave::phase(double since) const {
+  const double distance = celerity_ * since + first_phase_ / beta_ + displacement(first_phase_);
   double theta = beta_ * distance;
-  // The slope lies between 1/beta and (1 + H/h)/beta, so every step of Newton's method reduces the error.
+  // The slope is (1 + eta/h)/beta, so every step of Newton's method reduces the error.
   for (int step = 0; step < 200; ++step) {
     const double change =
-        (distance - theta / beta_ - displacement(theta)) / ((1.0 + height_ / depth_ * sech_squared(theta)) / beta_);
+        (distance - theta / beta_ - displacement(theta)) / ((1.0 + elevation_at(theta) / depth_) / beta_);
     theta += change;
     if (std::abs(change) <= 1e-14 * std::max(1.0, std::abs(theta))) break;
   }
   return theta;
 }
 
-double SolitaryWave::stroke(double since) const { return displacement(phase(since)) - displacement(phase_at_start); }
+double LongWave::stroke(double since) const { return displacement(phase(since)) - displacement(first_phase_); }
 
-double SolitaryWave::elevation(double since, double ahead) const {
-  return height_ * sech_squared(phase(since) - beta_ * ahead);
-}
+double LongWave::elevation(double since, double ahead) const { return elevation_at(phase(since) - beta_ * ahead); }
 
 PeriodicWaves::PeriodicWaves(const WaveMakerTable& maker, double gravity, double gauge) : ramp_(maker.ramp) {
   const double h = maker.depth;
-  const auto sine = [&](double omega, double amplitude, double phase) {
+  const auto add_sine = [&](double omega, double amplitude, double phase) {
     const MakerTransfer transfer = maker_transfer(maker.type, omega, gravity, h);
-    return Sine{omega,     wave_number(omega, gravity, h), phase, amplitude / transfer.wave,
-                amplitude, transfer.near_field_at(gauge)};
+    sines_.push_back({omega, wave_number(omega, gravity, h), phase, amplitude / transfer.wave, amplitude,
+                      transfer.near_field_at(gauge)});
   };
   if (maker.waves == WaveKind::regular) {
-    const double omega = 2.0 * std::numbers::pi / maker.period;
-    sines_.push_back(sine(omega, 0.5 * maker.height, 0.0));
-    add_second_harmonic(maker, gravity);
-    return;
+    add_sine(2.0 * std::numbers::pi / maker.period, 0.5 * maker.height, 0.0);
+  } else {
+    for (const WaveComponent& part : wave_components(maker, gravity, h)) {
+      add_sine(part.omega, part.amplitude, part.phase);
+    }
   }
-  for (const WaveComponent& part : wave_components(maker, gravity, h)) {
-    sines_.push_back(sine(part.omega, part.amplitude, part.phase));
-  }
+  add_second_order(maker, gravity);
 }
 
-void PeriodicWaves::add_second_harmonic(const WaveMakerTable& maker, double gravity) {
-  const double h = maker.depth;
-  const double omega = sines_.front().omega;
-  const double k = sines_.front().wave_number;
-  if (k * h > deepest_second_order) return;
-  // X sin(omega t) is the real part of -i X exp(i omega t).
-  const std::complex<double> stroke =
-      second_harmonic_stroke(maker.type, omega, std::complex<double>(0.0, -sines_.front().stroke), gravity, h);
-  sines_.push_back({2.0 * omega, 2.0 * k, std::arg(stroke) + 0.5 * std::numbers::pi, std::abs(stroke), 0.0, 0.0});
-  const double sinh_y = std::sinh(k * h);
-  const double bound = maker.height * maker.height * k / 16.0 * std::cosh(k * h) * (2.0 + std::cosh(2.0 * k * h)) /
-                       (sinh_y * sinh_y * sinh_y);
-  sines_.push_back({2.0 * omega, 2.0 * k, 0.0, 0.0, bound, 0.0});
+void PeriodicWaves::add_second_order(const WaveMakerTable& maker, double gravity) {
+  std::vector<PlateMotion> motions;
+  for (const Sine& sine : sines_) {
+    if (sine.wave_number * maker.depth > deepest_second_order) continue;
+    // X sin(omega t + phase) is the real part of -i X exp(i omega t + i phase).
+    motions.push_back({sine.omega, std::polar(sine.stroke, sine.phase - 0.5 * std::numbers::pi)});
+  }
+  if (maker.waves != WaveKind::regular) {
+    const double slowest = lowest_difference * 2.0 * std::numbers::pi / maker.period;
+    second_order_ = second_order_waves(maker.type, motions, slowest, gravity, maker.depth);
+  } else if (!motions.empty()) {
+    second_order_ = {second_harmonic(maker.type, motions.front(), gravity, maker.depth)};
+  }
 }
 
 double PeriodicWaves::stroke(double since) const {
   double sum = 0.0;
   for (const Sine& sine : sines_) sum += sine.stroke * std::sin(sine.omega * since + sine.phase);
+  for (const SecondOrderWave& wave : second_order_) sum += (wave.stroke * std::polar(1.0, wave.omega * since)).real();
   return ramp_at(since, ramp_) * sum;
 }
 
@@ -117,6 +133,9 @@ double PeriodicWaves::elevation(double since, double ahead) const {
     const double angle = sine.omega * since + sine.phase;
     sum += sine.elevation * std::cos(angle - sine.wave_number * x) + sine.near_field * sine.stroke * std::sin(angle);
   }
+  for (const SecondOrderWave& wave : second_order_) {
+    sum += (wave.elevation * std::polar(1.0, wave.omega * since - wave.wave_number * x)).real();
+  }
   return ramp_at(since, ramp_) * sum;
 }
 
@@ -125,8 +144,8 @@ MakerLaw::MakerLaw(const WaveMakerTable& maker, double gravity, double gauge)
       gauge_(gauge),
       gain_(gain_of(maker, gravity)),
       forgetting_(maker.period > 0.0 ? 1.0 / (periods_remembered * maker.period) : 0.0) {
-  if (maker.waves == WaveKind::solitary) {
-    waves_.emplace<SolitaryWave>(maker.height, maker.depth, gravity);
+  if (maker.waves == WaveKind::solitary || maker.waves == WaveKind::n_wave) {
+    waves_.emplace<LongWave>(maker.waves, maker.height, maker.depth, gravity);
   } else if (maker.waves != WaveKind::none) {
     waves_.emplace<PeriodicWaves>(maker, gravity, gauge);
   }
@@ -135,7 +154,7 @@ MakerLaw::MakerLaw(const WaveMakerTable& maker, double gravity, double gauge)
 double MakerLaw::stroke(double time) const {
   const double since = time - start_;
   if (since <= 0.0) return 0.0;
-  if (const auto* wave = std::get_if<SolitaryWave>(&waves_)) return wave->stroke(since);
+  if (const auto* wave = std::get_if<LongWave>(&waves_)) return wave->stroke(since);
   if (const auto* waves = std::get_if<PeriodicWaves>(&waves_)) return waves->stroke(since);
   return 0.0;
 }
@@ -143,7 +162,7 @@ double MakerLaw::stroke(double time) const {
 double MakerLaw::elevation(double time) const {
   const double since = time - start_;
   if (since <= 0.0) return 0.0;
-  if (const auto* wave = std::get_if<SolitaryWave>(&waves_)) return wave->elevation(since, gauge_);
+  if (const auto* wave = std::get_if<LongWave>(&waves_)) return wave->elevation(since, gauge_);
   if (const auto* waves = std::get_if<PeriodicWaves>(&waves_)) return waves->elevation(since, gauge_);
   return 0.0;
 }

@@ -7,29 +7,34 @@
 
 #include "base/vec.h"
 #include "case/spec.h"
+#include "motion/second_order.h"
 
 namespace tailwater {
 
 /// dx; lower waves are not resolved: the surface is known to about half a spacing.
 inline constexpr double lowest_resolved_wave = 2.0;
 
-/// A solitary wave of Rayleigh's shape, and the plate that moves with its water: D.G. Goring (1979); K. Guizien,
-/// E. Barthelemy (2002).
-class SolitaryWave {
+/// One long wave, and the plate that moves with its water: D.G. Goring (1979). A solitary wave has Rayleigh's shape: K.
+/// Guizien, E. Barthelemy (2002). An N-wave has a trough as deep as the crest that follows it: S. Tadepalli, C.E.
+/// Synolakis (1994).
+class LongWave {
  public:
-  SolitaryWave(double height, double depth, double gravity);
+  LongWave(WaveKind kind, double height, double depth, double gravity);
 
   double stroke(double since) const;
   double elevation(double since, double ahead) const;
 
  private:
-  /// beta (c t - X), with t = 0 at the crest: the plate's place in the wave.
+  /// beta (c t - X), with t = 0 at the crest, or in the middle of an N-wave: the plate's place in the wave.
   double phase(double since) const;
   double displacement(double phase) const;
+  double elevation_at(double phase) const;
 
+  bool is_solitary_;
   double height_, depth_;
   double celerity_;  ///< m/s
   double beta_;      ///< 1/m
+  double first_phase_;
 };
 
 /// A sum of sines, which grow from rest.
@@ -51,11 +56,12 @@ class PeriodicWaves {
     double near_field;  ///< elevation that stays near the plate, over the plate's displacement
   };
 
-  /// The bound wave of second order, and the motion that makes no free wave beside it.
-  void add_second_harmonic(const WaveMakerTable& maker, double gravity);
+  /// The bound waves of second order, and the motion that makes no free waves beside them.
+  void add_second_order(const WaveMakerTable& maker, double gravity);
 
   double ramp_;
   std::vector<Sine> sines_;
+  std::vector<SecondOrderWave> second_order_;
 };
 
 /// The motion of one plate along itself, in the theory of its waves alone.
@@ -80,7 +86,7 @@ class MakerLaw {
   double gauge_;
   double gain_;
   double forgetting_;
-  std::variant<std::monostate, SolitaryWave, PeriodicWaves> waves_;
+  std::variant<std::monostate, LongWave, PeriodicWaves> waves_;
 };
 
 /// How far an absorbing plate has given way, and how fast it does.

@@ -58,7 +58,7 @@ std::optional<ZoneWaves> waves_at(const CaseSpec& spec, const DampingTable& zone
     if (depth > 0.0) depths.insert(depth);
   };
   for (const WaveMakerTable& maker : spec.wave_makers) {
-    if (maker.waves != WaveKind::none && maker.waves != WaveKind::solitary) add(maker.period, maker.depth);
+    if (has_period(maker.waves)) add(maker.period, maker.depth);
   }
   for (const DampingTable& other : spec.damping) {
     if (other.waves != WaveKind::none) add(other.period, other.depth);
@@ -141,6 +141,7 @@ WaveZone<Dim>::WaveZone(const CaseSpec& spec, const DampingTable& table)
     : low_(to_vec<Dim>(table.min, CaseLabel("damping", table.name), "min")),
       high_(to_vec<Dim>(table.max, CaseLabel("damping", table.name), "max")),
       up_(Vec<Dim>::Zero()),
+      across_(Vec<Dim>::Zero()),
       axis_(static_cast<int>(table.towards) / 2),
       grows_upwards_(static_cast<int>(table.towards) % 2 == 1),
       strength_(table.strength) {
@@ -158,7 +159,16 @@ WaveZone<Dim>::WaveZone(const CaseSpec& spec, const DampingTable& table)
   }
   up_ = -gravity.normalized();
   bed_ = table.level - waves->depth;
-  field_.emplace(table, owner, waves->depth, gravity.norm(), table.transport);
+  WaveDirections directions{.mean = table.direction * std::numbers::pi / 180.0, .spreading = table.spreading};
+  if constexpr (Dim == 3) {
+    int upright = 0;
+    gravity.cwiseAbs().maxCoeff(&upright);
+    const int level_axis = 3 - axis_ - upright;
+    across_ = Vec<Dim>::Unit(level_axis);
+    const std::vector<double>& periodic = periodic_range(spec.domain, level_axis);
+    if (!periodic.empty()) directions.period_across = periodic[1] - periodic[0];
+  }
+  field_.emplace(table, owner, waves->depth, gravity.norm(), table.transport, directions);
 }
 
 template <int Dim>
@@ -174,8 +184,8 @@ Vec<Dim> WaveZone<Dim>::target(const Vec<Dim>& x, double time) const {
   // Waves run from the side `towards` to the opposite one, where their distance is 0.
   const double way = grows_upwards_ ? -1.0 : 1.0;
   const double distance = way * (x[axis_] - (grows_upwards_ ? low_[axis_] : high_[axis_]));
-  const Eigen::Vector2d u = field_->velocity(distance, x.dot(up_) - bed_, time);
-  return way * u[0] * Vec<Dim>::Unit(axis_) + u[1] * up_;
+  const Vec<3> u = field_->velocity(distance, x.dot(up_) - bed_, time, x.dot(across_));
+  return way * u[0] * Vec<Dim>::Unit(axis_) + u[1] * up_ + u[2] * across_;
 }
 
 template class WaveZone<2>;

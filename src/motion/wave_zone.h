@@ -60,6 +60,7 @@ class WaveZone {
 
  private:
   Vec<Dim> low_, high_, up_;
+  Vec<Dim> across_;  ///< 3D; level, towards the larger coordinate; 0 in 2D
   int axis_;
   bool grows_upwards_;
   double strength_;

@@ -183,8 +183,8 @@ void add_waves(const CaseSpec& spec, std::vector<std::string>& sentences) {
     std::string waves = fmt::format("makes {} waves {:.4g} m high", name_of(maker.waves), maker.height);
     if (maker.waves == WaveKind::none) waves = "only absorbs";
     if (maker.waves == WaveKind::solitary) waves = fmt::format("makes a solitary wave {:.4g} m high", maker.height);
-    if (maker.period > 0.0 && maker.waves != WaveKind::none)
-      waves += fmt::format(" with a period of {:.4g} s", maker.period);
+    if (maker.waves == WaveKind::n_wave) waves = fmt::format("makes an N-wave with a crest of {:.4g} m", maker.height);
+    if (maker.period > 0.0 && has_period(maker.waves)) waves += fmt::format(" with a period of {:.4g} s", maker.period);
     if (maker.absorption == Absorption::active && maker.period > 0.0 && gravity > 0.0) {
       const double omega = 2.0 * std::numbers::pi / maker.period;
       waves += fmt::format(" and sends back {:.2g} % of waves of this period",

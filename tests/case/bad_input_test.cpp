@@ -252,6 +252,12 @@ const std::vector<BadInput> table{
          "1\nfocus = [3]\n",
      "14:9",
      {"damping[0].focus", "two numbers"}},
+    {"zone_of_oblique_waves_in_a_plane",
+     required_keys + water +
+         "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nwaves = \"regular\"\nheight = 0.1\nperiod = 1\ndepth = 1\nlevel = "
+         "1\ndirection = 30\n",
+     "14:13",
+     {"damping[0].direction", "of two dimensions have one direction"}},
     {"damping_towards_the_third_dimension",
      required_keys + water + "[[damping]]\nmin = [0, 0]\nmax = [1, 1]\nstrength = 1\ntowards = \"+z\"\n",
      "10:11",

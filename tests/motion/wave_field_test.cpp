@@ -141,6 +141,59 @@ DampingTable zone_of(double length, double strength) {
   return zone;
 }
 
+// Waves in many directions: water without divergence, whole waves in the period across, and most of them near the mean
+// direction.
+TEST(WaveField, OfSpreadWavesFitsIntoAPeriodicCase) {
+  const double width = 3.0;
+  const WaveDirections directions{.mean = 0.3, .spreading = 10.0, .period_across = width};
+  const WaveField field(keys_of(WaveKind::jonswap, 1e-4 * h, 1.2), CaseLabel("damping"), h, g, 0.0, directions);
+  const double e = 1e-4;
+  const double x = 1.7, y = 0.4, z = 0.8 * h, t = 20.3;
+  const double divergence =
+      (field.velocity(x + e, z, t, y)[0] - field.velocity(x - e, z, t, y)[0] + field.velocity(x, z + e, t, y)[1] -
+       field.velocity(x, z - e, t, y)[1] + field.velocity(x, z, t, y + e)[2] - field.velocity(x, z, t, y - e)[2]) /
+      (2.0 * e);
+  EXPECT_NEAR(divergence, 0.0, 1e-5 * 1e-4);
+  EXPECT_NEAR(field.elevation(x, t, y + width), field.elevation(x, t, y), 1e-9 * h);
+  double along = 0.0, across = 0.0, squares = 0.0;
+  for (double time = 20.0; time < 620.0; time += 0.1) {
+    const Vec<3> u = field.velocity(x, h, time, y);
+    along += u[0] * u[0];
+    across += u[2] * u[2];
+    squares += u[0] * u[2];
+  }
+  // The main axis of the horizontal motion is the mean direction. cos^20 of half the angle has a standard deviation of
+  // 0.31; whole waves across and one draw of 200 angles shift the axis.
+  EXPECT_NEAR(0.5 * std::atan2(2.0 * squares, along - across), 0.3, 0.1);
+  EXPECT_GT(across / along, std::pow(std::tan(0.2), 2));
+}
+
+TEST(WaveZone, MakesObliqueWavesOfWholeNumberAcross) {
+  CaseSpec spec = testing_cases::empty_case(0.1);
+  spec.general.dimension = 3;
+  spec.domain.periodic_y = {0.0, 3.0};
+  spec.physics.gravity = {0.0, 0.0, -g};
+  DampingTable table = zone_of(4.0, 5.0);
+  static_cast<WaveKeys&>(table) = keys_of(WaveKind::regular, 0.02, table.period);
+  table.min = {0.0, 0.0, 0.0};
+  table.max = {4.0, 3.0, 2.0 * h};
+  table.towards = AxisDirection::minus_x;
+  table.level = h;
+  table.direction = 50.0;
+  spec.damping = {table};
+  const WaveZone<3> zone(spec, table);
+  const double k = wave_of(1.0, 0.02).wave_number();
+  const double across = 2.0 * pi / 3.0;  // one wave: sine 0.84, for 0.77
+  const double along = std::sqrt(k * k - across * across);
+  const double t = 10.0 * table.period;
+  const Vec<3> crest = zone.target(Vec<3>(4.0, 0.0, h), t);
+  EXPECT_GT(crest[0], 0.0);
+  EXPECT_NEAR(crest[1] / crest[0], across / along, 1e-9);
+  for (const Vec<3>& x : {Vec<3>(4.0, 3.0, h), Vec<3>(4.0 - 0.7 * across, 0.7 * along, h)}) {
+    EXPECT_NEAR((zone.target(x, t) - crest).norm(), 0.0, 1e-9 * crest.norm());
+  }
+}
+
 // Long waves: g h P'' = -omega (omega + i rate) P. Without damping a wall returns all, through any zone.
 TEST(ZoneEstimate, HasTheLimitsOfNoDampingAndOfALongZone) {
   const double omega = omega_at(1.0);
