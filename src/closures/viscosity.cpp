@@ -147,7 +147,7 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
                              const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration,
-                             std::span<const float> density) {
+                             std::span<const float> density, std::span<const float> noise_factor) {
   const std::vector<ViscousEnd<Dim>> ends = viscous_ends(pairs, particles, viscosity, velocity, gradient);
   const bool any_shear = is_any_sheared(ends);
   for_each(pairs.owned(), [&](std::size_t i) {
@@ -166,6 +166,7 @@ void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& part
       }
       if (noise_viscosity > 0.0) {
         if (!density.empty()) pair.morris_volumes = of_same_liquid(pair.morris_volumes, density[i], batch.of(density));
+        if (!noise_factor.empty()) pair.noise_spacing *= 0.5F * (noise_factor[i] + batch.of(noise_factor));
         pair.add_noise_force(noise_viscosity, any_shear, terms);
       }
       sum += terms;

@@ -48,12 +48,13 @@ void effective_viscosity(const ViscosityLaw& law, std::span<const Vec<Dim>> velo
 /// The force vanishes for linear fields and is of fourth order in the wave number of a smooth field. Pairs are
 /// antisymmetric, so momentum is conserved, and energy never grows. `density` of all particles, over that of the case,
 /// is empty for one liquid. Otherwise noise is damped only between particles of the same density, because an interface
-/// is a vortex sheet and not noise. 0 is for a liquid without this force.
+/// is a vortex sheet and not noise. 0 is for a liquid without this force. `noise_factor` of all particles
+/// multiplies the noise viscosity of a pair with the mean of both; empty: 1.
 template <int Dim>
 void add_newtonian_viscosity(const Pairs<Dim>& pairs, const Particles<Dim>& particles, double spacing,
                              const PairVectorField<Dim>& pair_vectors, std::span<const double> viscosity,
                              double noise_viscosity, std::span<const Vec<Dim>> velocity,
                              std::span<const Mat<Dim>> gradient, std::span<Vec<Dim>> acceleration,
-                             std::span<const float> density = {});
+                             std::span<const float> density = {}, std::span<const float> noise_factor = {});
 
 }  // namespace tailwater

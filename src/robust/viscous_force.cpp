@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
+#include "bodies/floating_bodies.h"
 #include "flow/measure.h"
 #include "robust/discretisation.h"
 
@@ -19,6 +20,32 @@ std::vector<float> densities_of_thin_liquids(const Flow<Dim>& flow) {
     }
   });
   return density;
+}
+
+/// Factor of the noise viscosity of each particle: 0 with the hull of a floating body and no other wall in its support,
+/// otherwise 1. The turn of the water around the edges of a hull is not smooth on the scale of the particles; damped as
+/// noise, it would damp the body. Water between a hull and another wall is disordered, and keeps the damping. Empty
+/// without bodies.
+template <int Dim>
+std::vector<float> noise_factors_beside_hulls(const Flow<Dim>& flow) {
+  const std::vector<int>& body_of_wall = bodies_of(flow).body_of_wall;
+  if (body_of_wall.empty()) return {};
+  const Particles<Dim>& particles = flow.state.particles;
+  const Pairs<Dim>& pairs = flow.pairs();
+  std::vector<float> factor(particles.size(), 1.0F);
+  for_each(particles.owned, [&](std::size_t i) {
+    bool is_beside_hull = false;
+    bool is_beside_other = false;
+    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+      const auto j = static_cast<std::size_t>(pairs.j[k]);
+      if (particles.is_fluid(j)) continue;
+      const bool is_hull = body_of_wall[flow.walls.particles.wall[particles.wall_row[j]]] >= 0;
+      (is_hull ? is_beside_hull : is_beside_other) = true;
+    }
+    if (is_beside_hull && !is_beside_other) factor[i] = 0.0F;
+  });
+  flow.halo().exchange(factor);
+  return factor;
 }
 
 }  // namespace
@@ -40,7 +67,8 @@ void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::sp
   }
   for (const auto& part : flow.parts) part->add_viscosity(flow, viscosity);
   add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.scale.spacing, flow.surroundings.pair_vectors, viscosity,
-                               noise_viscosity, particles.velocity, velocity_gradient, acceleration, density);
+                               noise_viscosity, particles.velocity, velocity_gradient, acceleration, density,
+                               damps_noise ? noise_factors_beside_hulls(flow) : std::vector<float>());
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                        \
