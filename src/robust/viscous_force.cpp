@@ -1,7 +1,7 @@
 #include <algorithm>
+#include <cstdint>
 
 #include "base/for_each.h"
-#include "bodies/floating_bodies.h"
 #include "flow/measure.h"
 #include "robust/discretisation.h"
 
@@ -28,8 +28,9 @@ std::vector<float> densities_of_thin_liquids(const Flow<Dim>& flow) {
 /// without bodies.
 template <int Dim>
 std::vector<float> noise_factors_beside_hulls(const Flow<Dim>& flow) {
-  const std::vector<int>& body_of_wall = bodies_of(flow).body_of_wall;
-  if (body_of_wall.empty()) return {};
+  if (flow.state.motion.bodies.each.empty()) return {};
+  std::vector<std::uint8_t> is_hull(flow.walls.boundary.walls.size(), 0);
+  for (const auto& moving : flow.setup.wall_motion.moving()) is_hull[moving.wall] = moving.body >= 0 ? 1 : 0;
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   std::vector<float> factor(particles.size(), 1.0F);
@@ -39,8 +40,8 @@ std::vector<float> noise_factors_beside_hulls(const Flow<Dim>& flow) {
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const auto j = static_cast<std::size_t>(pairs.j[k]);
       if (particles.is_fluid(j)) continue;
-      const bool is_hull = body_of_wall[flow.walls.particles.wall[particles.wall_row[j]]] >= 0;
-      (is_hull ? is_beside_hull : is_beside_other) = true;
+      const bool is_of_hull = is_hull[flow.walls.particles.wall[particles.wall_row[j]]] != 0;
+      (is_of_hull ? is_beside_hull : is_beside_other) = true;
     }
     if (is_beside_hull && !is_beside_other) factor[i] = 0.0F;
   });
