@@ -77,10 +77,6 @@ struct Setup {
   double weight_in_statistics(double volume) const {
     return graded == nullptr ? 1.0 : volume / power<Dim>(scale.spacing);
   }
-  /// Viscosity [m^2/s] of the noise dissipation at the case's spacing, when the largest speed is `speed` [m/s].
-  double noise_viscosity(double speed) const {
-    return formulation.noise_viscosity * scale.spacing * std::max(speed, time_step_rule.reference_speed);
-  }
 };
 
 }  // namespace tailwater

@@ -25,6 +25,7 @@ struct State {
   double approach = 0.0;                ///< m/s; the largest in the last step, whose neighbour lists are discarded
   double energy_rise = 0.0;             ///< J; above the least energy so far, without the work of walls
   double density_share = 1.0;           ///< fraction of the lifting density source in the next step
+  double fullness = 0.0;                ///< of the walls, by several liquids (flow/buoyancy.h); 0: there is one
 };
 
 /// A flow in a checkpoint.

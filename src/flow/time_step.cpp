@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/for_each.h"
+#include "flow/buoyancy.h"
 #include "flow/stages.h"
 #include "neighbours/pair_lanes.h"
 
@@ -48,7 +49,7 @@ double largest_displacement_within(const Flow<Dim>& flow, double dt) {
 template <int Dim>
 double largest_approach(Flow<Dim>& flow) {
   // If two particles approach each other fast enough to matter, one of them has at least half of that speed.
-  const TimeStepRule& rule = flow.setup.time_step_rule;
+  const TimeStepRule rule = time_step_rule(flow);
   const double speed = largest_speed(flow);
   const double least_speed = 0.5 * largest_approach_in_step / rule.courant * rule.limiting_speed(speed);
   if (speed < least_speed) return 0.0;
@@ -80,13 +81,14 @@ template <int Dim>
 double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
   const Setup<Dim>& setup = flow.setup;
   const double speed = std::max(largest_speed(flow), limits.speed);
-  const double viscosity =
-      setup.liquid.viscosity.at_speed(speed) + setup.finest_spacing() * setup.noise_viscosity(speed) + limits.viscosity;
+  const TimeStepRule rule = time_step_rule(flow);
+  const double viscosity = setup.liquid.viscosity.at_speed(speed) +
+                           setup.finest_spacing() * noise_viscosity(setup, rule, speed) + limits.viscosity;
   const double limiting = setup.graded == nullptr ? speed : std::max(largest_speed_over_spacing(flow), limits.speed);
-  const double dt = setup.time_step_rule.largest(limiting, viscosity);
+  const double dt = rule.largest(limiting, viscosity);
   // The rule counts no speed above its `fastest`, so two particles approach each other at no more than twice that.
-  const double approach = std::min(flow.state.approach, 2.0 * setup.time_step_rule.limiting_speed(speed));
-  return approach > 0.0 ? std::min(dt, largest_approach_in_step * setup.time_step_rule.spacing / approach) : dt;
+  const double approach = std::min(flow.state.approach, 2.0 * rule.limiting_speed(speed));
+  return approach > 0.0 ? std::min(dt, largest_approach_in_step * rule.spacing / approach) : dt;
 }
 
 template <int Dim>

@@ -8,18 +8,6 @@
 namespace tailwater {
 
 template <int Dim>
-double find_fullness(const Flow<Dim>& flow) {
-  if (!flow.setup.has_air() || flow.is_open()) return 0.0;
-  const Vec<2> nothing = Vec<2>::Zero();
-  Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
-    const double weight = flow.setup.weight_in_statistics(flow.state.particles.volume[i]);
-    return flow.role[i] == Role::water ? Vec<2>(weight * (1.0 - flow.surroundings.interior[i]), weight) : nothing;
-  });
-  flow.setup.ranks.sum_each(beside_air_and_all[0], beside_air_and_all[1]);
-  return beside_air_and_all[1] > 0.0 ? std::max(0.0, 1.0 - beside_air_and_all[0]) : 0.0;
-}
-
-template <int Dim>
 void take_out_mean(const Flow<Dim>& flow, double fullness, std::vector<double>& source) {
   if (fullness == 0.0) return;
   const Particles<Dim>& particles = flow.state.particles;
@@ -49,7 +37,6 @@ void shift_minimum_to_zero(const Flow<Dim>& flow, double fullness, std::span<con
   });
 }
 
-TAILWATER_IN_2D_AND_3D(find_fullness);
 TAILWATER_IN_2D_AND_3D(take_out_mean);
 TAILWATER_IN_2D_AND_3D(shift_minimum_to_zero);
 

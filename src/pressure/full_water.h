@@ -3,14 +3,10 @@
 // its minimum is 0 and there is no tension.
 #pragma once
 
+#include "flow/buoyancy.h"
 #include "flow/flow.h"
 
 namespace tailwater {
-
-/// 1 where water fills its walls, 0 where as much as a particle is beside air, in between otherwise. 0 where open ends
-/// or marks of the surface fix the pressure. Collective.
-template <int Dim>
-double find_fullness(const Flow<Dim>& flow);
 
 /// Subtracts the mean, times the fullness, from a source of the water's rows (owned). Collective.
 template <int Dim>

@@ -1,4 +1,5 @@
 #include "base/for_each.h"
+#include "flow/buoyancy.h"
 #include "operators/divergence.h"
 #include "operators/gradient_conservative.h"
 #include "operators/gradient_of_liquids.h"
@@ -8,6 +9,24 @@
 #include "robust/support_gradient.h"
 
 namespace tailwater {
+namespace {
+
+/// The gradient over the density, times that of the case, where rho_b g . x (flow/buoyancy.h) of a density `balanced`
+/// is a part of the pressure: the exact gradient of that part, and the sum over pairs of the rest.
+template <int Dim>
+void find_gradient_beside(const Flow<Dim>& flow, double balanced, const std::vector<double>& pressure,
+                          std::span<Vec<Dim>> gradient) {
+  const Interfaces& interfaces = flow.surroundings.interfaces;
+  const std::vector<double> rest = without_balanced_pressure(flow, balanced, pressure);
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] != Role::water) return;
+    gradient[i] = gradient_over_density<Dim>(flow.pairs(), i, flow.state.particles.volume, interfaces,
+                                             flow.surroundings.pair_vectors, rest) +
+                  balanced / interfaces.density[i] * flow.setup.gravity;
+  });
+}
+
+}  // namespace
 
 namespace {
 
@@ -29,6 +48,8 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
                                               std::span<Vec<Dim>> gradient) const {
   const std::vector<double>& volume = flow.state.particles.volume;
   const Interfaces& interfaces = flow.surroundings.interfaces;
+  const double balanced = balanced_density(flow);
+  if (balanced > 0.0) return find_gradient_beside(flow, balanced, pressure, gradient);
   const bool is_graded = !flow.surroundings.support_terms.is_empty();
   const std::vector<double> scaled = is_graded ? over_references(flow, pressure) : std::vector<double>();
   for_each(flow.state.particles.owned, [&](std::size_t i) {

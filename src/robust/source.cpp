@@ -9,7 +9,10 @@
 //   s_i    factor of the correction: for particles too close, the fraction that the energy balance allows
 //          (`balance_energy`); for particles too far apart, `pull` times `interior`, which is 0 at the surface
 #include "base/for_each.h"
+#include "flow/buoyancy.h"
 #include "flow/stages.h"
+#include "neighbours/pair_lanes.h"
+#include "operators/laplacian_morris.h"
 #include "robust/discretisation.h"
 
 namespace tailwater {
@@ -31,7 +34,7 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   std::vector<double> overlap(owned);
   find_wall_overlap<Dim>(flow.pairs(), flow.walls.boundary, setup.scale.spacing, flow.state.particles, overlap);
   const double lift = flow.state.density_share;
-  const double courant = setup.time_step_rule.limiting_speed(largest_speed(flow)) * dt / setup.scale.spacing;
+  const double courant = time_step_rule(flow).limiting_speed(largest_speed(flow)) * dt / setup.scale.spacing;
   const double share = relaxation * courant;
   for_each(owned, [&](std::size_t i) {
     const double error = concentration[i] - 1.0;
@@ -39,6 +42,25 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
     source[i] = share / flow.pairs().relative_spacing_of(i) * unit * answered;
   });
   return source;
+}
+
+/// Adds to the sources of the pressure the error that the two-point Laplacian has for the pressure rho_b g . x
+/// (flow/buoyancy.h) among disordered particles, so that it balances the weight exactly.
+template <int Dim>
+void add_error_of_balanced_pressure(const Flow<Dim>& flow, std::span<double> source) {
+  const double density = balanced_density(flow);
+  if (density == 0.0) return;
+  const double spacing = flow.setup.scale.spacing;
+  for_each(source.size(), [&](std::size_t i) {
+    if (flow.role[i] != Role::water) return;
+    VecSum<Dim> sum;
+    for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+      const PlaceLanes<Dim> place = batch.place();
+      const Lanes share = share_of_morris_weight(batch.squared_over_spacing(place.d.dot(place.d)), spacing);
+      sum += (2.0F * share * place.volume() * batch.F(place.d)) * place.d;
+    });
+    source[i] += density * flow.setup.gravity.dot(sum.total());
+  });
 }
 
 }  // namespace
@@ -53,6 +75,7 @@ PressureSource RobustDiscretisation<Dim>::find_source(const Flow<Dim>& flow, std
   for_each(owned, [&](std::size_t i) {
     if (flow.role[i] == Role::water) source.rows[i] = -unit * (source.rows[i] - target[i]);
   });
+  add_error_of_balanced_pressure<Dim>(flow, source.rows);
   return source;
 }
 

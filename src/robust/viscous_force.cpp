@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "base/for_each.h"
+#include "flow/buoyancy.h"
 #include "flow/measure.h"
 #include "robust/discretisation.h"
 
@@ -58,7 +59,8 @@ void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::sp
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<double> viscosity(particles.size(), 0.0);
   const bool damps_noise = setup.formulation.noise_viscosity > 0.0;
-  const double noise_viscosity = damps_noise ? setup.noise_viscosity(largest_speed(flow)) : 0.0;
+  const double noise_viscosity =
+      damps_noise ? tailwater::noise_viscosity(setup, time_step_rule(flow), largest_speed(flow)) : 0.0;
   std::vector<float> density;  // of particles, if there are several liquids
   if (setup.has_implicit_viscosity) {
     if (!damps_noise || std::ranges::count(setup.liquids.is_thin, 1) == 0) return;

@@ -64,13 +64,14 @@ BodyState<Dim> body_of(const Json& json) {
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A new member of State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, motion, approach, energy_rise, density_share] =
+  const auto& [time, step, particles, wall_velocity, motion, approach, energy_rise, density_share, fullness] =
       checkpoint.flow.state;
   Json json{{"time", time},
             {"step", step},
             {"approach", approach},
             {"energy_rise", energy_rise},
             {"density_share", density_share},
+            {"fullness", fullness},
             {"reference_step", checkpoint.reference_step},
             {"wave_makers", motion.wave_makers},
             {"bodies", Json::array()},
@@ -90,6 +91,7 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.approach = json.at("approach");
   state.energy_rise = json.at("energy_rise");
   state.density_share = json.at("density_share");
+  state.fullness = json.at("fullness");
   checkpoint.reference_step = json.at("reference_step");
   json.at("wave_makers").get_to(state.motion.wave_makers);
   for (const Json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));

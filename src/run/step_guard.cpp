@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "flow/buoyancy.h"
 #include "flow/stages.h"
 #include "geometry/from_spec.h"
 #include "run/failure.h"
@@ -89,8 +90,9 @@ void StepGuard<Dim>::require_sound_step(double dt) {
          std::nullopt);
   }
   const double speed = largest_speed(flow_);
-  const double viscosity = setup.liquid.viscosity.at_speed(speed) + setup.noise_viscosity(speed);
-  const bool is_viscous = setup.time_step_rule.largest(speed, viscosity) < setup.time_step_rule.largest(speed, 0.0);
+  const TimeStepRule rule = time_step_rule(flow_);
+  const double viscosity = setup.liquid.viscosity.at_speed(speed) + noise_viscosity(setup, rule, speed);
+  const bool is_viscous = rule.largest(speed, viscosity) < rule.largest(speed, 0.0);
   const Particles<Dim>& particles = flow_.state.particles;
   std::optional<std::size_t> culprit = fastest_particle(particles);
   if (culprit && particles.velocity[*culprit].norm() < speed) culprit.reset();

@@ -1,5 +1,7 @@
 #include "schemes/advance.h"
 
+#include "flow/buoyancy.h"
+
 namespace tailwater {
 
 template <int Dim>
@@ -16,6 +18,7 @@ StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   report.dt = dt;
   flow.halo().exchange(flow.state.particles.velocity, flow.state.particles.pressure);  // probes read ghosts
   flow.state.approach = largest_approach(flow);
+  if (flow.setup.liquids.are_several()) flow.state.fullness = find_fullness(flow);
   for (const auto& part : flow.parts) part->finish_step(flow, start, dt);
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.stopped_at_walls, counts.capped_shifts, counts.fallback_rows);

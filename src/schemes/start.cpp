@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flow/buoyancy.h"
 #include "schemes/advance.h"
 #include "schemes/two_step.h"
 
@@ -38,6 +39,7 @@ void start(Flow<Dim>& flow) {
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
   flow.state.approach = largest_approach(flow);
+  if (flow.setup.liquids.are_several()) flow.state.fullness = find_fullness(flow);
   if (flow.wall_forces.are_requested) flow.wall_forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   flow.setup.formulation.find_first_pressure(flow, start, dt);

@@ -169,6 +169,38 @@ TEST(RayleighTaylor, GrowsAsLinearTheory) {
   EXPECT_LT(std::abs(growth / sigma - 1.0), 0.05);
 }
 
+// The front of brine that displaces fresh water along the floor of a full box has the speed 1/2 sqrt(g' H) of Benjamin
+// (1968) from one to two depths behind the gate.
+TEST(LockExchange, HasTheFrontSpeedOfBenjamin) {
+  constexpr double H = 0.2;
+  constexpr double ratio = 0.98;
+  CaseSpec spec = tank_case<2>(H / 12, 5.0 * H, H);
+  spec.walls[0].max[1] = H;
+  spec.walls[0].open.clear();
+  spec.liquids = {water_like("brine", 1000.0 / ratio), water_like("fresh", 1000.0)};
+  FluidTable fresh = spec.fluid[0];
+  spec.fluid[0].max[0] = fresh.min[0] = 2.5 * H;
+  spec.fluid[0].liquid = "brine";
+  fresh.liquid = "fresh";
+  spec.fluid.push_back(fresh);
+  Flow<2> flow = make_flow<2>(spec);
+  const auto front = [&] {
+    const Particles<2>& particles = flow.state.particles;
+    return largest_over(particles.owned, 0.0, [&](std::size_t i) {
+      const bool is_brine = particles.is_fluid(i) && flow.setup.liquids.of(particles.id[i]) == 0;
+      return is_brine ? particles.position[i][0] + 0.5 * H / 12 : 0.0;
+    });
+  };
+  while (front() < 3.5 * H) step(flow);
+  const double from = front();
+  const double start = flow.state.time;
+  while (front() < 4.5 * H) step(flow);
+  const double speed = (front() - from) / (flow.state.time - start);
+  const double error = speed / (0.5 * std::sqrt(g * (1.0 - ratio) * H)) - 1.0;
+  record_error("lock_exchange", 2, H / 12, std::abs(error));
+  EXPECT_LT(std::abs(error), 0.05);
+}
+
 // Between particles of two liquids forces are opposite: the pressure changes the momentum of no drop in space.
 TEST(TwoLiquids, ConserveMomentum) {
   CaseSpec spec = free_case(0.05);

@@ -39,7 +39,7 @@ def rayleigh_taylor(plan):
 
 
 def lock_exchange(plan):
-    runs = runs_by_rows(plan, "liquids/lock_exchange.toml", "H", (25, 20, 3.2),
+    runs = runs_by_rows(plan, "liquids/lock_exchange.toml", "H", (5, 20, 3.2),
                         plan.at((10, 20), (10, 20), (10, 20, 40)))
     return flow_study(
         "lock-exchange", "Lock exchange", "lock-exchange",

@@ -1,0 +1,72 @@
+#include "flow/buoyancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/for_each.h"
+
+namespace tailwater {
+namespace {
+
+/// Least g'/g. Liquids of equal density have no speed of their own by which to choose a step.
+constexpr double least_reduced_gravity = 1e-3;
+
+}  // namespace
+
+template <int Dim>
+double find_fullness(const Flow<Dim>& flow) {
+  if (!flow.setup.has_air() || flow.is_open()) return 0.0;
+  const Vec<2> nothing = Vec<2>::Zero();
+  Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
+    const double weight = flow.setup.weight_in_statistics(flow.state.particles.volume[i]);
+    return flow.role[i] == Role::water ? Vec<2>(weight * (1.0 - flow.surroundings.interior[i]), weight) : nothing;
+  });
+  flow.setup.ranks.sum_each(beside_air_and_all[0], beside_air_and_all[1]);
+  return beside_air_and_all[1] > 0.0 ? std::max(0.0, 1.0 - beside_air_and_all[0]) : 0.0;
+}
+
+template <int Dim>
+double balanced_density(const Flow<Dim>& flow) {
+  const ParticleLiquids& liquids = flow.setup.liquids;
+  return liquids.are_several() ? flow.state.fullness * *std::ranges::min_element(liquids.density) : 0.0;
+}
+
+template <int Dim>
+TimeStepRule time_step_rule(const Flow<Dim>& flow) {
+  TimeStepRule rule = flow.setup.time_step_rule;
+  const ParticleLiquids& liquids = flow.setup.liquids;
+  if (!liquids.are_several()) return rule;
+  const double balanced = balanced_density(flow);
+  if (balanced == 0.0) return rule;
+  const double reduced = *std::ranges::max_element(liquids.density) / balanced - 1.0;
+  rule.reference_speed *= std::sqrt(std::clamp(reduced, least_reduced_gravity, 1.0));
+  return rule;
+}
+
+template <int Dim>
+double noise_viscosity(const Setup<Dim>& setup, const TimeStepRule& rule, double speed) {
+  return setup.formulation.noise_viscosity * setup.scale.spacing * std::max(speed, rule.reference_speed);
+}
+
+template <int Dim>
+std::vector<double> without_balanced_pressure(const Flow<Dim>& flow, double density,
+                                              const std::vector<double>& pressure) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> rest(pressure.size());
+  for_each(rest.size(),
+           [&](std::size_t i) { rest[i] = pressure[i] - density * flow.setup.gravity.dot(particles.position[i]); });
+  constexpr double none = std::numeric_limits<double>::lowest();
+  const double least = -flow.setup.ranks.largest(
+      largest_over(particles.owned, none, [&](std::size_t i) { return particles.is_fluid(i) ? -rest[i] : none; }));
+  for_each(rest.size(), [&](std::size_t i) { rest[i] -= least; });
+  return rest;
+}
+
+TAILWATER_IN_2D_AND_3D(find_fullness);
+TAILWATER_IN_2D_AND_3D(balanced_density);
+TAILWATER_IN_2D_AND_3D(time_step_rule);
+TAILWATER_IN_2D_AND_3D(noise_viscosity);
+TAILWATER_IN_2D_AND_3D(without_balanced_pressure);
+
+}  // namespace tailwater
