@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "linear/petsc_vectors.h"
+#include "linear/petsc_shell.h"
 
 namespace tailwater {
 namespace {
@@ -16,25 +16,6 @@ bool is_breakdown(KSPConvergedReason reason) {
 MethodOutcome::End end_of(KSPConvergedReason reason) {
   if (reason > 0) return MethodOutcome::End::converged;
   return is_breakdown(reason) ? MethodOutcome::End::broke_down : MethodOutcome::End::unfinished;
-}
-
-/// y = A x, for PETSc. An exception here cannot pass through PETSc and ends the program.
-PetscErrorCode apply_system(Mat shell, Vec x, Vec y) noexcept {
-  const LinearSystem* system = nullptr;
-  check_petsc(MatShellGetContext(shell, &system));
-  const VectorAccess vectors(x, y);
-  std::vector<double> from(vectors.from().begin(), vectors.from().end());
-  system->multiply(from, vectors.to());
-  return 0;
-}
-
-/// correction = multigrid(residual), for PETSc. An exception ends the program.
-PetscErrorCode apply_multigrid(PC preconditioner, Vec residual, Vec correction) noexcept {
-  CellMultigrid* multigrid = nullptr;
-  check_petsc(PCShellGetContext(preconditioner, &multigrid));
-  const VectorAccess vectors(residual, correction);
-  multigrid->apply(vectors.from(), vectors.to());
-  return 0;
 }
 
 /// The outcome of the solver.
@@ -57,6 +38,15 @@ MethodOutcome outcome_of(KSP solver) {
 }
 
 }  // namespace
+
+void PetscMethod::Shell::multiply(std::span<const double> x, std::span<double> y) {
+  std::vector<double> with_ghosts(x.begin(), x.end());
+  system->multiply(with_ghosts, y);
+}
+
+void PetscMethod::Shell::precondition(std::span<const double> residual, std::span<double> correction) {
+  multigrid->apply(residual, correction);
+}
 
 MethodOutcome PetscMethod::improve(const LinearSystem& system, const Goal& goal, Iterate& iterate) {
   if (!is_set_up_) set_up(system);
@@ -96,12 +86,10 @@ void PetscMethod::set_up(const LinearSystem& system) {
 
 /// Attaches the shell to the system. Returns whether the pattern is new.
 bool PetscMethod::take_matrix(const LinearSystem& system) {
+  shell_.system = &system;
   if (pattern_number_ == system.pattern_number()) return false;
   pattern_number_ = system.pattern_number();
-  const auto size = static_cast<PetscInt>(system.size());
-  check_petsc(MatCreateShell(system.ranks().handle(), size, size, PETSC_DETERMINE, PETSC_DETERMINE,
-                             const_cast<LinearSystem*>(&system), matrix_.create()));
-  check_petsc(MatShellSetOperation(matrix_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(apply_system)));
+  make_shell(system.ranks(), shell_, system.size(), matrix_);
   if (system.constant_is_free()) {
     check_petsc(MatNullSpaceCreate(system.ranks().handle(), PETSC_TRUE, 0, nullptr, constants_.create()));
   }
@@ -128,8 +116,8 @@ void PetscMethod::wrap_multigrid(const LinearSystem& system) {
   check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(preconditioner), PCSHELL, &is_ours));
   if (!is_ours || !system.has_cells()) return;
   multigrid_.take(system, 0.0);
-  check_petsc(PCShellSetContext(preconditioner, &multigrid_.get()));
-  check_petsc(PCShellSetApply(preconditioner, apply_multigrid));
+  shell_.multigrid = &multigrid_.get();
+  attach_shell(preconditioner, shell_);
 }
 
 }  // namespace tailwater

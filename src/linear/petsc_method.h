@@ -9,6 +9,7 @@
 #include "linear/method.h"
 #include "linear/petsc_options.h"
 #include "linear/petsc_rows.h"
+#include "linear/shell_solver.h"
 
 namespace tailwater {
 
@@ -29,6 +30,15 @@ class PetscMethod : public Method {
   void change_to_gmres(const LinearSystem& system);
 
  private:
+  /// The rows of the present system and the multigrid, as PETSc calls them.
+  struct Shell final : ShellSystem {
+    const LinearSystem* system = nullptr;
+    CellMultigrid* multigrid = nullptr;
+
+    void multiply(std::span<const double> x, std::span<double> y) override;
+    void precondition(std::span<const double> residual, std::span<double> correction) override;
+  };
+
   void set_up(const LinearSystem& system);
   bool take_matrix(const LinearSystem& system);
   bool works_on_shell() const;
@@ -37,7 +47,8 @@ class PetscMethod : public Method {
   PressureSolverTable settings_;
   SystemTraits water_;
   KeptMultigrid& multigrid_;
-  PetscMatrix matrix_;  ///< a shell around the system
+  Shell shell_;
+  PetscMatrix matrix_;  ///< of the shell
   PetscRows rows_;      ///< only for preconditioners that need them
   PetscVector rhs_;
   PetscVector solution_;

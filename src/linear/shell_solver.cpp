@@ -1,35 +1,16 @@
 #include "linear/shell_solver.h"
 
 #include "base/fp_traps.h"
-#include "linear/petsc_vectors.h"
+#include "linear/petsc_shell.h"
 
 namespace tailwater {
 namespace {
-
-/// y = A x, for PETSc. An exception here cannot pass through PETSc and ends the program.
-PetscErrorCode multiply_shell(Mat shell, Vec x, Vec y) noexcept {
-  ShellSystem* system = nullptr;
-  check_petsc(MatShellGetContext(shell, &system));
-  const VectorAccess vectors(x, y);
-  system->multiply(vectors.from(), vectors.to());
-  return 0;
-}
-
-/// correction = P residual, for PETSc. An exception ends the program.
-PetscErrorCode precondition_shell(PC preconditioner, Vec residual, Vec correction) noexcept {
-  ShellSystem* system = nullptr;
-  check_petsc(PCShellGetContext(preconditioner, &system));
-  const VectorAccess vectors(residual, correction);
-  system->precondition(vectors.from(), vectors.to());
-  return 0;
-}
 
 void set_up(KSP solver, ShellSystem& system, const ShellGoal& goal) {
   PC preconditioner = nullptr;
   check_petsc(KSPGetPC(solver, &preconditioner));
   check_petsc(PCSetType(preconditioner, PCSHELL));
-  check_petsc(PCShellSetContext(preconditioner, &system));
-  check_petsc(PCShellSetApply(preconditioner, precondition_shell));
+  attach_shell(preconditioner, system);
   check_petsc(KSPSetType(solver, KSPFCG));
   check_petsc(KSPSetNormType(solver, KSP_NORM_NATURAL));
   check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
@@ -43,10 +24,8 @@ ShellReport solve_by_shell(const Communicator& ranks, ShellSystem& system, const
                            std::span<const double> rhs, std::span<double> x) {
   const SuspendFpTraps suspended;
   need_petsc();
-  const auto size = static_cast<PetscInt>(rhs.size());
   PetscMatrix matrix;
-  check_petsc(MatCreateShell(ranks.handle(), size, size, PETSC_DETERMINE, PETSC_DETERMINE, &system, matrix.create()));
-  check_petsc(MatShellSetOperation(matrix.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)));
+  make_shell(ranks, system, rhs.size(), matrix);
   PetscKrylovSolver solver;
   check_petsc(KSPCreate(ranks.handle(), solver.create()));
   set_up(solver.get(), system, goal);
