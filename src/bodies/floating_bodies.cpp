@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/finding.h"
 #include "bodies/coupling.h"
 #include "bodies/forces.h"
+#include "case/rheology.h"
 
 namespace tailwater {
 namespace {
@@ -21,6 +23,22 @@ double mobility_at(const FloatingBody<Dim>& body, const Vec<Dim>& x) {
   const bool goes = !std::ranges::all_of(body.free, is_turn);
   return (goes ? 1.0 / body.mass : 0.0) +
          (turns_at_all ? (x - body.drawn.centre).squaredNorm() / body.inertia.minCoeff() : 0.0);
+}
+
+/// The friction on a body is that of its velocity at the start of a step. In a liquid whose viscous forces would limit
+/// an explicit step, that friction could grow from step to step.
+template <int Dim>
+void require_thin_liquids(const CaseSpec& spec, const Setup<Dim>& setup) {
+  if (!setup.has_implicit_viscosity) return;
+  const std::vector<std::uint8_t>& is_thin = setup.liquids.is_thin;
+  const LiquidTable* thick = setup.liquids.are_several() ? nullptr : liquid_of(spec);
+  for (std::size_t k = 0; k < is_thin.size(); ++k) {
+    if (is_thin[k] == 0) thick = &spec.liquids[k];
+  }
+  if (thick == nullptr) return;
+  throw CaseError({"{} floats beside {}, whose viscous forces are too large for a body that its friction moves",
+                   CaseLabel("body", spec.bodies[0].name), CaseLabel("liquid", thick->name)},
+                  {"hold the body as a wall, or give the liquid less viscosity"});
 }
 
 template <int Dim>
@@ -141,6 +159,7 @@ template <int Dim>
 std::unique_ptr<Part<Dim>> make_floating_bodies(const CaseSpec& spec, const Setup<Dim>& setup,
                                                 const Boundary<Dim>& boundary) {
   if (spec.bodies.empty()) return nullptr;
+  require_thin_liquids(spec, setup);
   return std::make_unique<FloatingBodies<Dim>>(spec, setup, boundary);
 }
 

@@ -245,10 +245,10 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
     }
   }
   refuse("porous", !spec.porous.empty(), "porous layers are");
-  refuse("body", !spec.bodies.empty(), "floating bodies are");
-  refuse("inlet", !spec.inlets.empty(), "inlets are");
-  refuse("outlet", !spec.outlets.empty(), "outlets are");
-  refuse("wave_maker", !spec.wave_makers.empty(), "wave makers are");
+  if (has_several_liquids(spec)) {
+    refuse("inlet", !spec.inlets.empty(), "beside another liquid, inlets are");
+    refuse("outlet", !spec.outlets.empty(), "beside another liquid, outlets are");
+  }
   if (spec.physics.channel_width > 0.0) {
     problems.wrong(CaseLabel("physics").with_key("channel_width"), *root["physics"]["channel_width"].node(),
                    fmt::format("friction of side walls is not computed with liquid \"{}\"; remove the key, or compute "
@@ -297,7 +297,7 @@ void check_densities(const CaseSpec& spec, const toml::table& root, Problems& pr
                            k, light->density, largest_density_ratio, heavy->density, heavy->name));
 }
 
-/// The solve of viscous forces of liquids includes walls, but no other feature that acts on water.
+/// The solve of viscous forces of liquids includes walls and open ends, but not all features that act on water.
 void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   check_liquids_of_blocks(spec, root, problems);
   if (!problems.none()) return;

@@ -121,7 +121,7 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
   });
   solve(flow, force, dt, predicted);
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) predicted[i] = velocity_[i] - dt * force[i];
+    if (flow.role[i] == Role::water) predicted[i] = velocity_[i] - dt * force[i];
   });
 
   yielded_fraction_ = find_yielded_fraction(flow);
@@ -129,7 +129,7 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
   std::vector<Vec<Dim>> viscous(particles.owned);
   forces_.find_forces(flow, velocity_, viscous);
   work_ = dt * sum_over(particles.owned, 0.0, [&](std::size_t i) {
-            if (!particles.is_fluid(i)) return 0.0;
+            if (flow.role[i] != Role::water) return 0.0;
             return velocity_[i].dot(viscous[i] + forces_.drag_of_walls(flow, i));
           });
   expansion_.assign(particles.owned, 0.0);
@@ -138,15 +138,22 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
   flow.discretisation().find_divergence(flow, beside_walls, expansion_);
 }
 
+/// Floating bodies are coupled to the pressure with this friction.
+template <int Dim>
+int ThickLiquid<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
+  if (flow.wall_forces.are_requested) {
+    forces_.find_forces_on_walls(flow, walls_, velocity_, flow.wall_forces.friction);
+  }
+  return 0;
+}
+
 template <int Dim>
 void ThickLiquid<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
   Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) particles.pressure[i] -= forces_.shared_viscosity()[i] * expansion_[i];
+    if (flow.role[i] == Role::water) particles.pressure[i] -= forces_.shared_viscosity()[i] * expansion_[i];
   });
   flow.halo().exchange(particles.pressure);
-  if (!flow.wall_forces.are_requested) return;
-  forces_.find_forces_on_walls(flow, walls_, velocity_, flow.wall_forces.friction);
 }
 
 template <int Dim>

@@ -36,6 +36,7 @@ class ThickLiquid final : public Part<Dim> {
   std::string_view name() const override { return "thick_liquid"; }
   void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
                          std::span<Vec<Dim>> predicted) override;
+  int pose(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt) override;
   void correct(Flow<Dim>& flow, double dt) override;
   void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
   std::vector<StepColumn> step_columns() const override;

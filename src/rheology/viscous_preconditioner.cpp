@@ -12,11 +12,11 @@ ViscousPreconditioner<Dim>::ViscousPreconditioner(const Flow<Dim>& flow, const V
   const std::size_t owned = particles.owned;
   rows_.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan);
   rows_.set_cells(find_cells<Dim>(std::span(particles.position).first(owned), cell_edge * flow.setup.scale.spacing,
-                                  [&](std::size_t i) { return particles.is_fluid(i); }));
+                                  [&](std::size_t i) { return flow.role[i] == Role::water; }));
   scale_.assign(owned, 0.0);
   for_each(owned, [&](std::size_t i) {
     LinearSystem::Row row = rows_.row(i);
-    if (!particles.is_fluid(i)) return row.finish_as_zero();
+    if (flow.role[i] != Role::water) return row.finish_as_zero();
     const double own = inertia[i] + forces.friction_of_walls(flow, i);
     const double diagonal =
         own + row.write_weights([&](float* weights) { return forces.write_weights(flow, i, weights); });

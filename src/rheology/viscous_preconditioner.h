@@ -26,7 +26,7 @@ class ViscousPreconditioner {
   void apply(std::span<const Vec<Dim>> force, std::span<Vec<Dim>> velocity);
 
  private:
-  std::vector<double> scale_;  ///< m/(N s); 1/diagonal; 0 of walls
+  std::vector<double> scale_;  ///< m/(N s); 1/diagonal; 0 of walls and of claimed particles
   LinearSystem rows_;
   std::unique_ptr<CellMultigrid> multigrid_;
   std::vector<double> component_;

@@ -35,7 +35,10 @@ class ViscousSystem final : public ShellSystem {
     std::ranges::copy(as_vectors<Dim>(x), with_ghosts_.begin());
     const std::span<Vec<Dim>> result = as_vectors<Dim>(y);
     forces_.find_forces(flow_, with_ghosts_, result);
-    for_each(result.size(), [&](std::size_t i) { result[i] = inertia_[i] * with_ghosts_[i] - result[i]; });
+    for_each(result.size(), [&](std::size_t i) {
+      if (is_claimed(flow_.role[i])) result[i].setZero();
+      result[i] = inertia_[i] * with_ghosts_[i] - result[i];
+    });
   }
   void precondition(std::span<const double> residual, std::span<double> correction) override {
     preconditioner_.apply(as_vectors<Dim>(residual), as_vectors<Dim>(correction));
@@ -57,7 +60,12 @@ ShellReport solve_viscous_step(const Flow<Dim>& flow, const ViscousOperator<Dim>
                                std::vector<Vec<Dim>>& velocity) {
   ViscousSystem<Dim> system(flow, forces, inertia);
   const std::span<Vec<Dim>> owned = std::span(velocity).first(rhs.size());
-  const ShellReport report = solve_by_shell(flow.setup.ranks, system, goal, as_numbers(rhs), as_numbers(owned));
+  std::vector<Vec<Dim>> with_claimed(rhs.begin(), rhs.end());
+  for_each(rhs.size(), [&](std::size_t i) {
+    if (is_claimed(flow.role[i])) with_claimed[i] = inertia[i] * owned[i];
+  });
+  const ShellReport report = solve_by_shell(flow.setup.ranks, system, goal,
+                                            as_numbers(std::span<const Vec<Dim>>(with_claimed)), as_numbers(owned));
   flow.halo().exchange(velocity);
   return report;
 }

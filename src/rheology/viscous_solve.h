@@ -1,6 +1,7 @@
 // The velocity at the end of a viscous step: inertia_i u_i - f_i(u) = rhs_i for all fluid particles, with the forces f
 // of viscous_operator.h. The matrix is symmetric and positive. Conjugate gradients solve it with a multigrid for each
-// component (viscous_preconditioner.h).
+// component (viscous_preconditioner.h). Particles that a part has claimed, as in the buffer of an open end, keep the
+// velocity of the guess.
 #pragma once
 
 #include <span>

@@ -51,6 +51,9 @@ LAYERS = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name=
           "yield_stress=5}]", "--set", "fluid=[{min=[0, 0], max=[1, 0.2], liquid='mud'}, "
           "{min=[0, 0.2], max=[0.5, 0.5], liquid='brine'}]", "--set",
           "probe=[{name='level', type='depth', at=[0.6, 0], liquid='mud'}, {name='front', type='front', liquid='brine'}]")
+LOCK = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name='water', viscosity=1e-3}]", "--set",
+        "fluid=[{min=[0, 0], max=[0.5, 0.5], liquid='brine'}, {min=[0.5, 0], max=[1, 0.5], liquid='water'}]", "--set",
+        "wall=[{shape='box', min=[0, 0], max=[1, 0.5]}]")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -66,6 +69,7 @@ FEATURES = {
     "a tank that a file rolls": ROLL,
     "water that enters a porous layer": ROCK,
     "two liquids": LAYERS,
+    "two liquids in a full box": LOCK,
     "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),
     "a body that floats on a line": BARGE,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
