@@ -84,7 +84,7 @@ std::vector<KeyUse> uses_of_shapes_and_types() {
       {"probe", "type", "front", {}, {"direction", "liquid", "interval"}},
       {"probe", "type", "profile", {"from", "to", "times"}, {"liquid"}},
       {"probe", "type", "pressure", {"at"}, {"interval", "averaging_time"}},
-      {"probe", "type", "velocity", {"at"}, {"interval"}},
+      {"probe", "type", "velocity", {"at"}, {"liquid", "interval"}},
       {"probe", "type", "energy", {}, {"interval"}},
       {"probe", "type", "volume", {}, {"interval"}},
       {"probe", "type", "discharge", {"from", "to"}, {"direction", "interval"}},

@@ -85,6 +85,7 @@ std::vector<OutputColumn> columns_of(const ProbeTable& probe, int dimension, boo
   std::vector<OutputColumn> columns;
   for (const DeclaredColumn& declared : info_of(probe.type).columns) {
     const bool is_absent = (declared.need == Need::diameter && probe.diameter == 0.0) ||
+                           (declared.need == Need::liquid && probe.liquid.empty()) ||
                            (declared.need == Need::moment_about && probe.moment_about.empty()) ||
                            (declared.need == Need::moving_walls && !walls_move);
     if (!is_absent) std::ranges::move(columns_in(dimension, declared), std::back_inserter(columns));

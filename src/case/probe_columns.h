@@ -28,7 +28,7 @@ enum class Parts {
 enum class Comparison { none, possible, by_default };
 
 /// A column with a need is absent from the tables of probes that do not meet it.
-enum class Need { nothing, diameter, moment_about, moving_walls };
+enum class Need { nothing, diameter, liquid, moment_about, moving_walls };
 
 struct DeclaredColumn {
   std::string_view name;

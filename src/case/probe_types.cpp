@@ -124,7 +124,11 @@ const std::vector<ProbeInfo> of_pressure{
 const std::vector<ProbeInfo> of_flow{
     {ProbeType::velocity,
      "Velocity at a point in the water",
-     {{"", speed, "velocity; 0 in air", by_default, velocity}, {"wet", number, "1 under water, else 0"}},
+     {{"", speed, "velocity; 0 in air", by_default, velocity},
+      {"wet", number, "1 under water, else 0"},
+      {"shear_rate_per_s", number, "shear rate (1/s), if the probe has a `liquid`", none, one, liquid},
+      {"viscosity", impulse, "viscosity of that liquid at this shear rate", none, one, liquid},
+      {"shear_stress", pressure, "product of the two", possible, one, liquid}},
      {{"u", "u", "u", mean}, {"v", "v", "v", mean}, {"w", "w", "w", mean}}},
     {ProbeType::velocity_profile,
      "Velocity over the depth; one line of the table for each height",

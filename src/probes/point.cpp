@@ -2,7 +2,10 @@
 
 #include <Eigen/Cholesky>
 
+#include <optional>
+
 #include "base/eigen.h"
+#include "case/rheology.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
 
@@ -53,6 +56,28 @@ Value interpolate(const ProbeContext<Dim>& context, const Vec<Dim>& x, const std
   return sum;
 }
 
+/// (G)_ab = du_a/dx_b [1/s] of the measured liquid at `x`, where there is some; 0 where the neighbours do not span
+/// space.
+template <int Dim>
+Mat<Dim> velocity_gradient_at(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
+  Moments<Dim> moments = Moments<Dim>::Zero();
+  Eigen::Matrix<double, Dim + 1, Dim> sums = Eigen::Matrix<double, Dim + 1, Dim>::Zero();
+  for_each_weight(context, x, [&](std::int32_t j, double weight) {
+    if (!context.is_measured(j)) return;
+    const Basis<Dim> q = basis(context, x, j);
+    moments += weight * q * q.transpose();
+    for (int a = 0; a < Dim; ++a) sums.col(a) += weight * context.particles.velocity[j][a] * to_eigen(q);
+  });
+  const Eigen::LDLT<Eigen::Matrix<double, Dim + 1, Dim + 1>> factors(to_eigen(moments));
+  Mat<Dim> gradient = Mat<Dim>::Zero();
+  if (factors.rcond() <= least_reciprocal_condition) return gradient;
+  const Eigen::Matrix<double, Dim + 1, Dim> linear = factors.solve(sums);
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = 0; b < Dim; ++b) gradient(a, b) = linear(b + 1, a) / kernel_radius(context.kernel);
+  }
+  return gradient;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -77,16 +102,25 @@ Reading<Dim> pressure_reading(const ProbeTable& probe) {
 }
 
 template <int Dim>
-Reading<Dim> velocity_reading(const ProbeTable& probe) {
+Reading<Dim> velocity_reading(const ProbeTable& probe, const CaseSpec& spec) {
   const Vec<Dim> at = to_vec<Dim>(probe.at, label(probe), "at");
-  return {columns_of(probe, Dim),
-          [at](const ProbeContext<Dim>& context) -> std::vector<Row> {
-            Row row(Dim + 1, 0.0);
-            if (water_share(context, at) > surface_share) {
-              const Vec<Dim> u = velocity_at(context, at);
-              std::copy(u.begin(), u.end(), row.begin());
-              row.back() = 1.0;
-            }
+  std::optional<LiquidTable> liquid;
+  if (!probe.liquid.empty()) liquid = spec.liquids[static_cast<std::size_t>(index_of_liquid(spec, probe.liquid))];
+  const std::vector<OutputColumn> columns = columns_of(probe, Dim);
+  return {columns,
+          [at, liquid, count = columns.size()](const ProbeContext<Dim>& context) -> std::vector<Row> {
+            Row row(count, 0.0);
+            if (water_share(context, at) <= surface_share) return {row};
+            const Vec<Dim> u = velocity_at(context, at);
+            std::copy(u.begin(), u.end(), row.begin());
+            row[Dim] = 1.0;
+            if (!liquid) return {row};
+            const Mat<Dim> G = velocity_gradient_at(context, at);
+            const double shear_rate = std::sqrt(0.5 * (G + G.transpose()).squaredNorm());
+            const double viscosity = viscosity_at(*liquid, shear_rate);
+            row[Dim + 1] = shear_rate;
+            row[Dim + 2] = viscosity;
+            row[Dim + 3] = viscosity * shear_rate;
             return {row};
           },
           [at](double) {

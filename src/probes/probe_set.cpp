@@ -75,7 +75,7 @@ Reading<Dim> make_reading(const ProbeTable& probe, const CaseSpec& spec, const B
     case ProbeType::pressure:
       return pressure_reading<Dim>(probe);
     case ProbeType::velocity:
-      return velocity_reading<Dim>(probe);
+      return velocity_reading<Dim>(probe, spec);
     case ProbeType::energy:
       return energy_reading<Dim>(probe);
     case ProbeType::discharge:

@@ -55,7 +55,8 @@ constexpr double tallest_column = 1e4;
 /// The position where the straight line from (0, `low`) to (`step`, `high`) crosses the surface fraction.
 double passage(double low, double high, double step) { return step * (surface_share - low) / (high - low); }
 
-/// The water column on `bed`; c is sampled up to the height `top`.
+/// The water column on `bed`; c is sampled up to the height `top`. A liquid that lies on others is connected with the
+/// bed through them.
 template <int Dim>
 WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& line, const Crossing<Dim>& bed,
                       double top) {
@@ -73,12 +74,14 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
   double depth = 0.0;
   double share = bed_is_wet ? 1.0 : 0.0;
   double wet_from = 0.0;  // begin of the present water on the line
+  double first = 0.0;     // the first surface
   while (depth < end) {
     const double step = std::min(0.25 * context.spacing, end - depth);
     const double next_share = share_at(depth + step);
     if (share <= surface_share && next_share > surface_share) wet_from = depth + passage(share, next_share, step);
     if (share > surface_share && next_share <= surface_share) {
       column.highest = depth + passage(share, next_share, step);
+      if (first == 0.0) first = column.highest;
       column.wet += column.highest - wet_from;
       if (is_connected) column.connected = column.highest;
       is_connected = false;
@@ -90,6 +93,13 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
     column.highest = depth;
     column.wet += depth - wet_from;
     if (is_connected) column.connected = depth;
+  }
+  if (first == 0.0) first = column.highest;
+  if (context.liquid >= 0 && !bed_is_wet && first > 0.0) {
+    ProbeContext<Dim> of_all = context;
+    of_all.liquid = -1;
+    const bool is_above_others = column_on(of_all, line, bed, top).connected > first - 0.5 * context.spacing;
+    if (is_above_others) column.connected = first;
   }
   return column;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "probes/tank.h"
+#include "support/liquids.h"
 
 namespace tailwater {
 namespace {
@@ -75,7 +76,7 @@ TYPED_TEST(PointTest, VelocityIsReadComponentByComponent) {
     tank.particles.velocity[i] = gradient * tank.particles.position[i];
   }
   const Coordinates at = T::at(0.513, 0.37);
-  const auto reading = velocity_reading<dim>(probe_at(ProbeType::velocity, at));
+  const auto reading = velocity_reading<dim>(probe_at(ProbeType::velocity, at), tank.spec);
   EXPECT_EQ(reading.columns.size(), dim + 1u);
   const Row row = reading.take(tank.context()).at(0);
   const Vec<dim> expected = gradient * Vec<dim>::Map(at.data());
@@ -83,8 +84,28 @@ TYPED_TEST(PointTest, VelocityIsReadComponentByComponent) {
     EXPECT_NEAR(row[d], expected[d], 1e-10) << d;
   }
   EXPECT_EQ(row[dim], 1.0);
-  const auto dry = velocity_reading<dim>(probe_at(ProbeType::velocity, T::at(0.5, 1.2)));
+  const auto dry = velocity_reading<dim>(probe_at(ProbeType::velocity, T::at(0.5, 1.2)), tank.spec);
   EXPECT_EQ(dry.take(tank.context()).at(0), Row(dim + 1, 0.0));
+}
+
+// A shear of 2 1/s along x, beside the floor too, of a Bingham liquid: 5 Pa + 3 Pa s times 2 1/s.
+TYPED_TEST(PointTest, TheStressOfALiquidIsThatOfItsLaw) {
+  using T = typename TestFixture::TankOf;
+  constexpr int dim = TestFixture::dimension;
+  T tank = T::filled(0.8);
+  fill_with(tank.spec, bingham(3.0, 5.0));
+  for (std::size_t i = 0; i < tank.particles.size(); ++i) {
+    tank.particles.velocity[i][0] = 2.0 * tank.particles.position[i][dim - 1];
+  }
+  for (const double z : {0.0, 0.37}) {
+    ProbeTable probe = probe_at(ProbeType::velocity, T::at(0.513, z));
+    probe.liquid = "liquid";
+    const Row row = velocity_reading<dim>(probe, tank.spec).take(tank.context()).at(0);
+    ASSERT_EQ(row.size(), dim + 4u);
+    EXPECT_NEAR(row[dim + 1], 2.0, 1e-10);
+    EXPECT_NEAR(row[dim + 2], 5.5, 1e-10);
+    EXPECT_NEAR(row[dim + 3], 11.0, 1e-10);
+  }
 }
 
 }  // namespace

@@ -202,6 +202,26 @@ TEST(WaterColumn, FindsTheHumpThatCoversTheFloorAndTheWaterUnderADeck) {
   EXPECT_NEAR(column(0.7)[2], 0.8, 0.05 * T::dx);
 }
 
+TEST(WaterColumn, ConnectsALiquidWithTheBedThroughAnotherOne) {
+  using T = Tank<2>;
+  T tank(0.8, [](const Vec<2>& x) { return x[1] < 0.8 && (x[1] < 0.5 || x[0] < 0.5 || x[1] > 0.6); });
+  ParticleLiquids liquids{.end = {100, 200}, .of_block = {0, 1}, .density = {2.0, 1.0}, .is_thin = {1, 1}};
+  for (std::size_t i = 0; i < tank.particles.size(); ++i) {
+    tank.particles.id[i] = tank.particles.position[i][1] < 0.3 ? 0 : 100;
+  }
+  ProbeContext<2> context = tank.context();
+  context.liquids = &liquids;
+  const auto depth_at = [&](double x, int liquid) {
+    context.liquid = liquid;
+    return depth_reading<2>(probe_at(ProbeType::depth, {x, 0.0}), tank.spec, tank.boundary).take(context).at(0);
+  };
+  constexpr double bound = 0.05 * T::dx;
+  EXPECT_NEAR(depth_at(0.25, 0)[0], 0.3, bound);
+  EXPECT_NEAR(depth_at(0.25, 1)[0], 0.8, bound);
+  EXPECT_NEAR(depth_at(0.75, 1)[0], 0.5, bound);  // below a gap
+  EXPECT_NEAR(depth_at(0.75, 1)[1], 0.8, bound);
+}
+
 TEST(WaterColumn, EndsAtACeiling) {
   using T = Tank<2>;
   T tank = T::filled(0.8);
