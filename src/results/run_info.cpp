@@ -32,6 +32,9 @@ std::string text_of_key(const Json& block, const char* key) { return printable(b
 /// Text behind a unit: in 2D all is per metre of width. Summaries of earlier programs do not contain the dimension.
 std::string_view per_metre(const Json& summary) { return summary.value("dimension", 3) == 2 ? " per m" : ""; }
 
+/// Name of the line of the balance.
+std::string name_of_balance(const Json& summary) { return summary.contains("liquid") ? "mass" : "water"; }
+
 std::string water_line(const Json& summary) {
   const Json& water = summary.at("water_balance");
   std::string line =
@@ -100,10 +103,10 @@ std::vector<InfoLine> live_digest(const Json& summary, const std::map<std::strin
     lines.push_back({"density", fmt::format("error {:.2g} on average, {:.2g} rms", value("density_error_mean"),
                                             value("density_error_rms"))});
     lines.push_back({"solver", fmt::format("{:.0f} iterations in the last step", value("iterations"))});
-    lines.push_back(
-        {"water", fmt::format("{:.6g} kg{} at the start, {:.4g} m^3{} in, {:.4g} out",
-                              number_of(summary.at("water_balance").at("start"), "mass_kg"), per_metre(summary),
-                              value("volume_in_m3"), per_metre(summary), value("volume_out_m3"))});
+    lines.push_back({name_of_balance(summary),
+                     fmt::format("{:.6g} kg{} at the start, {:.4g} m^3{} in, {:.4g} out",
+                                 number_of(summary.at("water_balance").at("start"), "mass_kg"), per_metre(summary),
+                                 value("volume_in_m3"), per_metre(summary), value("volume_out_m3"))});
   }
   const Json& particles = summary.at("particles");
   lines.push_back(
@@ -221,7 +224,7 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
   const Json& particles = summary.at("particles");
   lines.push_back({"particles", fmt::format("{:.0f} fluid, {:.0f} wall, spacing {:g} m", number_of(particles, "fluid"),
                                             number_of(particles, "wall"), number_of(summary, "spacing_m"))});
-  lines.push_back({"water", water_line(summary)});
+  lines.push_back({name_of_balance(summary), water_line(summary)});
   if (const auto air = summary.find("pockets"); air != summary.end()) {
     lines.push_back({"air", air_line(*air, per_metre(summary))});
   }
@@ -231,6 +234,13 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
                                "{:.3g} of the volume flowed",
                                text_of_key(*liquid, "name"), text_of_key(*liquid, "rheology"),
                                number_of(*liquid, "viscous_iterations"), number_of(*liquid, "yielded_fraction"))});
+  }
+  if (const auto liquids = summary.find("liquids"); liquids != summary.end()) {
+    for (const Json& each : *liquids) {
+      lines.push_back({printable(each.at("name").get<std::string>()),
+                       fmt::format("{:.6g} kg{}, {:.2g} of its volume mixed with others", number_of(each, "mass_kg"),
+                                   per_metre(summary), number_of(each, "mixed_fraction"))});
+    }
   }
   const Json& energy = summary.at("energy");
   lines.push_back({"energy", fmt::format("{:.6g} J{} at the start, {:.6g} at the end, largest rise {:.2g}",

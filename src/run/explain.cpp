@@ -52,6 +52,17 @@ std::string about_refinement(const CaseSpec& spec) {
   return text;
 }
 
+/// "water", or the names of the liquids.
+std::string fluid_name(const CaseSpec& spec) {
+  const LiquidTable* const liquid = liquid_of(spec);
+  if (liquid == nullptr) return "water";
+  std::vector<std::string> names;
+  for (const LiquidTable& each : spec.liquids) {
+    if (has_several_liquids(spec) || &each == liquid) names.push_back(fmt::format("'{}'", each.name));
+  }
+  return listed(names);
+}
+
 std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
   const double dx = spec.particles.spacing;
   if (spec.fluid.empty()) return fmt::format("There is no water at the start; particles are {:.4g} m apart.", dx);
@@ -61,7 +72,7 @@ std::string about_water(const CaseSpec& spec, const RunEstimate& estimate) {
   for (const auto& [shape, count] : shapes) kinds.push_back(plural(count, shape));
   const bool has_one_density = !has_several_liquids(spec);
   return fmt::format("At the start there are {:.4g} m^3 of {}{}{}, in {}: {} particles, {:.4g} m apart.{}",
-                     estimate.water, has_one_density ? "water" : "liquids", per_width(spec),
+                     estimate.water, fluid_name(spec), per_width(spec),
                      has_one_density ? fmt::format(" ({:.4g} kg)", estimate.water * spec.physics.density) : "",
                      listed(kinds), fmt::format("{:.0f}", estimate.particles.fluid), dx, about_refinement(spec));
 }

@@ -10,19 +10,22 @@
 namespace tailwater {
 namespace {
 
-std::vector<std::string> sentences_of(const std::string& more, double fluid = 200.0) {
-  const CaseSpec spec = read_case_text(
-      "[case]\ntitle = \"A basin\"\n[particles]\nspacing = 0.05\n[time]\nend = 10\n[[fluid]]\nmin = [0, 0]\nmax = [1, "
-      "0.5]\n"
-      "[[wall]]\nname = \"tank\"\npoints = [[0, 1], [0, 0], [1, 0], [1, 1]]\nslip = \"no-slip\"\nroughness = 0.001\n" +
-          more,
-      "case.toml");
+const std::string basin =
+    "[case]\ntitle = \"A basin\"\n[particles]\nspacing = 0.05\n[time]\nend = 10\n"
+    "[[wall]]\nname = \"tank\"\npoints = [[0, 1], [0, 0], [1, 0], [1, 1]]\nslip = \"no-slip\"\n";
+
+std::vector<std::string> sentences_of_case(const std::string& text, double fluid = 200.0) {
+  const CaseSpec spec = read_case_text(text, "case.toml");
   return explain_case(spec, {.particles = {fluid, 300.0},
                              .water = 0.48,
                              .largest_fluid = fluid,
                              .memory = 5e7,
                              .steps = 640.0,
                              .seconds = 3.0});
+}
+
+std::vector<std::string> sentences_of(const std::string& more) {
+  return sentences_of_case(basin + "roughness = 0.001\n[[fluid]]\nmin = [0, 0]\nmax = [1, 0.5]\n" + more);
 }
 
 bool tells(const std::vector<std::string>& sentences, const std::string& text) {
@@ -56,6 +59,16 @@ TEST(ExplainCase, TellsWhatMovesComesInAndLeaves) {
         "Nothing is measured"}) {
     EXPECT_TRUE(tells(sentences, text)) << text;
   }
+}
+
+TEST(ExplainCase, NamesTheLiquids) {
+  const std::string mud = "[[liquid]]\nname = \"mud\"\ndensity = 1200\nviscosity = 10\n";
+  const std::string oil = "[[liquid]]\nname = \"oil\"\ndensity = 900\nviscosity = 1\n";
+  const std::string low = "[[fluid]]\nmin = [0, 0]\nmax = [1, 0.25]\nliquid = \"mud\"\n";
+  const std::string high = "[[fluid]]\nmin = [0, 0.25]\nmax = [1, 0.5]\nliquid = \"oil\"\n";
+  EXPECT_TRUE(tells(sentences_of_case(basin + mud + low), "m^3 of 'mud' per metre of width (576 kg)"));
+  EXPECT_TRUE(
+      tells(sentences_of_case(basin + mud + oil + low + high), "m^3 of 'mud' and 'oil' per metre of width, in"));
 }
 
 TEST(ExplainCase, TellsOfEnclosedAir) {
