@@ -28,6 +28,7 @@
 #include "linear/session.h"
 #include "probes/probe_set.h"
 #include "published/make_flow.h"
+#include "refinement/zone_words.h"
 #include "results/progress.h"
 #include "run/estimate.h"
 #include "run/run_case.h"
@@ -122,22 +123,31 @@ void print_sections(const CaseSpec& spec) {
   }
 }
 
+/// Cost of a particle and step over that without zones (docs/theory/refinement.md).
+constexpr double cost_in_zones = 1.6;
+
 /// Prints the effects of refinement zones on the case.
 template <int Dim>
-void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, double water) {
+void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, const RunEstimate& estimate) {
   if (flow.setup.graded == nullptr) return;
   const SpacingField<Dim>& field = flow.setup.graded->field();
+  double most = estimate.particles.fluid;
   for (std::size_t n = 0; n < spec.refinement.size(); ++n) {
     const auto& zone = field.zones()[n];
-    fmt::print("refinement: {}: spacing {:.4g} m behind borders of {:.4g} m, about {:.0f} particles when full\n",
-               spec.refinement[n].name, spec.particles.spacing * std::exp2(-zone.level), zone.border,
-               particles_of_full_zone(field, n, spec.particles.spacing, flow.box()));
+    const double full = particles_of_full_zone(field, n, spec.particles.spacing, flow.box(), flow.walls.boundary);
+    most += full;
+    fmt::print("refinement: {}: spacing {:.4g} m {}, border {:.4g} m wide, about {:.0f} particles when full\n",
+               spec.refinement[n].name, spec.particles.spacing * std::exp2(-zone.level),
+               place_of_zone(spec.refinement[n]), zone.border, full);
   }
   const double finest = spec.particles.spacing * field.finest();
+  const double of_one_spacing = estimate.water / power<Dim>(finest);
+  const double cost = cost_in_zones / std::max(of_one_spacing, 1.0);
   fmt::print(
       "            the time step is that of {:.4g} m; with this spacing everywhere {:.0f} fluid particles\n"
+      "            cost over that of such a run: about {:.2g} at the start, at most {:.2g}\n"
       "            calm water beside a border that lies deep keeps moving at 0.002 sqrt(g depth)\n",
-      finest, water / power<Dim>(finest));
+      finest, of_one_spacing, cost * estimate.particles.fluid, cost * std::min(most, of_one_spacing));
 }
 
 template <int Dim>
@@ -159,7 +169,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   if (estimate.largest_fluid > 1.1 * estimate.particles.fluid) {
     fmt::print("           with the inflow at most about {:.2g} fluid\n", estimate.largest_fluid);
   }
-  print_refinement(spec, flow, estimate.water);
+  print_refinement(spec, flow, estimate);
   fmt::print("memory:    about {:.0f} MB\n", estimate.memory / 1e6);
   fmt::print(
       "time:      about {:.0f} steps, {} on one core of this machine, from trial steps of {} (violent flow takes more "
@@ -171,7 +181,9 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   if constexpr (Dim == 3) print_sections(spec);
   if (options.draws_nothing) return;
   const Boundary<Dim> drawn = make_boundary<Dim>(spec);
-  const auto fluid = make_fluid_particles(spec, drawn, {}, 0, StartVelocities::left_out);
+  // Cells are divided in zones only for particles with velocities.
+  const auto velocities = spec.refinement.empty() ? StartVelocities::left_out : StartVelocities::found;
+  const auto fluid = make_fluid_particles(spec, drawn, {}, 0, velocities);
   write_previews<Dim>(spec, options, drawn, fluid, flow.walls.particles);
 }
 

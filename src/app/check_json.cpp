@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "linear/session.h"
 #include "probes/probe_set.h"
 #include "published/make_flow.h"
+#include "refinement/zone_words.h"
 #include "results/progress.h"
 #include "run/estimate.h"
 #include "sampling/particle_count.h"
@@ -132,6 +134,10 @@ void check_sound(const CaseSpec& spec, const std::string& origin, TrialSteps tri
   answer["summary"].push_back(fmt::format("{} fluid particles and about {:.0f} of walls, {:g} m apart; about {:.0f} MB",
                                           fluid.position.size(), count.wall, spec.particles.spacing,
                                           memory_bytes / 1e6));
+  for (const RefinementTable& zone : spec.refinement) {
+    answer["summary"].push_back(fmt::format("Zone '{}': particles {:.4g} m apart {}", zone.name,
+                                            spec.particles.spacing * std::exp2(-zone.level), place_of_zone(zone)));
+  }
   make_probes<Dim>(spec, boundary);  // only for its exceptions
   if (trial == TrialSteps::some && !has_error(geometry)) add_time<Dim>(spec, answer);
 }

@@ -335,6 +335,19 @@ void check_tension(const CaseSpec& spec, const toml::table& root, Problems& prob
                  "is not used with scheme.formulation = \"published\"; remove it");
 }
 
+/// Checks the walls that zones of refinement name, gates and wave makers among them.
+void check_walls_of_zones(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  std::vector<WallTable> walls = spec.walls;
+  for (const GateTable& gate : spec.gates) walls.emplace_back().name = gate.name;
+  for (const WaveMakerTable& maker : spec.wave_makers) walls.emplace_back().name = maker.name;
+  for (std::size_t k = 0; k < spec.refinement.size(); ++k) {
+    for (const std::string& name : spec.refinement[k].walls) {
+      check_name(name, walls, "wall", CaseLabel("refinement", k).with_key("walls"),
+                 *root["refinement"][k]["walls"].node(), problems);
+    }
+  }
+}
+
 void check_names_of_others(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   for (std::size_t k = 0; k < spec.moorings.size(); ++k) {
     const CaseLabel key = CaseLabel("mooring", k).with_key("body");
@@ -363,6 +376,7 @@ void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems
   check_liquids(spec, root, problems);
   check_study(spec, root, problems);
   check_tension(spec, root, problems);
+  check_walls_of_zones(spec, root, problems);
   check_names_of_others(spec, root, problems);
 }
 

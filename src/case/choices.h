@@ -20,6 +20,10 @@ enum class RegionShape { box, polygon, mesh };
 template <>
 inline constexpr auto choices<RegionShape> = std::to_array<std::string_view>({"box", "polygon", "mesh"});
 
+enum class ZoneShape { box, polygon, walls, surface };
+template <>
+inline constexpr auto choices<ZoneShape> = std::to_array<std::string_view>({"box", "polygon", "walls", "surface"});
+
 enum class PorousResistance { van_gent, ergun, coefficients };
 template <>
 inline constexpr auto choices<PorousResistance> = std::to_array<std::string_view>({"van-gent", "ergun",
@@ -143,9 +147,10 @@ inline constexpr auto choices<ProbeType> = std::to_array<std::string_view>(
 inline constexpr std::array<std::string_view, 6> box_face_names{"-x", "+x", "-y", "+y", "-z", "+z"};
 
 /// Fields of the particles that can be written for ParaView.
-inline constexpr std::array<std::string_view, 10> field_names{
+inline constexpr std::array<std::string_view, 11> field_names{
     "pressure",   "velocity",  "density_error", "is_free_surface", "eddy_viscosity",
-    "shear_rate", "viscosity", "liquid",        "density",         "id"};
+    "shear_rate", "viscosity", "liquid",        "density",         "volume",
+    "id"};
 
 template <class Enumeration>
 constexpr std::string_view name_of(Enumeration value) {

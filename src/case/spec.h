@@ -639,8 +639,12 @@ struct DampingTable : WaveKeys {
 /// A zone in which particles are finer than elsewhere (refinement/spacing_field.h).
 struct RefinementTable {
   std::string name;
+  ZoneShape shape = ZoneShape::box;
   Coordinates min;
   Coordinates max;
+  std::vector<Coordinates> points;
+  std::vector<std::string> walls;
+  double distance = 0.0;
   int level = 1;
 
   bool operator==(const RefinementTable&) const = default;
@@ -648,11 +652,18 @@ struct RefinementTable {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name in messages");
+    v.choice("shape", self.shape,
+             "Shape of the zone: an axis-parallel box, a polygon (2D), all places near the named walls, or all places "
+             "above a depth below the initial surface");
     v.coordinates("min", self.min, "m",
-                  "Lowest corner of the zone, an axis-parallel box; the spacing falls from its edge inwards, over "
-                  "4 dx per level, except where the box reaches to the outermost walls",
-                  Presence::required);
-    v.coordinates("max", self.max, "m", "Highest corner of the zone", Presence::required);
+                  "Lowest corner of a box; the spacing falls from the edge of a box or polygon inwards, over 4 dx per "
+                  "level, except where the zone reaches to the outermost walls");
+    v.coordinates("max", self.max, "m", "Highest corner of a box");
+    v.points("points", self.points, "m", "Corners of a polygon, in order; the last is joined to the first");
+    v.texts("walls", self.walls, {}, "Names of walls at rest");
+    v.number("distance", self.distance, "m", Range::above(0.0),
+             "Distance from the walls, or depth below the highest water at the start, up to which the spacing is the "
+             "finest; beyond, it grows over 4 dx per level");
     v.integer("level", self.level, "", Range::between(1, 4), "The spacing inside is particles.spacing / 2^level");
   }
 };

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "checks/svg.h"
+#include "checks/zone_outline.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
@@ -221,7 +223,12 @@ void draw_wall_particles(Svg& svg, const Boundary<Dim>& boundary, const WallPart
 template <int Dim>
 void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid, const View& view, double diameter) {
   if (fluid.position.size() <= most_drawn) {
-    svg.dots(fluid.position, view, fluid_colour, diameter);
+    std::map<int, std::vector<Vec<Dim>>> of_size;  // in half halvings of the spacing
+    for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+      const double relative = spec.refinement.empty() ? 1.0 : edge_of<Dim>(fluid.volume[i]) / spec.particles.spacing;
+      of_size[static_cast<int>(std::lround(2.0 * std::log2(relative)))].push_back(fluid.position[i]);
+    }
+    for (const auto& [size, places] : of_size) svg.dots(places, view, fluid_colour, std::exp2(0.5 * size) * diameter);
     return;
   }
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
@@ -255,17 +262,28 @@ void draw_walls(Svg& svg, const Boundary<Dim>& boundary, const View& view) {
   }
 }
 
-/// Zones of refinement as they are given, as far as they are in the picture, with their names.
+/// Zones of refinement, as far as they are in the picture, with their names.
 template <int Dim>
-void draw_refinement(Svg& svg, const CaseSpec& spec, const View& view) {
-  for (const RefinementTable& zone : spec.refinement) {
-    const CaseLabel owner("refinement", zone.name);
-    const Vec<2> low = project(to_vec<Dim>(zone.min, owner, "min")).cwiseMax(view.low).cwiseMin(view.high);
-    const Vec<2> high = project(to_vec<Dim>(zone.max, owner, "max")).cwiseMax(view.low).cwiseMin(view.high);
-    const std::array<Vec<2>, 4> corners{low, Vec<2>(high[0], low[1]), high, Vec<2>(low[0], high[1])};
-    for (int c = 0; c < 4; ++c) svg.line(view(corners[c]), view(corners[(c + 1) % 4]), refinement_colour, 2.0);
-    const Vec<2> name = view(corners[3]);
-    svg.text(name[0] + 6.0, name[1] + 16.0, "start", zone.name);
+void draw_refinement(Svg& svg, const CaseSpec& spec, const Boundary<Dim>& boundary, const View& view) {
+  const SpacingField<Dim> field(spec, boundary);
+  for (std::size_t n = 0; n < spec.refinement.size(); ++n) {
+    const auto& zone = field.zones()[n];
+    std::vector<std::array<Vec<2>, 2>> lines;
+    if (zone.depth == nullptr) {
+      const Vec<2> low = project(zone.box.min()).cwiseMax(view.low).cwiseMin(view.high);
+      const Vec<2> high = project(zone.box.max()).cwiseMax(view.low).cwiseMin(view.high);
+      const std::array<Vec<2>, 4> corners{low, Vec<2>(high[0], low[1]), high, Vec<2>(low[0], high[1])};
+      for (int c = 0; c < 4; ++c) lines.push_back({corners[c], corners[(c + 1) % 4]});
+    } else {
+      lines = outline_of_zone<Dim>(field, zone, box_around(boundary.faces), view);
+    }
+    if (lines.empty()) continue;
+    Vec<2> name(view.high[0], view.low[1]);  // the upper left corner
+    for (const auto& [from, to] : lines) {
+      svg.line(view(from), view(to), refinement_colour, 2.0);
+      name = {std::min({name[0], from[0], to[0]}), std::max({name[1], from[1], to[1]})};
+    }
+    svg.text(view(name)[0] + 6.0, view(name)[1] + 16.0, "start", spec.refinement[n].name);
   }
 }
 
@@ -326,7 +344,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   draw_wall_particles(svg, boundary, walls, view, diameter);
   draw_fluid(svg, spec, fluid, view, diameter);
   draw_walls(svg, boundary, view);
-  draw_refinement<Dim>(svg, spec, view);
+  draw_refinement(svg, spec, boundary, view);
   draw_ducts(svg, ducts, view);
   draw_open_ends(svg, ends, view);
   draw_axes(svg, view);

@@ -7,6 +7,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/opening.h"
+#include "refinement/zone_depth.h"
 
 namespace tailwater {
 namespace {
@@ -35,15 +36,15 @@ Findings check_features(const CaseSpec& spec, const CaseLabel& owner) {
 
 /// Whether a zone ends or fades within the repeated stretch on one side of a period and not on the other.
 template <int Dim>
-Findings check_period(const CaseSpec& spec, const RefinementTable& table, const CaseLabel& owner) {
+Findings check_period(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const CaseLabel& owner) {
   Findings findings;
   int periodic = 0;
   for (int axis = 0; axis < Dim; ++axis) {
     const std::vector<double>& range = periodic_range(spec.domain, axis);
     if (range.empty()) continue;
     ++periodic;
-    const bool is_below = table.min[axis] <= range[0];
-    const bool is_above = table.max[axis] >= range[1];
+    const bool is_below = zone.box.min()[axis] <= range[0];
+    const bool is_above = zone.box.max()[axis] >= range[1];
     if (is_below == is_above) continue;
     findings.push_back(Finding::error(
         {"{} reaches over one end of the periodic direction {}, which goes from {:g} to {:g}, and not over the other: "
@@ -52,6 +53,53 @@ Findings check_period(const CaseSpec& spec, const RefinementTable& table, const 
         {"let it reach over both ends, or end it between them"}));
   }
   if (periodic == Dim) findings.push_back(refused(owner, "a domain that is periodic in all directions", {"add walls"}));
+  return findings;
+}
+
+/// Calls visit(depth) with depths in a zone at places all over a box, at most a spacing apart if it is not large.
+template <int Dim, class Visit>
+void visit_depths(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box,
+                  Visit&& visit) {
+  constexpr double most = Dim == 2 ? 100.0 : 40.0;  // along each edge
+  std::array<int, Dim> counts;
+  double all = 1.0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    counts[axis] = 1 + static_cast<int>(std::ceil(std::min(most, box.sizes()[axis] / spec.particles.spacing)));
+    all *= counts[axis];
+  }
+  for (int n = 0; n < static_cast<int>(all); ++n) {
+    Vec<Dim> x = box.min();
+    for (int axis = 0, rest = n; axis < Dim; rest /= counts[axis++]) {
+      x[axis] += box.sizes()[axis] * (rest % counts[axis]) / std::max(counts[axis] - 1, 1);
+    }
+    visit(zone.depth->depth(x));
+  }
+}
+
+/// A polygon that nowhere is as deep as its border is wide.
+template <int Dim>
+Findings check_depth(const CaseSpec& spec, const Box<Dim>& all, const typename SpacingField<Dim>::Zone& zone,
+                     const CaseLabel& owner) {
+  double deepest = 0.0;
+  visit_depths<Dim>(spec, zone, zone.box.intersection(all), [&](double depth) { deepest = std::max(deepest, depth); });
+  if (deepest >= zone.border - spec.particles.spacing) return {};
+  return {Finding::error(
+      {"{} is at most {:.4g} deep behind its edges, but the spacing needs {:.4g} m to fall by its level: nowhere would "
+       "it be as fine as asked",
+       owner, Amount{deepest, "m"}, zone.border},
+      {"make the polygon wider, let it reach beyond the outermost walls, or use a lower level"})};
+}
+
+/// Walls around which a zone lies and that do not rest.
+template <int Dim>
+Findings check_walls_at_rest(const Boundary<Dim>& boundary, const RefinementTable& table, const CaseLabel& owner) {
+  Findings findings;
+  for (std::size_t w = 0; w < boundary.walls.size(); ++w) {
+    const int wall = static_cast<int>(w);
+    if (!boundary.walls[w].moves() || std::ranges::count(table.walls, boundary.walls[w].name) == 0) continue;
+    findings.push_back(Finding::error({"{} lies around {}, which moves: zones rest", owner, wall_label(boundary, wall)},
+                                      {"give shape = \"box\" with a box that contains its path"}));
+  }
   return findings;
 }
 
@@ -77,10 +125,14 @@ Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename S
 
 /// Whether a zone and its border meet a box.
 template <int Dim>
-bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, Box<Dim> box) {
+bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box) {
   const double margin = clearance * spec.particles.spacing;
-  box.widen(margin);
-  return zone.box.intersects(box);
+  Box<Dim> wider = box;
+  wider.widen(margin);
+  if (zone.depth == nullptr || !zone.box.intersects(wider)) return zone.box.intersects(wider);
+  bool is_near = false;
+  visit_depths<Dim>(spec, zone, box, [&](double depth) { is_near = is_near || depth > -margin; });
+  return is_near;
 }
 
 /// Distance [m] from the faces of a zone at which water has its finest spacing in all of a support.
@@ -88,9 +140,16 @@ template <int Dim>
 double margin_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone) {
   return zone.border + clearance * spec.particles.spacing * std::exp2(-zone.level);
 }
+
 /// Whether a box lies so far inside a zone that walls that move there keep the spacing of their rows.
 template <int Dim>
 bool is_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box) {
+  if (zone.depth != nullptr) {
+    bool is_inside = true;
+    visit_depths<Dim>(spec, zone, box,
+                      [&](double depth) { is_inside = is_inside && depth >= margin_inside<Dim>(spec, zone); });
+    return is_inside;
+  }
   Box<Dim> finest = zone.box;
   return finest.widen(-margin_inside<Dim>(spec, zone)).contains(box);
 }
@@ -159,8 +218,13 @@ Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, cons
                                         {"move it to where the water is to be finer"}));
       continue;
     }
-    append(findings, check_period<Dim>(spec, table, owner));
-    append(findings, check_width<Dim>(spec, box, zone, owner));
+    if (const Findings moving = check_walls_at_rest(drawn, table, owner); !moving.empty()) {
+      append(findings, moving);
+      continue;
+    }
+    append(findings, check_period<Dim>(spec, zone, owner));
+    if (zone.depth == nullptr) append(findings, check_width<Dim>(spec, box, zone, owner));
+    if (table.shape == ZoneShape::polygon) append(findings, check_depth<Dim>(spec, box, zone, owner));
     append(findings, check_neighbours(spec, drawn, zone, owner));
   }
   return findings;

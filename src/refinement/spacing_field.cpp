@@ -8,6 +8,8 @@
 
 #include "base/box.h"
 #include "geometry/from_spec.h"
+#include "geometry/mesh_surface.h"
+#include "refinement/zone_depth.h"
 
 namespace tailwater {
 namespace {
@@ -19,6 +21,41 @@ double smooth_step(double q) {
 
 /// Derivative of the logarithm of the smooth step.
 double log_slope_of_step(double q) { return q > 0.0 && q < 1.0 ? 6.0 * (1.0 - q) / (q * (3.0 - 2.0 * q)) : 0.0; }
+
+double slope_of_step(double q) { return q > 0.0 && q < 1.0 ? 6.0 * q * (1.0 - q) : 0.0; }
+
+/// m; the highest point of the water at the start.
+template <int Dim>
+double initial_surface(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  double highest = std::numeric_limits<double>::lowest();
+  for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
+    const FluidTable& block = spec.fluid[b];
+    if (block.shape == BlockShape::fill) highest = std::max(highest, block.level);
+    if (block.shape == BlockShape::box) highest = std::max(highest, block.max.back());
+    for (const Coordinates& point : block.points) highest = std::max(highest, point.back());
+    if constexpr (Dim == 3) {
+      if (block.shape == BlockShape::mesh) highest = std::max(highest, boundary.water[b]->high()[Dim - 1]);
+    }
+  }
+  return highest;
+}
+
+/// The box of a zone that is one, as it is given.
+template <int Dim>
+Box<Dim> box_of(const CaseSpec& spec, const RefinementTable& table, const Boundary<Dim>& boundary, double border) {
+  const CaseLabel owner("refinement", table.name);
+  if (table.shape == ZoneShape::box) {
+    return {to_vec<Dim>(table.min, owner, "min"), to_vec<Dim>(table.max, owner, "max")};
+  }
+  if (spec.fluid.empty()) {
+    throw CaseError({"{} follows the surface of the water, and there is no water at the start", owner},
+                    {"give shape = \"box\""});
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box<Dim> box(Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity));
+  box.min()[Dim - 1] = initial_surface(spec, boundary) - table.distance - border;
+  return box;
+}
 
 }  // namespace
 
@@ -37,14 +74,19 @@ SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& bound
     periodic_.max()[axis] = bounds.max()[axis] = range[1];
   }
   for (const RefinementTable& table : spec.refinement) {
-    const CaseLabel owner("refinement", table.name);
-    Zone zone{{to_vec<Dim>(table.min, owner, "min"), to_vec<Dim>(table.max, owner, "max")},
-              table.level,
-              border_per_level * table.level * dx};
+    Zone zone{{}, table.level, border_per_level * table.level * dx, nullptr};
+    if (table.shape == ZoneShape::polygon || table.shape == ZoneShape::walls) {
+      zone.depth = std::make_shared<ZoneDepth<Dim>>(table, boundary, bounds, periodic_.sizes(), zone.border, dx);
+      zone.box = zone.depth->box();
+      has_depths_ = true;
+    } else {
+      zone.box = box_of(spec, table, boundary, zone.border);
+    }
     for (int axis = 0; axis < Dim; ++axis) {
       const double tolerance = corner_tolerance * dx;
-      if (zone.box.min()[axis] <= bounds.min()[axis] + tolerance) zone.box.min()[axis] = -infinity;
-      if (zone.box.max()[axis] >= bounds.max()[axis] - tolerance) zone.box.max()[axis] = infinity;
+      const bool has_images = zone.depth != nullptr && periodic_.sizes()[axis] > 0.0;
+      if (has_images || zone.box.min()[axis] <= bounds.min()[axis] + tolerance) zone.box.min()[axis] = -infinity;
+      if (has_images || zone.box.max()[axis] >= bounds.max()[axis] - tolerance) zone.box.max()[axis] = infinity;
     }
     zones_.push_back(zone);
   }
@@ -63,16 +105,20 @@ template <int Dim>
 double SpacingField<Dim>::at(const Vec<Dim>& x) const {
   const Vec<Dim> inside = wrapped(x);
   double least = 1.0;
-  for (const Zone& zone : zones_) {
-    if (!zone.box.contains(inside)) continue;
-    double steps = 1.0;
-    for (int axis = 0; axis < Dim; ++axis) {
-      steps *= smooth_step((inside[axis] - zone.box.min()[axis]) / zone.border);
-      steps *= smooth_step((zone.box.max()[axis] - inside[axis]) / zone.border);
-    }
-    least = std::min(least, std::exp2(-zone.level * steps));
-  }
+  for (const Zone& zone : zones_) least = std::min(least, in_zone(zone, inside));
   return least;
+}
+
+template <int Dim>
+double SpacingField<Dim>::in_zone(const Zone& zone, const Vec<Dim>& inside) {
+  if (!zone.box.contains(inside)) return 1.0;
+  if (zone.depth != nullptr) return std::exp2(-zone.level * smooth_step(zone.depth->depth(inside) / zone.border));
+  double steps = 1.0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    steps *= smooth_step((inside[axis] - zone.box.min()[axis]) / zone.border);
+    steps *= smooth_step((zone.box.max()[axis] - inside[axis]) / zone.border);
+  }
+  return std::exp2(-zone.level * steps);
 }
 
 template <int Dim>
@@ -82,6 +128,14 @@ Vec<Dim> SpacingField<Dim>::slope(const Vec<Dim>& x) const {
   Vec<Dim> slope = Vec<Dim>::Zero();
   for (const Zone& zone : zones_) {
     if (!zone.box.contains(inside)) continue;
+    if (zone.depth != nullptr) {
+      const auto [depth, slope_of_depth] = zone.depth->at(inside);
+      const double h = std::exp2(-zone.level * smooth_step(depth / zone.border));
+      if (h >= least) continue;
+      least = h;
+      slope = -zone.level * std::numbers::ln2 * h * slope_of_step(depth / zone.border) / zone.border * slope_of_depth;
+      continue;
+    }
     double steps = 1.0;
     Vec<Dim> log_slope = Vec<Dim>::Zero();  // of `steps`
     for (int axis = 0; axis < Dim; ++axis) {
@@ -101,23 +155,29 @@ Vec<Dim> SpacingField<Dim>::slope(const Vec<Dim>& x) const {
 template <int Dim>
 typename SpacingField<Dim>::NearestBorder SpacingField<Dim>::nearest_border(const Vec<Dim>& x) const {
   const Vec<Dim> inside = wrapped(x);
-  const Vec<Dim> period = periodic_.sizes();
   NearestBorder nearest{-1, std::numeric_limits<double>::infinity()};
   for (std::size_t n = 0; n < zones_.size(); ++n) {
-    const Zone& zone = zones_[n];
-    double depth = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < Dim; ++axis) {
-      double along = -std::numeric_limits<double>::infinity();
-      for (const double image : {0.0, period[axis], -period[axis]}) {
-        const double at = inside[axis] + image;
-        along = std::max(along, std::min(at - zone.box.min()[axis], zone.box.max()[axis] - at));
-      }
-      depth = std::min(depth, along);
-    }
-    const double distance = std::max({-depth, depth - zone.border, 0.0});
+    const double depth = depth_in(zones_[n], inside);
+    const double distance = std::max({-depth, depth - zones_[n].border, 0.0});
     if (distance < nearest.distance) nearest = {static_cast<int>(n), distance};
   }
   return nearest;
+}
+
+template <int Dim>
+double SpacingField<Dim>::depth_in(const Zone& zone, const Vec<Dim>& x) const {
+  if (zone.depth != nullptr) return zone.depth->depth(x);
+  const Vec<Dim> period = periodic_.sizes();
+  double depth = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < Dim; ++axis) {
+    double along = -std::numeric_limits<double>::infinity();
+    for (const double image : {0.0, period[axis], -period[axis]}) {
+      const double at = x[axis] + image;
+      along = std::max(along, std::min(at - zone.box.min()[axis], zone.box.max()[axis] - at));
+    }
+    depth = std::min(depth, along);
+  }
+  return depth;
 }
 
 template <int Dim>
@@ -131,6 +191,7 @@ template <int Dim>
 bool SpacingField<Dim>::varies_around(Vec<Dim>& x, double reach) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   x = wrapped(x);
+  if (has_depths_) return nearest_border(x).distance <= reach;
   const Vec<Dim> period = periodic_.sizes();
   bool varies = false;
   for (int axis = 0; axis < Dim; ++axis) {
@@ -160,9 +221,11 @@ bool SpacingField<Dim>::varies_around(Vec<Dim>& x, double reach) const {
 }
 
 template <int Dim>
-double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, double spacing, const Box<Dim>& box) {
-  constexpr int pieces = 64;  // along each edge
-  const Box<Dim> inside = field.zones()[zone].box.intersection(box);
+double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t number, double spacing, const Box<Dim>& box,
+                              const Boundary<Dim>& boundary) {
+  constexpr int pieces = Dim == 2 ? 64 : 32;  // along each edge
+  const typename SpacingField<Dim>::Zone& zone = field.zones()[number];
+  const Box<Dim> inside = zone.box.intersection(box);
   if (inside.isEmpty()) return 0.0;
   const double all = power<Dim>(pieces);
   double count = 0.0;
@@ -172,6 +235,9 @@ double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, 
     for (int axis = 0; axis < Dim; ++axis, rest /= pieces) {
       x[axis] = inside.min()[axis] + (static_cast<double>(rest % pieces) + 0.5) / pieces * inside.sizes()[axis];
     }
+    if (zone.depth != nullptr && zone.depth->depth(x) <= 0.0) continue;
+    const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
+    if (wall.face >= 0 && wall.signed_distance < 0.0) continue;
     count += inside.volume() / all / power<Dim>(spacing * field.at(x));
   }
   return count;

@@ -3,11 +3,13 @@
 //
 //   h(x) = min over zones of 2^(-level S),    S = product over the faces of the zone of s(depth behind the face/border)
 //
-// s is the smooth step 3 q^2 - 2 q^3 from 0 to 1. The supports of particles follow h, not their volumes: particles of
+// s is the smooth step 3 q^2 - 2 q^3 from 0 to 1. A zone that is a polygon, or around walls, has one depth
+// (zone_depth.h). The supports of particles follow h, not their volumes: particles of
 // several volumes that stand side by side have nearly the same support, and pairs are symmetric
 // (docs/theory/refinement.md).
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/box.h"
@@ -21,18 +23,23 @@ namespace tailwater {
 inline constexpr double border_per_level = 4.0;
 
 template <int Dim>
+class ZoneDepth;
+
+template <int Dim>
 class SpacingField {
  public:
   /// 1 everywhere.
   SpacingField() = default;
-  /// Faces of zones that reach to the outermost walls or beyond bound nothing.
+  /// Faces of zones that reach to the outermost walls or beyond bound nothing. Throws CaseError for a zone below the
+  /// initial surface if there is no water at the start.
   SpacingField(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
   /// A zone, of which a face that bounds nothing is infinitely far away.
   struct Zone {
-    Box<Dim> box;  ///< m
+    Box<Dim> box;  ///< m; around the zone if it has a depth
     int level;
-    double border;  ///< m
+    double border;                                ///< m
+    std::shared_ptr<const ZoneDepth<Dim>> depth;  ///< null for boxes
   };
 
   const std::vector<Zone>& zones() const { return zones_; }
@@ -52,18 +59,24 @@ class SpacingField {
     double distance;  ///< m; 0 inside the border, where h varies
   };
   NearestBorder nearest_border(const Vec<Dim>& x) const;
+  /// Depth [m] of a place in a zone, behind its nearest face; negative outside.
+  double depth_in(const Zone& zone, const Vec<Dim>& x) const;
 
  private:
   Vec<Dim> wrapped(Vec<Dim> x) const;
+  /// h with one zone alone, at a place within the period.
+  static double in_zone(const Zone& zone, const Vec<Dim>& inside);
 
   std::vector<Zone> zones_;
-  Box<Dim> periodic_;  ///< m; along directions that are not periodic it has no extent
+  bool has_depths_ = false;  ///< whether a zone is not a box
+  Box<Dim> periodic_;        ///< m; along directions that are not periodic it has no extent
 };
 
-/// Particles in the part of a zone that is in `box`, without other zones, when it is full of water of this `spacing`
-/// [m] of the case.
+/// Particles in the part of a zone that is in `box` and not behind walls, without other zones, when it is full of water
+/// of this `spacing` [m] of the case.
 template <int Dim>
-double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t zone, double spacing, const Box<Dim>& box);
+double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t number, double spacing, const Box<Dim>& box,
+                              const Boundary<Dim>& boundary);
 
 /// A particle is split in two where its volume exceeds that of the field, (h dx)^Dim, by this factor.
 inline constexpr double volume_to_split = 1.34;

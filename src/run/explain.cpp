@@ -15,6 +15,7 @@
 #include "case/rheology.h"
 #include "motion/wave_theory.h"
 #include "motion/wave_zone.h"
+#include "refinement/zone_words.h"
 #include "results/progress.h"
 
 namespace tailwater {
@@ -46,9 +47,10 @@ std::string_view per_width(const CaseSpec& spec) { return spec.general.dimension
 std::string about_refinement(const CaseSpec& spec) {
   std::string text;
   for (const RefinementTable& zone : spec.refinement) {
-    text += fmt::format(" In zone '{}' they are {:.4g} m apart.", zone.name,
+    text += fmt::format(" In zone '{}', {}, they are {:.4g} m apart.", zone.name, place_of_zone(zone),
                         spec.particles.spacing * std::exp2(-zone.level));
   }
+  if (!text.empty()) text += " The time step is that of the finest zone.";
   return text;
 }
 

@@ -186,13 +186,15 @@ class BlockWater {
         if (n < from || n >= to) return;
         Vec<Dim> edges;
         for (int axis = 0; axis < Dim; ++axis) edges[axis] = axes_[axis].width(static_cast<int>(cell[axis]));
+        const bool is_whole = field_.is_uniform() || velocities == StartVelocities::left_out;
         const auto put_part = [&](const Vec<Dim>& centre, const Vec<Dim>& part, std::int64_t id) {
-          const Vec<Dim> x = place_of(centre, spec_.particles.spacing * field_.at(centre), id);
+          const double relative = is_whole ? 1.0 : field_.at(centre);
+          const Vec<Dim> x = place_of(centre, spec_.particles.spacing * relative, id);
           double volume = fitted_.share;
           for (int axis = 0; axis < Dim; ++axis) volume *= part[axis];
           put(x, velocities == StartVelocities::found ? velocity_.at(x) : Vec<Dim>(Vec<Dim>::Zero()), volume, id);
         };
-        if (field_.is_uniform() || velocities == StartVelocities::left_out) {
+        if (is_whole) {
           put_part(at(cell), edges, first + n);
           return;
         }

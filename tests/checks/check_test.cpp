@@ -761,6 +761,52 @@ TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
   EXPECT_NE(listed(check(spec)).find(of_inlets), std::string::npos) << listed(check(spec));
 }
 
+TEST(Check, WaterOnABeachMayBeInAZone) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 2}, {0, 0}, {2, 0}, {12, 1}, {12, 2}})};
+  FluidTable water = box_fluid({0, 0}, {1, 1});
+  water.shape = BlockShape::fill;
+  water.seed = {0.5, 0.25};
+  water.level = 0.5;
+  spec.fluid = {water};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  RefinementTable zone;
+  zone.min = {3.0, -1.0};
+  zone.max = {20.0, 9.0};
+  zone.level = 2;
+  spec.refinement = {zone};
+  // As a run checks its case: with the cells of the case.
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const auto cells = make_fluid_particles<2>(spec, boundary, {}, 0, StartVelocities::left_out);
+  const std::vector<Finding> found = check_geometry<2>(spec, boundary, cells);
+  EXPECT_TRUE(found.empty()) << listed(found);
+}
+
+TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
+  CaseSpec spec = tank();  // 1 m x 0.6 m
+  const double dx = spec.particles.spacing;
+  RefinementTable zone;
+  zone.name = "zone";
+  zone.shape = ZoneShape::polygon;
+  zone.points = {{-1.0, -1.0}, {2.0, -1.0}, {2.0, 3.0 * dx}, {-1.0, 2.5 * dx}};
+  spec.refinement = {zone};
+  expect_only(check(spec), Severity::error, {"refinement 'zone'", "deep behind its edges", "4 m to fall by its level"});
+  spec.refinement[0].points = {{-1.0, -1.0}, {2.0, -1.0}, {2.0, 9.0 * dx}, {-1.0, 7.0 * dx}};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  zone.shape = ZoneShape::walls;
+  zone.walls = {"gate"};
+  zone.distance = 2.0 * dx;
+  spec.refinement = {zone};
+  WallTable gate;
+  gate.name = "gate";
+  gate.points = {{0.5, 0.0}, {0.5, 1.0}};
+  spec.walls.push_back(gate);
+  spec.walls.back().displacement = {0.0, 0.0};
+  EXPECT_EQ(listed(check(spec)).find("refinement"), std::string::npos) << listed(check(spec));
+  spec.walls.back().displacement = {0.0, "0.3*t"};
+  expect_among(check(spec), Severity::error, {"refinement 'zone' lies around wall 'gate', which moves: zones rest"});
+}
+
 // A yield stress of 20 Pa, a depth of 1 m or less and 100 Pa s make a creep of at most 0.1 m/s.
 TEST(Check, ALiquidThatCreepsFarIsReported) {
   CaseSpec spec = tank();

@@ -1,0 +1,22 @@
+#include "refinement/zone_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tailwater {
+
+std::string place_of_zone(const RefinementTable& zone) {
+  switch (zone.shape) {
+    case ZoneShape::box:
+      return fmt::format("from ({:.6g}) to ({:.6g})", fmt::join(zone.min, ", "), fmt::join(zone.max, ", "));
+    case ZoneShape::polygon:
+      return fmt::format("in a polygon of {} corners", zone.points.size());
+    case ZoneShape::walls:
+      return fmt::format("within {:.6g} m of '{}'", zone.distance, fmt::join(zone.walls, "', '"));
+    case ZoneShape::surface:
+      break;
+  }
+  return fmt::format("above {:.6g} m below the initial surface", zone.distance);
+}
+
+}  // namespace tailwater
