@@ -10,7 +10,7 @@ from .errors import DataError
 from .input_file import read_bytes, require_input_file
 from .vtp import read_points
 
-__all__ = ["Frame", "list_frames", "nearest_frames", "read_frame", "read_polydata", "to_frame"]
+__all__ = ["Frame", "list_frames", "nearest_frames", "read_frame", "read_polydata", "spacings_of", "to_frame"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -70,6 +70,14 @@ def read_frame(time: float, path) -> Frame:
     if len(position) == 0:
         raise DataError(f"{path}: holds no particles")
     return Frame(time, position, fields)
+
+
+def spacings_of(run, frame: Frame) -> np.ndarray:
+    """The spacing (m) of each particle of a frame of a run, by its volume; without volumes that of the run."""
+    volume = frame.fields.get("volume")
+    if volume is None:
+        return np.full(len(frame.position), run.spacing)
+    return np.asarray(volume, float) ** (1 / run.dimension)
 
 
 def nearest_frames(run_folder, times) -> list:

@@ -14,7 +14,7 @@ import numpy as np
 from . import plots
 from .command_line import Parser, exit_code_of, number
 from .errors import DataError
-from .fields import list_frames, read_frame
+from .fields import list_frames, read_frame, spacings_of
 from .run import Run
 
 COUNT = 6
@@ -31,11 +31,11 @@ def choose_frames(frames, times, count):
     return [frame for frame in numbered if frame[0] in chosen]
 
 
-def draw_plane(axes, run, frame, view, speed):
-    """Draws particles coloured by their speed, if they move, and walls. Returns the drawn particles."""
-    colours = {"facecolors": plots.SKY} if speed == 0 else {
-        "cmap": plots.COLOURS, "clim": (0, speed), "array": np.linalg.norm(frame.fields["velocity"], axis=1)}
-    dots = plots.draw_particles(axes, frame.position, run.spacing, view.exaggeration, **colours)
+def draw_plane(axes, run, frame, view, colours):
+    """Draws particles, each with its spacing and coloured by a Colouring, and walls. Returns the drawn particles."""
+    style = {"facecolors": plots.SKY} if colours is None else {
+        "cmap": plots.COLOURS, "clim": colours.limits, "array": colours.values(frame)}
+    dots = plots.draw_particles(axes, frame.position, spacings_of(run, frame), view.exaggeration, **style)
     plots.draw_walls(axes, run, frame.time)
     view.apply(axes)
     axes.set_xlabel("x (m)")
@@ -43,27 +43,27 @@ def draw_plane(axes, run, frame, view, speed):
     return dots
 
 
-def draw_2d(run, chosen, folder):
-    frames = [read_frame(time, path) for _, time, path in chosen]
-    speed = plots.highest_speed(frames)
+def draw_2d(run, chosen, folder, by):
+    frames = [plots.with_spacing(run, read_frame(time, path)) for _, time, path in chosen]
+    colours = plots.colouring(run, frames, by)
     view = plots.View(run, frames, crop=True)
     for (number, time, _), frame in zip(chosen, frames):
         figure = plots.new_figure(plots.WIDTH, (plots.WIDTH - 1.2) * view.ratio + 0.9)
         axes = figure.subplots()
-        dots = draw_plane(axes, run, frame, view, speed)
-        plots.save(figure, axes, run, time, dots if speed > 0 else None, folder / f"picture_{number:05}.png")
+        dots = draw_plane(axes, run, frame, view, colours)
+        plots.save(figure, axes, run, time, dots, folder / f"picture_{number:05}.png", colours)
 
 
-def draw_3d(run, frames, chosen, folder, look_from):
+def draw_3d(run, frames, chosen, folder, look_from, by):
     from . import pictures_3d  # needs VTK, which pictures in 2D do not need
 
     pictures_3d.write_surfaces(run, frames)
-    pictures_3d.draw(run, chosen, folder, look_from)
+    pictures_3d.draw(run, chosen, folder, look_from, by)
 
 
-def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM):
-    """Writes the files; returns the folder of the pictures. Throws DataError; IoError; ImportError for a run in 3D
-    without VTK."""
+def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM, by="speed"):
+    """Writes the files; returns the folder of the pictures. `by` is what colours the water: "speed", "spacing" or
+    "liquid". Throws DataError; IoError; ImportError for a run in 3D without VTK."""
     frames = list_frames(run.path)
     if not frames:
         raise DataError(f"{run.path}: the run wrote no field files")
@@ -72,9 +72,9 @@ def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM):
     chosen = choose_frames(frames, times, count)
     with matplotlib.rc_context(plots.STYLE):
         if run.dimension == 3:
-            draw_3d(run, frames, chosen, folder, look_from)
+            draw_3d(run, frames, chosen, folder, look_from, by)
         else:
-            draw_2d(run, chosen, folder)
+            draw_2d(run, chosen, folder, by)
     return folder
 
 
@@ -86,13 +86,15 @@ def main(arguments):
     parser.add_argument("--from", type=number, nargs=3, dest="look_from", default=plots.LOOK_FROM, metavar=("X", "Y", "Z"),
                         help="3D: view direction, from the centre of the walls to the camera "
                              f"({' '.join(f'{value:g}' for value in plots.LOOK_FROM)})")
+    parser.add_argument("--colour", choices=("speed", "spacing", "liquid"), default="speed",
+                        help="what the colour of the water shows (speed): zones of refinement have several spacings")
     options = parser.parse_args(arguments)
     if options.count < 1:
         parser.error(f"--count {options.count}: at least 1")
     if not any(options.look_from):
         parser.error("--from 0 0 0: is no direction")
     return exit_code_of(
-        lambda: print(f"pictures: {draw(Run(options.run), options.times, options.count, options.look_from)}"))
+        lambda: print(f"pictures: {draw(Run(options.run), options.times, options.count, options.look_from, options.colour)}"))
 
 
 if __name__ == "__main__":

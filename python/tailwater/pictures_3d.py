@@ -33,7 +33,7 @@ def write_surfaces(run, frames):
     for number, (time, fields) in enumerate(frames):
         path = folder / f"surface_{number:05}.vtp"
         if not path.is_file() or path.stat().st_mtime < fields.stat().st_mtime:
-            write_polydata(path, water_surface(read_frame(time, fields), run.spacing))
+            write_polydata(path, water_surface(plots.with_spacing(run, read_frame(time, fields)), run.spacing))
         entries.append(f'    <DataSet timestep="{time!r}" file="{path.name}"/>\n')
     text = ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0">\n  <Collection>\n' + "".join(entries)
             + "  </Collection>\n</VTKFile>\n")
@@ -69,14 +69,14 @@ def show_image(image, title, mappable=None):
     return figure, axes
 
 
-def draw(run, chosen, folder, look_from):
-    frames = [read_frame(time, path) for _, time, path in chosen]
-    speed = plots.highest_speed(frames)
-    mappable = ScalarMappable(Normalize(0, speed), plots.COLOURS) if speed > 0 else None
+def draw(run, chosen, folder, look_from, by):
+    frames = [plots.with_spacing(run, read_frame(time, path)) for _, time, path in chosen]
+    colours = plots.colouring(run, frames, by)
+    mappable = ScalarMappable(Normalize(*colours.limits), plots.COLOURS) if colours else None
     window = scene.Scene(bounds_of(frames, [walls_at(run, time) for _, time, _ in chosen]), look_from)
     for (number, time, _), frame in zip(chosen, frames):
         water = read_polydata(run.path / "fields" / f"surface_{number:05}.vtp")
         image = window.draw(water, walls_at(run, time), colours=mappable and matplotlib.colormaps[plots.COLOURS],
-                            field="velocity", limits=(0, speed))
+                            field=colours and colours.field, limits=colours.limits if colours else (0, 1))
         figure, axes = show_image(image, "", mappable)
-        plots.save(figure, axes, run, time, mappable, folder / f"picture_{number:05}.png")
+        plots.save(figure, axes, run, time, mappable, folder / f"picture_{number:05}.png", colours)

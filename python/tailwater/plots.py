@@ -5,12 +5,14 @@ Figures are drawn with STYLE; sizes are in inches for a page of width WIDTH.
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
-from .fields import list_frames
+from .errors import DataError
+from .fields import Frame, list_frames, spacings_of
 from .vtp import read_points
 from .whole_file import write_whole
 
@@ -65,15 +67,15 @@ class View:
 
 
 def draw_particles(axes, position, spacing, exaggeration=1, **style):
-    """Draws each particle as a disc that covers the area of its water. With exaggerated heights, where discs would be
+    """Draws each particle as a disc that covers the area of its water; `spacing` is one number, or one of each particle. With exaggerated heights, where discs would be
     spikes, each particle is a rectangle about dx high."""
     x, y, share = position[:, 0], position[:, 1], 2**0.5
     if exaggeration > MOST_STRETCHED:
         wide, high = share, 1.1  # without gaps
-        half = 0.5 * spacing * np.array([[-wide, -high], [wide, -high], [wide, high], [-wide, high]])
+        half = 0.5 * np.reshape(spacing, (-1, 1, 1)) * np.array([[-wide, -high], [wide, -high], [wide, high], [-wide, high]])
         dots = PolyCollection(np.stack([x, y], axis=1)[:, None, :] + half, linewidths=0, rasterized=True, zorder=2, **style)
     else:
-        size = np.full(len(position), share * spacing)
+        size = np.broadcast_to(share * spacing, len(position))
         dots = EllipseCollection(size, size, np.zeros(len(position)), units="xy", offsets=position[:, :2],
                                  transOffset=axes.transData, linewidths=0, rasterized=True, zorder=2, **style)
     axes.add_collection(dots)
@@ -99,13 +101,48 @@ def draw_walls(axes, run, time):
     axes.add_collection(LineCollection(wall_lines(run, time), colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
 
 
-def highest_speed(frames):
-    """Speed (m/s) below which nearly all particles are; 0 if a field file has no velocity."""
-    def of(frame):
-        velocity = frame.fields.get("velocity")
-        return 0.0 if velocity is None else np.percentile(np.linalg.norm(velocity, axis=1), COLOURED_SHARE)
+@dataclass(frozen=True)
+class Colouring:
+    """The meaning of the water's colour in some pictures. `field` is the coloured field, of which a vector counts by its
+    magnitude; `ticks` are {value: name} of a field of whole numbers."""
 
-    return max(of(frame) for frame in frames)
+    field: str
+    label: str
+    limits: tuple
+    extend: str = "neither"
+    ticks: dict | None = None
+
+    def values(self, frame):
+        values = frame.fields[self.field]
+        return values if values.ndim == 1 else np.linalg.norm(values, axis=1)
+
+
+def with_spacing(run, frame):
+    """The frame with the field "spacing" (m), if its particles have volumes."""
+    if "volume" not in frame.fields:
+        return frame
+    return Frame(frame.time, frame.position, {**frame.fields, "spacing": spacings_of(run, frame)})
+
+
+def colouring(run, frames, by):
+    """The colours of frames `by` "speed", "spacing" or "liquid"; None if nothing moves or there is no velocity. Throws
+    DataError if the particles of the run do not differ so."""
+    if by == "speed":
+        def highest(frame):
+            velocity = frame.fields.get("velocity")
+            return 0.0 if velocity is None else np.percentile(np.linalg.norm(velocity, axis=1), COLOURED_SHARE)
+
+        speed = max(highest(frame) for frame in frames)
+        return Colouring("velocity", "speed (m/s)", (0, speed), "max") if speed > 0 else None
+    if not all(by in frame.fields for frame in frames):
+        why = ("it has no [[refinement]], so all particles have one spacing" if by == "spacing" else
+               "it has one liquid, or was made by an earlier version")
+        raise DataError(f"{run.path}: the pictures cannot be coloured by {by}: {why}; remedy: --colour speed")
+    if by == "liquid":
+        names = {k: liquid["name"] for k, liquid in enumerate(run.case["liquid"])}
+        return Colouring("liquid", "", (0, max(1, len(names) - 1)), ticks=names)
+    ends = [(frame["spacing"].min(), frame["spacing"].max()) for frame in frames]
+    return Colouring("spacing", "spacing (m)", (min(low for low, _ in ends), max(high for _, high in ends)))
 
 
 def plain(text):
@@ -113,10 +150,12 @@ def plain(text):
     return text.replace("$", r"\$")
 
 
-def save(figure, axes, run, time, mappable, path):
-    """Saves a picture of the water at a time (s), with its title and, if colours show the speed, a colour scale."""
+def save(figure, axes, run, time, mappable, path, colours=None):
+    """Saves a picture of the water at a time (s), with its title and, with a Colouring, a colour scale."""
     axes.set_title(f"{plain(run.title)}\n$t$ = {time:.4g} s, dx = {run.spacing:.4g} m", loc="left", fontsize=10)
-    if mappable is not None:
-        bar = figure.colorbar(mappable, ax=axes, fraction=0.025, pad=0.01, extend="max")
-        bar.set_label("speed (m/s)")
+    if colours is not None:
+        bar = figure.colorbar(mappable, ax=axes, fraction=0.025, pad=0.01, extend=colours.extend)
+        bar.set_label(colours.label)
+        if colours.ticks:
+            bar.set_ticks(list(colours.ticks), labels=[plain(name) for name in colours.ticks.values()])
     write_whole(path, lambda part: figure.savefig(part, dpi=DPI, format="png"))

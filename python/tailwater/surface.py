@@ -7,7 +7,7 @@ also follows walls where the water touches them, and rounds edges by about dx/2.
 """
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkPolyDataNormals, vtkWindowedSincPolyDataFilter
@@ -25,36 +25,29 @@ EVENING, PASS_BAND = 20, 0.1  # steps and pass band of the low-pass filter that 
 NEIGHBOURS = [(i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)]
 
 
-def grid_of(low, high, cell):
-    """(origin, nodes along each axis, width of the Gaussian) of a grid with cells of size `cell` around a box, in m."""
-    width = WIDTH / CELL * cell
+def grid_of(low, high, cell, width):
+    """(origin, nodes along each axis) of a grid with cells of size `cell` around a box with space for a Gaussian of this
+    width, in m."""
     margin = REACH * width + 2 * cell
-    return low - margin, np.ceil((high - low + 2 * margin) / cell).astype(int) + 1, width
+    return low - margin, np.ceil((high - low + 2 * margin) / cell).astype(int) + 1
 
 
-def colour_function(position, spacing, most_nodes=MOST_NODES):
-    """c on a grid around the particles, as vtkImageData. A grid that would be too large omits drops that are far from
-    the other water; if it still is too large, it becomes coarser."""
-    cell = CELL * spacing
-    low, high = position.min(0).astype(float), position.max(0).astype(float)
-    if np.prod(grid_of(low, high, cell)[1]) > most_nodes:
-        low, high = np.percentile(position, (DROPS, 100 - DROPS), axis=0) + np.array([[-1], [1]]) * REACH * WIDTH * spacing
-        position = position[((position >= low) & (position <= high)).all(1)]
-    origin, shape, width = grid_of(low, high, cell)
-    while np.prod(shape) > most_nodes:
-        cell *= COARSER
-        origin, shape, width = grid_of(low, high, cell)
-    # Quadratic splines distribute a particle over 27 nodes. Their variance is cell^2/4 along each axis for any
-    # position.
+def spread(position, weight, origin, shape, cell):
+    """The grid with the weight of each particle in the 27 nodes around it, by quadratic splines. Their variance is
+    cell^2/4 along each axis for any position."""
     place = (position - origin) / cell
     node = np.rint(place).astype(int)
     off = (place - node).astype(np.float32)
     shares = {-1: 0.5 * (0.5 - off) ** 2, 0: 0.75 - off**2, 1: 0.5 * (0.5 + off) ** 2}
     grid = np.zeros(np.prod(shape), np.float32)
     for steps in NEIGHBOURS:
-        weight = np.prod([shares[step][:, axis] for axis, step in enumerate(steps)], axis=0)
-        np.add.at(grid, np.ravel_multi_index(tuple((node + steps).T[::-1]), shape[::-1]), weight)
-    grid *= (spacing / cell) ** 3
+        parts = weight * np.prod([shares[step][:, axis] for axis, step in enumerate(steps)], axis=0)
+        np.add.at(grid, np.ravel_multi_index(tuple((node + steps).T[::-1]), shape[::-1]), parts)
+    return grid
+
+
+def smoothed(grid, origin, shape, cell, width):
+    """The grid as vtkImageData, smoothed to a Gaussian of this width around each particle."""
     image = vtkImageData()
     image.SetDimensions(*map(int, shape))
     image.SetOrigin(*origin)
@@ -71,6 +64,36 @@ def colour_function(position, spacing, most_nodes=MOST_NODES):
     return smooth.GetOutput()
 
 
+def colour_function(position, spacing, most_nodes=MOST_NODES, sizes=None):
+    """c on a grid around the particles, as vtkImageData. `sizes` (m) are the spacings of the particles if they differ;
+    the Gaussians of particles of about half the size are half as wide. A grid that would be too large omits drops that
+    are far from the other water; if it still is too large, it becomes coarser."""
+    sizes = np.full(len(position), float(spacing)) if sizes is None else np.asarray(sizes, float)
+    halvings = np.maximum(np.rint(np.log2(spacing / sizes)), 0).astype(int)
+    cell = CELL * spacing / 2.0 ** halvings.max()
+    low, high = position.min(0).astype(float), position.max(0).astype(float)
+    if np.prod(grid_of(low, high, cell, WIDTH * spacing)[1]) > most_nodes:
+        low, high = np.percentile(position, (DROPS, 100 - DROPS), axis=0) + np.array([[-1], [1]]) * REACH * WIDTH * spacing
+        inside = ((position >= low) & (position <= high)).all(1)
+        position, sizes, halvings = position[inside], sizes[inside], halvings[inside]
+    origin, shape = grid_of(low, high, cell, WIDTH * spacing)
+    while np.prod(shape) > most_nodes:
+        cell *= COARSER
+        origin, shape = grid_of(low, high, cell, max(WIDTH * spacing, WIDTH / CELL * cell))
+    total = None
+    for halving in np.unique(halvings):
+        of_size = halvings == halving
+        width = max(WIDTH * spacing / 2.0**halving, WIDTH / CELL * cell)
+        grid = spread(position[of_size], (sizes[of_size] / cell) ** 3, origin, shape, cell)
+        image = smoothed(grid, origin, shape, cell, width)
+        if total is None:
+            total = image
+        else:
+            values = vtk_to_numpy(total.GetPointData().GetScalars())
+            values += vtk_to_numpy(image.GetPointData().GetScalars())
+    return total
+
+
 def particles_with(frame, names):
     """The particles of a frame as vtkPolyData, with those of the named fields that exist."""
     points = vtkPoints()
@@ -85,10 +108,11 @@ def particles_with(frame, names):
     return data
 
 
-def water_surface(frame, spacing, names=("velocity", "pressure"), most_nodes=MOST_NODES):
-    """The mesh (vtkPolyData) with normals and with the named fields, averaged over the particles around."""
+def water_surface(frame, spacing, names=("velocity", "pressure", "spacing", "liquid"), most_nodes=MOST_NODES):
+    """The mesh (vtkPolyData) with normals and with those of the named fields that exist, averaged over the particles
+    around. With a field "spacing" (m) particles have these sizes."""
     contour = vtkFlyingEdges3D()
-    contour.SetInputData(colour_function(frame.position, spacing, most_nodes))
+    contour.SetInputData(colour_function(frame.position, spacing, most_nodes, frame.fields.get("spacing")))
     contour.SetValue(0, SHARE)
     contour.ComputeNormalsOff()
     contour.ComputeScalarsOff()

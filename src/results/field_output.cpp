@@ -11,6 +11,11 @@ template <int Dim>
 FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& particles,
                               const std::vector<std::string>& names)
     : names_(names) {
+  const auto add_name = [&](bool is_needed, const char* name) {
+    if (is_needed && std::ranges::count(names_, name) == 0) names_.emplace_back(name);
+  };
+  add_name(flow.setup.graded != nullptr, "volume");
+  add_name(flow.setup.liquids.are_several(), "liquid");
   std::vector<std::size_t> fluid = indices_where(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); });
   std::sort(fluid.begin(), fluid.end(),
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
@@ -19,7 +24,7 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
   const auto& thick = flow.template part<ThickLiquid<Dim>>();
   const auto make_room = [&](auto&... field) { (field.reserve(fluid.size()), ...); };
   make_room(position_, velocity_, pressure_, density_error_, is_surface_, eddy_viscosity_, shear_rate_, viscosity_,
-            liquid_, density_, id_);
+            liquid_, density_, volume_, id_);
   for (const std::size_t i : fluid) {
     position_.push_back(particles.position[i]);
     velocity_.push_back(particles.velocity[i]);
@@ -33,6 +38,7 @@ FluidFields<Dim>::FluidFields(const Flow<Dim>& flow, const Particles<Dim>& parti
     liquid_.push_back(flow.setup.liquids.of(particles.id[i]));
     density_.push_back(flow.setup.liquids.are_several() ? flow.setup.liquids.density[liquid_.back()]
                                                         : flow.setup.liquid.density);
+    volume_.push_back(particles.volume[i]);
     id_.push_back(particles.id[i]);
   }
 }
@@ -50,6 +56,7 @@ ParticleFields<Dim> FluidFields<Dim>::view() const {
     if (name == "viscosity") result.fields.push_back({name, viscosity_});
     if (name == "liquid") result.fields.push_back({name, liquid_});
     if (name == "density") result.fields.push_back({name, density_});
+    if (name == "volume") result.fields.push_back({name, volume_});
     if (name == "id") result.fields.push_back({name, id_});
   }
   return result;

@@ -13,7 +13,8 @@ namespace tailwater {
 template <int Dim>
 class FluidFields {
  public:
-  /// Gathers the named fields (see OutputTable::fields) of `particles`; the work fields come from `flow`.
+  /// Gathers the named fields (see OutputTable::fields) of `particles`, with zones of refinement also their volume and
+  /// with several liquids also their liquid; the work fields come from `flow`.
   FluidFields(const Flow<Dim>& flow, const Particles<Dim>& particles, const std::vector<std::string>& names);
 
   ParticleFields<Dim> view() const;
@@ -30,6 +31,7 @@ class FluidFields {
   std::vector<double> viscosity_;     ///< Pa s; likewise
   std::vector<std::int64_t> liquid_;  ///< index of its [[liquid]], counted as in the case file
   std::vector<double> density_;       ///< kg/m^3
+  std::vector<double> volume_;        ///< m^3; in 2D m^2
   std::vector<std::int64_t> id_;
 };
 

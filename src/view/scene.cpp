@@ -14,6 +14,7 @@
 #include "base/box.h"
 #include "base/error.h"
 #include "case/probe_columns.h"
+#include "case/rheology.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "probes/probe_set.h"
@@ -283,6 +284,13 @@ Json box_json(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& en
 
 }  // namespace
 
+std::vector<FrameScalar> frame_scalars(const CaseSpec& spec) {
+  std::vector<FrameScalar> scalars{{"pressure", "Pa"}, {"speed", "m/s"}};
+  if (!spec.refinement.empty()) scalars.push_back({"size", "m"});
+  if (has_several_liquids(spec)) scalars.push_back({"liquid", ""});
+  return scalars;
+}
+
 template <int Dim>
 std::vector<int> pose_of_walls(const Boundary<Dim>& boundary) {
   std::vector<int> poses;
@@ -299,7 +307,12 @@ Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Json box = box_json(boundary, ends);
   const Columns columns = columns_of_probes(spec, boundary);
   Json scalars = Json::array();
-  for (const FrameScalar& scalar : frame_scalars) scalars.push_back({{"name", scalar.name}, {"unit", scalar.unit}});
+  for (const FrameScalar& scalar : frame_scalars(spec))
+    scalars.push_back({{"name", scalar.name}, {"unit", scalar.unit}});
+  Json liquids = Json::array();
+  if (has_several_liquids(spec)) {
+    for (const LiquidTable& liquid : spec.liquids) liquids.push_back(liquid.name);
+  }
   return {{"format", frame_format},
           {"title", spec.general.title},
           {"dimension", Dim},
@@ -317,7 +330,8 @@ Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
           {"vents", vents_json<Dim>(spec)},
           {"probes", probes_json<Dim>(spec, columns, box)},
           {"measurements", measurements_json(spec)},
-          {"scalars", std::move(scalars)}};
+          {"scalars", std::move(scalars)},
+          {"liquids", std::move(liquids)}};
 }
 
 TAILWATER_IN_2D_AND_3D(pose_of_walls);

@@ -2,7 +2,6 @@
 // around them (docs/reference/view.md).
 #pragma once
 
-#include <array>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +16,9 @@ struct FrameScalar {
   std::string_view name;
   std::string_view unit;
 };
-inline constexpr std::array<FrameScalar, 2> frame_scalars{{{"pressure", "Pa"}, {"speed", "m/s"}}};
+/// Those of the frames of a case: pressure, speed, and what its particles differ in: their size with zones of
+/// refinement, their liquid with several.
+std::vector<FrameScalar> frame_scalars(const CaseSpec& spec);
 
 /// For each wall the number of its pose, in the order of their first walls; -1 for walls at rest.
 template <int Dim>

@@ -57,6 +57,18 @@ class Surface(unittest.TestCase):
         bottom = points[middle & (points[:, 2] < 0.5), 2]
         self.assertLess(np.abs(bottom).max(), 0.06 * DX)
 
+    def test_particles_of_half_the_size_have_the_same_surface(self):
+        coarse = block(12, 12, 8)
+        fine = block(24, 24, 4) / 2 + (0, 0, 0.8)
+        sizes = np.concatenate([np.full(len(coarse), DX), np.full(len(fine), DX / 2)])
+        mesh = surface.water_surface(Frame(0.0, np.concatenate([coarse, fine]), {"spacing": sizes}), DX)
+        points = points_of(mesh)
+        middle = np.abs(points[:, :2] - 0.6).max(1) < 0.3
+        top = points[middle & (points[:, 2] > 0.5), 2]
+        # As of a lattice, with the spacing of the fine particles.
+        self.assertLess(np.abs(top - 1.0).max(), 0.06 * DX / 2)
+        self.assertFalse((middle & (np.abs(points[:, 2] - 0.8) < 0.1)).any(), "water without a gap where sizes meet")
+
     def test_a_particle_alone_is_just_seen(self):
         grid = surface.colour_function(np.array([[0.3, 0.2, 0.1]]), DX)
         values = vtk_to_numpy(grid.GetPointData().GetScalars())
@@ -124,6 +136,19 @@ class Pictures(PicturesTest):
         self.assertEqual(self.command(folder, "--count", "1")[0], 0)
         self.assertEqual([path.name for path in (folder / "pictures").iterdir()], ["picture_00002.png"], "the last")
         self.assertFalse((folder / "fields/surface.pvd").exists())
+
+    def test_particles_have_their_own_size_and_the_colour_of_their_spacing(self):
+        folder = self.run_of(2, frames=1)
+        self.assertIn("no [[refinement]]", self.command(folder, "--colour", "spacing")[2])
+        self.assertIn("one liquid", self.command(folder, "--colour", "liquid")[2])
+        volume = np.where(np.arange(24) < 12, DX**2, DX**2 / 4)
+        synthetic_run.write_frame(folder / "fields/fields_00000.vtp", block(6, 4), volume=volume)
+        with unittest.mock.patch.object(plots, "draw_particles", wraps=plots.draw_particles) as drawn:
+            code, _, err = self.command(folder, "--colour", "spacing")
+        self.assertEqual(code, 0, err)
+        spacings = np.where(np.arange(24) < 12, DX, DX / 2)
+        np.testing.assert_allclose(drawn.call_args.args[2], spacings)
+        np.testing.assert_allclose(drawn.call_args.kwargs["array"], spacings)
 
     def test_walls_in_2d_are_where_they_have_moved(self):
         folder = self.run_of(2)

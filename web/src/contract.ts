@@ -198,6 +198,8 @@ export interface Scene {
   vents: AirPlace[];
   probes: Probe[];
   scalars: { name: string; unit: string }[];
+  /** Names of several liquids, by their number. */
+  liquids: string[];
   measurements: Measurement[];
 }
 

@@ -2,7 +2,7 @@
 import type { App } from "./app.ts";
 import { Dialog } from "./dialog.tsx";
 import { savePicture } from "./picture/still.ts";
-import { colourings } from "./water/value.ts";
+import { colourings, isOffered } from "./water/value.ts";
 
 export const keyList: [string, string][] = [
   ["space, k", "play or pause"],
@@ -11,7 +11,7 @@ export const keyList: [string, string][] = [
   ["↑ ↓", "faster, slower"],
   ["Home, End", "to the start, to the end (live: follow)"],
   ["l", "again and again"],
-  ["1 … 5", "colour by speed, pressure, depth, origin, none"],
+  ["1 … 7", "colour by speed, pressure, depth, origin, none; by spacing or liquid where there are several"],
   ["c", "the next colours"],
   ["f", "show all"],
   ["w a s d", "turn (3D) or move the camera; with shift always move"],
@@ -100,7 +100,7 @@ function act(app: App, key: string, shift: boolean): boolean {
     Escape: () => app.look.change({ dialog: "" }),
   };
   const colouring = colourings.find((c) => c.key === key);
-  if (colouring) app.look.change({ colouring: colouring.name });
+  if (colouring && isOffered(app.shown()[0], colouring.name)) app.look.change({ colouring: colouring.name });
   else if (byKey[key]) byKey[key]!();
   else if (byKey[key.toLowerCase()] && key.length === 1) byKey[key.toLowerCase()]!();
   else return false;

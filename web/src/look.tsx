@@ -2,7 +2,7 @@
 import type { App } from "./app.ts";
 import { colourMaps, gradient, type ColourMap } from "./colours.ts";
 import { useChanges } from "./store.ts";
-import { colourings } from "./water/value.ts";
+import { colourings, isOffered } from "./water/value.ts";
 
 export function LookPanel({ app }: { app: App }) {
   useChanges(app.look, app.data);
@@ -18,7 +18,7 @@ export function LookPanel({ app }: { app: App }) {
       <label class="row">
         Colour by
         <select value={look.colouring} onChange={(e) => app.look.change({ colouring: e.currentTarget.value as typeof look.colouring })}>
-          {colourings.map((c) => (
+          {colourings.filter((c) => isOffered(app.shown()[0], c.name)).map((c) => (
             <option value={c.name}>{c.title}</option>
           ))}
         </select>

@@ -2,7 +2,7 @@
 import { useLayoutEffect, useReducer } from "preact/hooks";
 import type { ColourMap } from "./colours.ts";
 
-export type Colouring = "speed" | "pressure" | "depth" | "origin" | "plain";
+export type Colouring = "speed" | "pressure" | "depth" | "origin" | "plain" | "size" | "liquid";
 
 export interface Look {
   theme: "light" | "dark";

@@ -6,7 +6,7 @@ import { stride, type Frame } from "./format.ts";
 /** A particle is inside where the cells around its own, so wide, in spacings, hold water too. */
 const wall = 1.5;
 
-type Moment = Omit<Frame, "ids">;
+type Moment = Omit<Frame, "ids" | "more">;
 
 /** Cells over the water of a frame, as wide as asked for or wider: there are no more than `most`. */
 class Grid {

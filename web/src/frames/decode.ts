@@ -26,12 +26,12 @@ class Varints {
   }
 
   /** `n` ascending numbers, written as differences. */
-  ascending(n: number, what: string): Uint32Array {
-    const out = new Uint32Array(n);
+  ascending(n: number, what: string): Float64Array {
+    const out = new Float64Array(n);
     let value = 0;
     for (let i = 0; i < n; ++i) {
       value += this.next();
-      if (value > 0xffffffff) throw new FrameError(`${what} ${value} is beyond what this page counts to`);
+      if (value > Number.MAX_SAFE_INTEGER) throw new FrameError(`${what} ${value} is beyond what this page counts to`);
       out[i] = value;
     }
     return out;
@@ -39,9 +39,9 @@ class Varints {
 }
 
 /** The list of ids after `removed` (places in `before`) and `added` (ids), and where each was before (-1: new). */
-export function change(before: Uint32Array, removed: Uint32Array, added: Uint32Array): { ids: Uint32Array; from: Int32Array } {
+export function change(before: Float64Array, removed: Float64Array, added: Float64Array): { ids: Float64Array; from: Int32Array } {
   const count = before.length - removed.length + added.length;
-  const ids = new Uint32Array(count);
+  const ids = new Float64Array(count);
   const from = new Int32Array(count);
   let out = 0;
   let r = 0;
@@ -72,7 +72,7 @@ function gather<T extends Uint16Array | Uint8Array>(from: Int32Array, values: T)
 }
 
 export class Decoder {
-  private ids: Uint32Array = new Uint32Array(0);
+  private ids: Float64Array = new Float64Array(0);
   /** In how many of the last frames each particle was, 0 to 2. */
   private seen: Uint8Array = new Uint8Array(0);
   private last: Uint16Array[] = [];
@@ -110,7 +110,7 @@ export class Decoder {
       }
     }
     this.index = header.index;
-    return { ...header, ids: this.ids, data };
+    return { ...header, ids: this.ids, data, more: this.scalars.slice(2).map((plane) => plane.slice()) };
   }
 
   private begin(header: Header, planes: Varints): void {

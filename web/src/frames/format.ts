@@ -3,7 +3,7 @@
 
 export const magic = "TWVF";
 export const formatVersion = 1;
-/** uint16 per particle of a decoded frame: x, y, z (0 in 2D), and the two scalars as low and high byte. */
+/** uint16 per particle of a decoded frame: x, y, z (0 in 2D), and the first two scalars as low and high byte. */
 export const stride = 4;
 
 export interface Range {
@@ -30,10 +30,12 @@ export interface Header {
 }
 
 export interface Frame extends Header {
-  /** Ascending. Frames with equal particles share the same array. */
-  ids: Uint32Array;
+  /** Ascending, up to 2^53: those that come by splits begin at 2^40. Frames with equal particles share the same array. */
+  ids: Float64Array;
   /** count * stride. */
   data: Uint16Array;
+  /** The scalars after the first two, one number per particle. */
+  more: Uint8Array[];
 }
 
 export class FrameError extends Error {}

@@ -11,7 +11,7 @@ export interface Levels {
 }
 
 /** The least and the largest number of each coordinate. */
-export function extremes(frame: Omit<Frame, "ids">): [number[], number[]] {
+export function extremes(frame: Omit<Frame, "ids" | "more">): [number[], number[]] {
   const first = frame.boxMin.map(() => 65535);
   const last = frame.boxMin.map(() => 0);
   for (let i = 0; i < frame.data.length; i += stride) {
@@ -37,7 +37,7 @@ export function levelsOf(frame: Frame, up: { axis: number; sign: 1 | -1 }, spaci
  * The water of a column is what stands connected from its lowest particle upwards, with gaps of at most three cells, so
  * that spray above does not count. `up`: the axis against gravity; `sign` -1: gravity points along +up.
  */
-export function levels(frame: Omit<Frame, "ids">, up: number, sign: 1 | -1, width: number): Levels {
+export function levels(frame: Omit<Frame, "ids" | "more">, up: number, sign: 1 | -1, width: number): Levels {
   const size = frame.boxMax.map((high, d) => high - frame.boxMin[d]!);
   const [first, last] = extremes(frame);
   const across = size.map((_, d) => d).filter((d) => d !== up);

@@ -24,7 +24,7 @@ export function follow(a: Frame, b: Frame): Uint16Array {
   return out;
 }
 
-function sameIds(a: Uint32Array, b: Uint32Array): boolean {
+function sameIds(a: Float64Array, b: Float64Array): boolean {
   if (a === b) return true;
   if (a.length !== b.length) return false;
   for (let i = 0; i < a.length; ++i) if (a[i] !== b[i]) return false;

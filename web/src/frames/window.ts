@@ -11,7 +11,7 @@ const budget = 384e6;
 export class FrameWindow {
   readonly list: FrameEntry[] = [];
   private decoded = new Map<number, Frame>();
-  private ids: Uint32Array | null = null;
+  private ids: Float64Array | null = null;
   private reached = -1; // place in `list` that the decoder reached
   private sent = -1; // place that was sent last
   private wanted = 0;

@@ -9,10 +9,10 @@ export interface Order {
 }
 
 export type Reply =
-  | { run: string; frame: Omit<Frame, "ids">; ids: Uint32Array | null; milliseconds: number }
+  | { run: string; frame: Omit<Frame, "ids">; ids: Float64Array | null; milliseconds: number }
   | { run: string; error: string };
 
-const decoders = new Map<string, { decoder: Decoder; posted: Uint32Array | null }>();
+const decoders = new Map<string, { decoder: Decoder; posted: Float64Array | null }>();
 
 async function decode(order: Order): Promise<void> {
   const began = performance.now();
@@ -25,7 +25,7 @@ async function decode(order: Order): Promise<void> {
   const copy = known ? null : ids.slice();
   state.posted = ids;
   const reply: Reply = { run: order.run, frame, ids: copy, milliseconds: performance.now() - began };
-  postMessage(reply, { transfer: [frame.data.buffer as ArrayBuffer, ...(copy ? [copy.buffer] : [])] });
+  postMessage(reply, { transfer: [frame.data.buffer as ArrayBuffer, ...frame.more.map((plane) => plane.buffer as ArrayBuffer), ...(copy ? [copy.buffer] : [])] });
 }
 
 // One after the other: a frame is stored as the difference to the one before.

@@ -3,7 +3,7 @@ import type { App } from "../app.ts";
 import { table } from "../colours.ts";
 import { colours } from "../theme.ts";
 import { length, niceBelow, number, timeDecimals } from "../units.ts";
-import { colourings } from "../water/value.ts";
+import { colourings, quantity } from "../water/value.ts";
 import { saveText } from "./save.ts";
 
 export function compose(app: App, canvas: HTMLCanvasElement): void {
@@ -50,6 +50,7 @@ function legend(app: App, c: CanvasRenderingContext2D, h: number): void {
   const look = app.look.now;
   const kind = colourings.find((k) => k.name === look.colouring)!;
   if (look.colouring === "plain" || look.colouring === "origin" || !app.limits) return;
+  if (quantity(app.shown()[0]!, look.colouring) === "plain") return;
   const map = table(look.map);
   for (let i = 0; i < 200; ++i) {
     const k = 4 * Math.round((i * 255) / 199);
@@ -57,10 +58,11 @@ function legend(app: App, c: CanvasRenderingContext2D, h: number): void {
     c.fillRect(14 + i, h - 34, 1.5, 10);
   }
   c.fillStyle = colours().text;
-  c.fillText(`${kind.title}, ${kind.unit}`, 14, h - 40);
-  c.fillText(number(app.limits[0], 3), 14, h - 10);
+  c.fillText(kind.unit ? `${kind.title}, ${kind.unit}` : kind.title, 14, h - 40);
+  const liquids = look.colouring === "liquid" ? (app.shown()[0]?.scene.liquids ?? []) : [];
+  c.fillText(liquids[0] ?? number(app.limits[0], 3), 14, h - 10);
   c.textAlign = "right";
-  c.fillText(number(app.limits[1], 3), 214, h - 10);
+  c.fillText(liquids.at(-1) ?? number(app.limits[1], 3), 214, h - 10);
   c.textAlign = "left";
 }
 

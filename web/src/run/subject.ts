@@ -26,7 +26,7 @@ export interface Subject {
 
 /** A scene as the page wants it: every list is there, and a box around all that is drawn. */
 export function whole<S extends Scene>(scene: S): S {
-  const lists = { walls: [], bodies: [], inlets: [], outlets: [], pockets: [], vents: [], probes: [], scalars: [], measurements: [] };
+  const lists = { walls: [], bodies: [], inlets: [], outlets: [], pockets: [], vents: [], probes: [], scalars: [], liquids: [], measurements: [] };
   const filled = { ...lists, ...Object.fromEntries(Object.entries(scene).filter(([, value]) => value !== null)) } as unknown as S;
   return { ...filled, box: filled.box ?? around(filled) };
 }
@@ -80,6 +80,6 @@ function startFrame(scene: Scene, drawing: Drawing): Frame | null {
   }
   return {
     dim, order: 0, index: 0, count: n, time: 0, boxMin, boxMax, scalars: [], poses: [], payloadBytes: 0, rawBytes: 0, payload: 0, data,
-    ids: Uint32Array.from({ length: n }, (_, i) => i),
+    more: [], ids: Float64Array.from({ length: n }, (_, i) => i),
   };
 }

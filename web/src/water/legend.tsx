@@ -39,6 +39,19 @@ export function Legend({ app, run }: { app: App; run: Subject }) {
       </div>
     );
   }
+  if (look.colouring === "liquid") {
+    const names = run.scene.liquids;
+    return (
+      <div class="legend">
+        <div class="legend-title">Liquid</div>
+        <div class="legend-bar" style={{ background: gradient(look.map) }} />
+        <div class="legend-ends">
+          <span>{names[0]}</span>
+          <span>{names.at(-1)}</span>
+        </div>
+      </div>
+    );
+  }
   return (
     <div class="legend">
       <div class="legend-title">

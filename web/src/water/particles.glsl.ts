@@ -6,6 +6,7 @@ precision highp sampler2D;
 in vec4 a;
 in vec4 b;
 in float own;
+in float grain;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform float share, radius, larger, pixels, smallest, thickness;
 uniform vec3 minA, sizeA, minB, sizeB;
@@ -16,6 +17,7 @@ uniform sampler2D map, levels;
 flat out vec3 colour;
 flat out float eyeDepth;
 flat out float size;
+flat out float sphere;
 
 float scalar(float packed, vec4 range) {
   float both = floor(packed * 65535.0 + 0.5);
@@ -43,7 +45,8 @@ void main() {
   vec4 eye = modelViewMatrix * vec4(x, 1.0);
   gl_Position = projectionMatrix * eye;
   eyeDepth = -eye.z;
-  size = max(smallest, 2.0 * radius * larger * pixels / (DIM == 2 ? 1.0 : max(-eye.z, 1e-6)));
+  sphere = radius * larger * grain;
+  size = max(smallest, 2.0 * sphere * pixels / (DIM == 2 ? 1.0 : max(-eye.z, 1e-6)));
   gl_PointSize = size;
   float side = dot(plane.xyz, x) + plane.w;
   if (side < 0.0 || side > thickness) gl_Position = vec4(0.0, 0.0, 2.0, 0.0);

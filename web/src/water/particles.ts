@@ -31,7 +31,8 @@ export class ParticleMark {
   private capacity = -1; // so that even a moment without water allocates a buffer
   private levelsOf: Frame | null = null;
 
-  constructor(dim: 2 | 3, private spacing: number, private up: { axis: number; sign: 1 | -1 }) {
+  /** `sizeAt`: which of the scalars is the size of each particle; -1: all have that of the spacing. */
+  constructor(dim: 2 | 3, private spacing: number, private sizeAt: number, private up: { axis: number; sign: 1 | -1 }) {
     const map = new DataTexture(table("water") as Uint8Array<ArrayBuffer>, 256, 1, RGBAFormat, UnsignedByteType);
     map.magFilter = map.minFilter = LinearFilter;
     map.needsUpdate = true;
@@ -109,6 +110,7 @@ export class ParticleMark {
       this.upload("a", a.data);
     }
     this.upload("b", follow(a, b));
+    if (this.sizeAt >= 2 && this.shown?.a !== a) this.uploadSizes(a);
     this.shown = { a, b };
     const u = this.material.uniforms;
     const box = (frame: Frame, min: string, size: string, range: string) => {
@@ -144,9 +146,21 @@ export class ParticleMark {
       const geometry = (this.points.geometry = new BufferGeometry());
       for (const name of ["a", "b"]) geometry.setAttribute(name, new BufferAttribute(new Uint16Array(this.capacity * stride), stride, true));
       geometry.setAttribute("own", new BufferAttribute(new Float32Array(this.capacity), 1));
+      geometry.setAttribute("grain", new BufferAttribute(new Float32Array(this.capacity).fill(1), 1));
       this.shown = this.chosen = null;
     }
     return this.points.geometry;
+  }
+
+  /** Sizes over the spacing. */
+  private uploadSizes(frame: Frame): void {
+    const bytes = frame.more[this.sizeAt - 2];
+    const range = frame.scalars[this.sizeAt];
+    if (!bytes || !range) return;
+    const attribute = this.points.geometry.getAttribute("grain") as BufferAttribute;
+    const sizes = attribute.array as Float32Array;
+    for (let i = 0; i < bytes.length; ++i) sizes[i] = (range.low + (bytes[i]! / 255) * (range.high - range.low)) / this.spacing;
+    attribute.needsUpdate = true;
   }
 
   private upload(name: string, data: Uint16Array): void {

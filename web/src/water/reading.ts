@@ -14,7 +14,7 @@ export function read(view: WaterView, staging: Staging, out: HTMLElement, x: num
   const place = at.place.map((c, d) => `${"xyz"[d]} ${decimals(c, Math.ceil(-Math.log10(pixel)))}`).join("  ") + " m";
   const { run, frame, i } = at;
   const values = colourings
-    .filter((c) => run && frame && (c.name === "speed" || c.name === "pressure"))
+    .filter((c) => run && frame && ["speed", "pressure", "size"].includes(c.name))
     .map((c) => [c, valueOf(run!, frame!, c.name, i)] as const)
     .filter(([, v]) => !Number.isNaN(v))
     .map(([c, v]) => `${c.title.toLowerCase()} ${number(v, 3)} ${c.unit}`);

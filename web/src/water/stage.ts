@@ -32,7 +32,7 @@ export class Stage {
   constructor(readonly scene: Scene) {
     const dim = scene.dimension;
     this.up = upward(scene.gravity, dim);
-    this.particles = new ParticleMark(dim, scene.spacing, this.up);
+    this.particles = new ParticleMark(dim, scene.spacing, scene.scalars.findIndex((s) => s.name === "size"), this.up);
     this.walls = new WallMarks(scene, dim);
     this.ends = new LineMark({ colour: "#000", width: 2, dash: 12 });
     this.vents = new LineMark({ colour: "#000", width: 2, onTop: true });

@@ -6,7 +6,7 @@ import type { Look } from "../store.ts";
 import type { Theme } from "../theme.ts";
 import type { Frame } from "../frames/format.ts";
 import { Stage } from "./stage.ts";
-import { origins, quantity, spread } from "./value.ts";
+import { origins, quantity, spread, valuesOf } from "./value.ts";
 import type { WaterView } from "./view.ts";
 
 /** Particles whose values are looked at for one picture, beside those that are shown: they take a few ms. */
@@ -17,7 +17,7 @@ export class Staging {
   private key = "";
   private lookKey = "";
   private spreads = new WeakMap<Subject, { by: Map<string, [number, number]>; seen: WeakMap<Frame, Set<string>> }>();
-  private ownOf = new WeakMap<Stage, Frame>();
+  private ownOf = new WeakMap<Stage, { frame: Frame; colouring: Look["colouring"] }>();
 
   constructor(private view: WaterView) {}
 
@@ -53,10 +53,13 @@ export class Staging {
   colour(run: Subject, stage: Stage, at: { a: Frame }, look: Look): [number, number] {
     const limits = this.limits(run, stage, at.a, look);
     stage.particles.set("limits", new Vector2(...limits));
-    if (look.colouring === "origin" && this.ownOf.get(stage) !== at.a) {
+    const { colouring } = look;
+    const known = this.ownOf.get(stage);
+    if (quantity(run, colouring) === "own" && (known?.frame !== at.a || known.colouring !== colouring)) {
       const first = run.frames.frame(0) ?? at.a;
-      stage.particles.own(origins(first, at.a, stage.up.axis === 0 ? 1 : 0, run.scene.inlets.length > 0));
-      this.ownOf.set(stage, at.a);
+      const byAge = run.scene.inlets.length > 0;
+      stage.particles.own(colouring === "origin" ? origins(first, at.a, stage.up.axis === 0 ? 1 : 0, byAge) : valuesOf(run, at.a, colouring));
+      this.ownOf.set(stage, { frame: at.a, colouring });
     }
     return limits;
   }

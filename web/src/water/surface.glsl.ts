@@ -7,17 +7,17 @@ void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }
 /** A sphere's depth and colour. */
 export const depth = /* glsl */ `
 precision highp float;
-uniform float radius, larger;
 uniform mat4 projectionMatrix;
 flat in vec3 colour;
 flat in float eyeDepth;
+flat in float sphere;
 layout(location = 0) out vec4 depths;
 layout(location = 1) out vec4 colours;
 void main() {
   vec2 p = 2.0 * gl_PointCoord - 1.0;
   float r2 = dot(p, p);
   if (r2 > 1.0) discard;
-  float d = eyeDepth - radius * larger * sqrt(1.0 - r2);
+  float d = eyeDepth - sphere * sqrt(1.0 - r2);
   float clip = (projectionMatrix[2][2] * -d + projectionMatrix[3][2]) / d;
   gl_FragDepth = 0.5 * clip + 0.5;
   depths = vec4(d, 0.0, 0.0, 1.0);

@@ -11,25 +11,42 @@ export const colourings: { name: Colouring; title: string; unit: string; key: st
   { name: "depth", title: "Depth below the surface", unit: "m", key: "3" },
   { name: "origin", title: "Age, or where it started", unit: "", key: "4" },
   { name: "plain", title: "One colour", unit: "", key: "5" },
+  { name: "size", title: "Spacing", unit: "m", key: "6" },
+  { name: "liquid", title: "Liquid", unit: "", key: "7" },
 ];
 
 const scalarOf = (run: Subject, name: string) => run.scene.scalars.findIndex((s) => s.name === name);
 
+/** Whether a run can be coloured so: ids of particles that split do not say where they started. */
+export function isOffered(run: Subject | undefined, colouring: Colouring): boolean {
+  const has = (name: string) => run !== undefined && scalarOf(run, name) >= 0;
+  if (colouring === "size" || colouring === "liquid") return has(colouring);
+  return colouring !== "origin" || !has("size");
+}
+
 export function quantity(run: Subject, colouring: Colouring): Quantity {
+  if (!isOffered(run, colouring) || colouring === "plain") return "plain";
   if (colouring === "depth") return "depth";
-  if (colouring === "origin") return "own";
-  if (colouring === "plain") return "plain";
+  if (colouring === "origin" || colouring === "size" || colouring === "liquid") return "own";
   const at = scalarOf(run, colouring);
   return at === 0 ? "scalar0" : at === 1 ? "scalar1" : "plain";
+}
+
+/** The whole number of a scalar of one particle, 0 to 255. */
+function byteOf(frame: Frame, s: number, i: number): number {
+  return s < 2 ? (frame.data[i * stride + 3]! >> (8 * s)) & 255 : frame.more[s - 2]![i]!;
 }
 
 /** A particle's value, and NaN where the frame has none. */
 export function valueOf(run: Subject, frame: Frame, colouring: Colouring, i: number): number {
   const s = scalarOf(run, colouring);
-  if (s < 0 || s > 1) return NaN;
-  const range = frame.scalars[s]!;
-  const byte = (frame.data[i * stride + 3]! >> (8 * s)) & 255;
-  return range.low + (byte / 255) * (range.high - range.low);
+  const range = frame.scalars[s];
+  return range ? range.low + (byteOf(frame, s, i) / 255) * (range.high - range.low) : NaN;
+}
+
+/** The values of all particles of a frame. */
+export function valuesOf(run: Subject, frame: Frame, colouring: Colouring): Float32Array {
+  return Float32Array.from({ length: frame.count }, (_, i) => valueOf(run, frame, colouring, i));
 }
 
 /** Lowest and highest values but for the outermost 0.5 % of the particles at each end: single ones do not fade the rest. */
@@ -40,9 +57,10 @@ export function spread(run: Subject, frame: Frame, colouring: Colouring, up: { a
     return [0, deepest || 1];
   }
   const s = scalarOf(run, colouring);
-  if (s < 0 || s > 1) return [0, 1];
+  if (!frame.scalars[s]) return [0, 1];
+  if (colouring === "liquid") return [0, Math.max(1, run.scene.liquids.length - 1)];
   const counts = new Uint32Array(256);
-  for (let o = 3; o < frame.data.length; o += stride) counts[(frame.data[o]! >> (8 * s)) & 255]!++;
+  for (let i = 0; i < frame.count; ++i) counts[byteOf(frame, s, i)]!++;
   const few = 0.005 * frame.count;
   let low = 0;
   let high = 255;

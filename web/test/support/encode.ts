@@ -13,7 +13,7 @@ export interface Moment {
 }
 
 function varint(out: number[], value: number): void {
-  for (; value >= 128; value = Math.floor(value / 128)) out.push((value % 128) | 128);
+  for (; value >= 128; value = Math.floor(value / 128)) out.push((value % 128) | 128); // ids reach beyond 32 bits
   out.push(value);
 }
 

@@ -9,7 +9,7 @@ export interface Flow {
   reading(probe: string, time: number): number[];
 }
 
-const base = { format: 1, bodies: [], inlets: [], outlets: [], pockets: [], vents: [], measurements: [], scalars: [{ name: "pressure", unit: "Pa" }, { name: "speed", unit: "m/s" }] };
+const base = { format: 1, bodies: [], inlets: [], outlets: [], pockets: [], vents: [], measurements: [], liquids: [], scalars: [{ name: "pressure", unit: "Pa" }, { name: "speed", unit: "m/s" }] };
 
 /** A standing wave in a tank 2 m long and 0.5 m deep, with a gate that turns, in `rows` rows of particles. */
 export function standingWave(rows = 25, end = 4): Flow {

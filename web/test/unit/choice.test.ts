@@ -4,7 +4,7 @@ import { choose } from "../../src/frames/choice.ts";
 import { stride, type Frame } from "../../src/frames/format.ts";
 
 /** `n` particles along each side of a lattice of this spacing, in a box of 1 m. */
-function lattice(dim: 2 | 3, n: number, spacing: number): Omit<Frame, "ids"> {
+function lattice(dim: 2 | 3, n: number, spacing: number): Omit<Frame, "ids" | "more"> {
   const count = n ** dim;
   const data = new Uint16Array(count * stride);
   for (let i = 0; i < count; ++i) {

@@ -14,17 +14,18 @@ function random(seed: number): () => number {
   return () => ((state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32);
 }
 
-/** Particles that fly in arcs; from the fifth moment on some leave and others come. */
+/** Particles that fly in arcs; from the fifth moment on some leave and others come. Some have the ids of split ones. */
 function moments(n: number, dim: 2 | 3, count: number): Moment[] {
   const next = random(7);
   const start = Array.from({ length: 2 * n }, () => Array.from({ length: 2 * dim }, next));
   return Array.from({ length: count }, (_, k) => {
     const first = k < 4 ? 0 : 3 * (k - 3);
-    const ids = Array.from({ length: n }, (_, i) => first + i + (k >= 6 && i > n / 2 ? 5 : 0)).reverse();
+    const own = Array.from({ length: n }, (_, i) => first + i + (k >= 6 && i > n / 2 ? 5 : 0)).reverse();
     const t = k / count;
     const at = (id: number, d: number) => start[id]![d]! + start[id]![dim + d]! * t - (d === 1 ? 0.3 * t * t : 0);
     return {
-      time: t, ids, places: Array.from({ length: dim }, (_, d) => ids.map((id) => at(id, d))), scalars: [ids.map((id) => 1000 * start[id]![0]!), ids.map((id) => start[id]![1]! * t)],
+      time: t, ids: own.map((id) => (id % 7 === 0 ? id + 2 ** 40 : id)), places: Array.from({ length: dim }, (_, d) => own.map((id) => at(id, d))),
+      scalars: [own.map((id) => 1000 * start[id]![0]!), own.map((id) => start[id]![1]! * t), own.map((id) => 0.01 * (1 + (id % 3)))],
       poses: [dim === 2 ? [t, 2 * t, 0.1 * t] : [t, 0, 0, 1, 0, 0, 0]],
     };
   });
@@ -55,7 +56,7 @@ for (const dim of [2, 3] as const) {
           assert.ok(Math.abs(x - moment.places[d]![place]!) <= 0.5000001 * step, `frame ${index}, particle ${id}, coordinate ${d}`);
         }
         frame.scalars.forEach((range, s) => {
-          const byte = (frame.data[i * stride + 3]! >> (8 * s)) & 255;
+          const byte = s < 2 ? (frame.data[i * stride + 3]! >> (8 * s)) & 255 : frame.more[s - 2]![i]!;
           const value = range.low + (byte / 255) * (range.high - range.low);
           assert.ok(Math.abs(value - moment.scalars[s]![place]!) <= (0.501 * (range.high - range.low)) / 255);
         });
@@ -86,7 +87,7 @@ test("a damaged frame is refused with a reason, and the decoder goes on from the
 });
 
 test("changes of the list of ids say where each particle was", () => {
-  const { ids, from } = change(Uint32Array.of(2, 4, 6, 8), Uint32Array.of(1, 3), Uint32Array.of(1, 5, 9));
+  const { ids, from } = change(Float64Array.of(2, 4, 6, 8), Float64Array.of(1, 3), Float64Array.of(1, 5, 9));
   assert.deepEqual([...ids], [1, 2, 5, 6, 9]);
   assert.deepEqual([...from], [-1, 0, -1, 2, -1]);
 });
@@ -95,7 +96,7 @@ test("a particle that leaves stays where it is until the next frame, also where 
   const frame = (ids: number[], x: number[], min: number, max: number): Frame =>
     ({
       dim: 2, order: 0, index: 0, count: ids.length, time: 0, boxMin: [min, min], boxMax: [max, max], scalars: [], poses: [], payloadBytes: 0, rawBytes: 0, payload: 0,
-      ids: Uint32Array.from(ids), data: Uint16Array.from(x.flatMap((v) => [Math.round((65535 * (v - min)) / (max - min)), 0, 0, 0])),
+      more: [], ids: Float64Array.from(ids), data: Uint16Array.from(x.flatMap((v) => [Math.round((65535 * (v - min)) / (max - min)), 0, 0, 0])),
     });
   const out = follow(frame([1, 2, 3], [0.25, 0.5, 0.75], 0, 1), frame([1, 3, 4], [0.3, 0.8, 0.9], -1, 1));
   const places = [0, 1, 2].map((i) => -1 + (out[i * stride]! / 65535) * 2);
