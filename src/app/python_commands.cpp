@@ -20,9 +20,11 @@ constexpr std::array<PythonCommand, 2> benches{{
     {"speed", "Measure CPU time and memory, and their growth", "tailwater_validation.speed", ""},
 }};
 
-constexpr std::array<PythonCommand, 8> python_commands{{
+constexpr std::array<PythonCommand, 9> python_commands{{
     {"validate", "Compare with laboratory data and theory; write a report", "tailwater_validation.validate", ""},
     {"study", "Estimate the uncertainty of results from several spacings", "tailwater.study_command", ""},
+    {"refine", "Propose zones of finer particles from a coarse run", "tailwater.refine",
+     "Example: tailwater refine my.toml --level 2 --write my_refined.toml"},
     {"report", "Write a dossier of a study or a run that others can check", "tailwater.report_command",
      "Example: tailwater report my_study --answer upstream"},
     {"waves", "Print wave heights, periods and reflection; write spectra", "tailwater.waves",
