@@ -1,5 +1,5 @@
 # TAILWATER_ARCH. The default is not this machine's own processor: what is built on one node of a cluster must run on the
-# others. x86-64-v3 is every amd64 processor with AVX2 (Haswell of 2013, Zen); what it costs is in docs/install.md.
+# others. x86-64-v3 is every amd64 processor with AVX2 (Haswell of 2013, Zen); what it costs is in docs/packages.md.
 if(NOT DEFINED TAILWATER_ARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   include(CheckCXXSourceRuns)
   check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\") ? 0 : 1; }"

@@ -20,7 +20,7 @@ incompressible smoothed particle hydrodynamics. A case is one text file; a run
 leaves tables, particle fields for ParaView and a summary.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tailwater)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# What each of these brings is in docs/install.md. A command that misses one says so (launch.py). PETSc is loaded by the
+# What each of these brings is in docs/packages.md. A command that misses one says so (launch.py). PETSc is loaded by the
 # program itself, so that what looks for libraries does not see it.
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" petsc_version ${PETSC_VERSION})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libpetsc-real${petsc_version}, openmpi-bin, python3, python3-numpy")

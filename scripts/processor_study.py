@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Cost of a program that also runs on other processors: docs/install.md.
+"""Cost of a program that also runs on other processors: docs/packages.md.
 
 Usage: scripts/processor_study.py NATIVE OTHER...    programs built with -D TAILWATER_ARCH=native, x86-64-v3, x86-64-v2
 
