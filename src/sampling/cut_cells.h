@@ -62,6 +62,12 @@ struct LatticeBlock {
     for (int axis = 1; axis < Dim; ++axis) rows *= count[axis];
     return rows;
   }
+  bool has(const Cell<Dim>& cell) const {
+    for (int axis = 0; axis < Dim; ++axis) {
+      if (cell[axis] < 0 || cell[axis] >= count[axis]) return false;
+    }
+    return true;
+  }
   std::int64_t row_of(const Cell<Dim>& cell) const {
     std::int64_t row = 0;
     for (int axis = Dim - 1; axis > 0; --axis) row = row * count[axis] + cell[axis];

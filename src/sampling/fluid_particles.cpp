@@ -135,13 +135,16 @@ Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, con
 template <int Dim>
 class BlockWater {
  public:
+  using List = std::vector<std::unique_ptr<BlockWater>>;
+
   /// Collective.
   BlockWater(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary, const Bodies<Dim>& bodies,
-             const Communicator& ranks)
+             const Communicator& ranks, const List& earlier)
       : spec_(spec),
         block_(spec.fluid[index]),
         boundary_(boundary),
         bodies_(bodies),
+        earlier_(earlier),
         owner_(fluid_label(spec, index)),
         axes_(make_lattice<Dim>(spec, index, boundary)),
         shape_(spec, index, boundary, axes_),
@@ -227,6 +230,20 @@ class BlockWater {
     return x;
   }
 
+  /// Whether a particle of this block is nearer to a place than half a spacing, on the same side of plates.
+  bool has_particle_at(const Vec<Dim>& x) {
+    Cell<Dim> middle;
+    for (int axis = 0; axis < Dim; ++axis) middle[axis] = axes_[axis].cell_at(x[axis]);
+    bool found = false;
+    for_each_around<Dim>(middle, [&](const Cell<Dim>& cell) {
+      const bool is_near = (at(cell) - x).norm() < 0.5 * (1.0 - corner_tolerance) * spec_.particles.spacing;
+      found =
+          found || (is_near && lattice_.has(cell) && takes(cell) &&
+                    !is_hidden<Dim>(boundary_.screens, boundary_.screens_near(x, (at(cell) - x).norm()), x, at(cell)));
+    });
+    return found;
+  }
+
   /// Whether the point of a cell is in the water.
   bool reaches(const Cell<Dim>& cell) {
     const Vec<Dim> x = at(cell);
@@ -236,8 +253,10 @@ class BlockWater {
            !is_taken_by_wall(spec_, boundary_, block_, x) && !bodies_.hold(x);
   }
 
-  /// Whether the particle of a cut cell fits in front of all walls.
+  /// Whether the particle of a cut cell fits in front of all walls, and beside the blocks before this one.
   bool leaves_room(const Cell<Dim>& cell) const {
+    const auto is_taken_by = [&](const auto& block) { return block->has_particle_at(at(cell)); };
+    if (std::ranges::any_of(earlier_, is_taken_by)) return false;
     const double dx = spec_.particles.spacing;
     const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, dx, at(cell)), dx);
     return wall.face == -1 || wall.signed_distance > (least_wall_distance - corner_tolerance) * dx;
@@ -284,6 +303,7 @@ class BlockWater {
   const FluidTable& block_;
   const Boundary<Dim>& boundary_;
   const Bodies<Dim>& bodies_;
+  const List& earlier_;  ///< the blocks before it
   CaseLabel owner_;
   Lattice<Dim> axes_;
   WaterShape<Dim> shape_;
@@ -336,11 +356,11 @@ template <int Dim>
 FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Dim>& boundary, const Communicator& ranks,
                                          std::int64_t others, StartVelocities velocities) {
   const Bodies<Dim> bodies(spec, boundary);
-  std::vector<std::unique_ptr<BlockWater<Dim>>> blocks;
+  typename BlockWater<Dim>::List blocks;
   FluidParticles<Dim> fluid;
   fluid.ranks = ranks;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
-    blocks.push_back(std::make_unique<BlockWater<Dim>>(spec, b, boundary, bodies, ranks));
+    blocks.push_back(std::make_unique<BlockWater<Dim>>(spec, b, boundary, bodies, ranks, blocks));
     fluid.of_blocks.push_back(blocks.back()->particles());
     fluid.all += fluid.of_blocks.back();
   }

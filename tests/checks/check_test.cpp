@@ -112,6 +112,19 @@ TEST(Check, OverlappingBlocks) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+// In each cell that their common edge cuts one of the two blocks has a particle.
+TEST(Check, BlocksMayShareASlopingEdge) {
+  CaseSpec spec = tank();
+  for (const double high : {0.22, 0.25, 0.28, 0.3}) {
+    spec.fluid = {polygon_fluid({{0, 0}, {1, 0}, {1, high}, {0, 0.2}}),
+                  polygon_fluid({{0, 0.2}, {1, high}, {1, 0.4}, {0, 0.4}})};
+    EXPECT_TRUE(check(spec).empty()) << high << ' ' << listed(check(spec));
+    spec.fluid[1].points[0][1] = 0.05;
+    spec.fluid[1].points[1][1] = high - 0.15;
+    expect_among(check(spec), Severity::error, {"fluid 'fluid1' and fluid 'fluid2' overlap"});
+  }
+}
+
 TEST(Check, FluidBehindAWall) {
   CaseSpec spec = tank();
   spec.walls[0].fluid_side = FluidSide::right;
