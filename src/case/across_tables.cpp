@@ -245,9 +245,11 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
     }
   }
   refuse("porous", !spec.porous.empty(), "porous layers are");
-  if (has_several_liquids(spec)) {
-    refuse("inlet", !spec.inlets.empty(), "beside another liquid, inlets are");
-    refuse("outlet", !spec.outlets.empty(), "beside another liquid, outlets are");
+  for (std::size_t k = 0; has_several_liquids(spec) && k < spec.inlets.size(); ++k) {
+    if (spec.inlets[k].water_from.empty()) continue;
+    problems.wrong(
+        CaseLabel("inlet", k).with_key("water_from"), *root["inlet"][k]["water_from"].node(),
+        fmt::format("a circuit has one liquid, and the case has \"{}\" and others; remove this key", liquid.name));
   }
   if (spec.physics.channel_width > 0.0) {
     problems.wrong(CaseLabel("physics").with_key("channel_width"), *root["physics"]["channel_width"].node(),

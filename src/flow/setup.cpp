@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "case/rheology.h"
+#include "flow/ids_of_inflow.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "motion/channel_end.h"
@@ -79,8 +81,9 @@ FluidParticles<Dim> make_fluid(const CaseSpec& spec, const Walls<Dim>& walls, Bo
   if (walls.boundary.ducts.empty()) return make_fluid_particles(spec, walls.boundary, ranks, moving);
   drawn.file_faces(walls.boundary.filed_reach());
   FluidParticles<Dim> fluid = make_fluid_particles(spec, drawn, ranks, moving);
-  const std::vector<WaterParticle<Dim>> in_ducts = water_in_ducts(walls.boundary.ducts, spec.particles.spacing, fluid);
+  std::vector<WaterParticle<Dim>> in_ducts = water_in_ducts(walls.boundary.ducts, spec.particles.spacing, fluid);
   if (in_ducts.empty()) return fluid;
+  if (has_several_liquids(spec)) std::ranges::stable_sort(in_ducts, {}, &WaterParticle<Dim>::block);
   const std::int64_t others = moving + static_cast<std::int64_t>(in_ducts.size());
   if (!ranks.is_alone()) fluid = make_fluid_particles(spec, drawn, ranks, others);
   append_water(in_ducts, others, fluid);
@@ -116,16 +119,43 @@ double fluid_height(const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity, d
   return fluid.extent_along(gravity.normalized()) + spacing;
 }
 
-/// The liquids of the particles, if there are several.
+/// Number of particles in ducts by their blocks, which are in order there. Collective.
 template <int Dim>
-ParticleLiquids particle_liquids(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const TimeStepRule& rule) {
+std::vector<double> count_in_ducts(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
+  const std::int64_t drawn = std::accumulate(fluid.of_blocks.begin(), fluid.of_blocks.end(), std::int64_t{0});
+  std::vector<double> count(spec.fluid.size(), 0.0);
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+    if (fluid.id_of(i) >= drawn) count[static_cast<std::size_t>(fluid.block[i])] += 1.0;
+  }
+  fluid.ranks.sum_of_each(count);
+  return count;
+}
+
+/// The liquids of the particles, if there are several: those of blocks, of ducts, and of inflow, whose ids begin at
+/// `first_inflow`. Collective.
+template <int Dim>
+ParticleLiquids particle_liquids(const CaseSpec& spec, const FluidParticles<Dim>& fluid, const TimeStepRule& rule,
+                                 std::int64_t first_inflow) {
   ParticleLiquids liquids;
   if (!has_several_liquids(spec)) return liquids;
   std::int64_t end = 0;
-  for (std::size_t block = 0; block < spec.fluid.size(); ++block) {
-    end += fluid.of_blocks[block];
+  const auto add = [&](std::int64_t count, int liquid) {
+    end += count;
     liquids.end.push_back(end);
-    liquids.of_block.push_back(index_of_liquid(spec, spec.fluid[block].liquid));
+    liquids.of_block.push_back(liquid);
+  };
+  const auto liquid_of_block = [&](std::size_t block) { return index_of_liquid(spec, spec.fluid[block].liquid); };
+  for (std::size_t block = 0; block < spec.fluid.size(); ++block) add(fluid.of_blocks[block], liquid_of_block(block));
+  const std::size_t ends = spec.inlets.size() + spec.outlets.size();
+  if (ends > 0) {
+    const std::vector<double> in_ducts = count_in_ducts(spec, fluid);
+    for (std::size_t block = 0; block < in_ducts.size(); ++block) {
+      add(std::llround(in_ducts[block]), liquid_of_block(block));
+    }
+    add(first_inflow - end, 0);  // walls
+    for (std::size_t range = 0; range < ends * spec.liquids.size(); ++range) {
+      add(ids_in_range, static_cast<int>(range % spec.liquids.size()));
+    }
   }
   for (const LiquidTable& liquid : spec.liquids) {
     liquids.density.push_back(liquid.density);
@@ -196,7 +226,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                     .viscous_share = formulation.viscous_share};
   if (reference_speed > 0.0) time_step_rule.fastest = formulation.fastest_over_reference * reference_speed;
   const LiquidTable* const thick = liquid_of(spec);
-  liquids = particle_liquids(spec, drawing.fluid, time_step_rule);
+  liquids = particle_liquids(spec, drawing.fluid, time_step_rule, first_wall_id + drawing.walls.particles.numbers);
   has_implicit_viscosity = thick != nullptr && (liquids.are_several() || varies_with_shear(*thick) ||
                                                 time_step_rule.is_viscous(kinematic_viscosity(*thick)));
   if (thick == nullptr) return;

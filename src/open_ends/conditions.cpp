@@ -41,11 +41,13 @@ struct Reading {
   double volume = 0.0;  ///< m^Dim
   double flux = 0.0;    ///< m^(Dim+1)/s; times the velocity along the opening's normal
   double push = 0.0;    ///< N m; times the pressure
+  double mass = 0.0;    ///< kg
 
   Reading& operator+=(const Reading& other) {
     volume += other.volume;
     flux += other.flux;
     push += other.push;
+    mass += other.mass;
     return *this;
   }
 };
@@ -58,9 +60,10 @@ Reading read_gauge(const OpenEnd<Dim>& end, const Flow<Dim>& flow) {
     const double off = std::abs(end.opening.beyond(x) + end.stretch + end.gauge);
     if (!particles.is_fluid(i) || off >= end.gauge || !end.opening.spans(x)) return {};
     const double volume = (1.0 - off / end.gauge) * particles.volume[i];
-    return {volume, volume * end.opening.normal.dot(particles.velocity[i]), volume * particles.pressure[i]};
+    return {volume, volume * end.opening.normal.dot(particles.velocity[i]), volume * particles.pressure[i],
+            volume * flow.density_of(i)};
   });
-  flow.setup.ranks.sum_each(gauge.volume, gauge.flux, gauge.push);
+  flow.setup.ranks.sum_each(gauge.volume, gauge.flux, gauge.push, gauge.mass);
   return gauge;
 }
 
@@ -95,7 +98,8 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   const double speed = reading.flux / reading.volume;
   const double discharge = reading.flux / end.gauge;
   // rho g h^2/2 is the force of the flow; before the first step there is no pressure yet.
-  const double push = std::max(0.0, reading.push) / (flow.setup.liquid.density * end.gauge * breadth);
+  const double density = flow.setup.liquids.are_several() ? reading.mass / reading.volume : flow.setup.liquid.density;
+  const double push = std::max(0.0, reading.push) / (density * end.gauge * breadth);
   const double celerity_squared = push > 0.0 ? std::sqrt(2.0 * end.gravity * push) : end.gravity * area / breadth;
   const double celerity = std::sqrt(celerity_squared);
   if (end.gravity > 0.0) water.rise = celerity_squared / end.gravity;

@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "flow/flow.h"
+#include "flow/ids_of_inflow.h"
 #include "open_ends/open_ends.h"
 
 namespace tailwater {
@@ -30,6 +31,7 @@ struct Entrant {
   Vec<Dim> velocity;
   double pressure;
   double volume;
+  int liquid;
 };
 
 /// The cells at an opening in which particles enter: rows that divide the depth of each column, from the bottom
@@ -154,10 +156,9 @@ void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, c
 /// stands the length of its cell before the next in its row. All ranks get the same.
 template <int Dim>
 std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow,
-                                        const std::optional<double>& volume) {
+                                        const LiquidsBeyond& liquids, const std::optional<double>& volume) {
   const EntryLattice<Dim> lattice(end, state);
   if (lattice.size() == 0 || (end.flow.feeds() && state.entry_speed <= 0.0)) return {};
-  const double density = flow.setup.liquid.density;
   const std::vector<double> free = free_lengths(end, lattice, flow);
   std::vector<std::optional<Entrant<Dim>>> of_cell(lattice.size());
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
@@ -166,9 +167,11 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
     if (distance < (end.holds_level() ? least_entry * length : 0.0)) continue;
     const Vec<Dim> position = lattice.middle(cell) - distance * end.opening.normal;
     const Vec<Dim> velocity = end.velocity_at(state, position);
-    const double pressure = end.pressure_at(state, position, velocity, density);
+    const double pressure =
+        end.pressure_at(state, position, velocity, density_above(flow, end, state, liquids, position));
     if (end.opening.normal.dot(velocity) >= 0.0 || (end.holds_level() && pressure <= 0.0)) continue;
-    of_cell[cell] = {position, velocity, pressure, volume ? *volume : lattice.area(cell) * length};
+    of_cell[cell] = {position, velocity, pressure, volume ? *volume : lattice.area(cell) * length,
+                     liquids.at(end.rise.dot(position - end.low))};
   }
   remove_crowded(end, lattice, flow, of_cell);
   std::vector<Entrant<Dim>> entrants;
@@ -182,11 +185,11 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
 /// that number and volume are conserved. Those that have waited longest enter first.
 template <int Dim>
 std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& state, const Flow<Dim>& flow,
-                                         const WaterAmount& sump) {
+                                         const LiquidsBeyond& liquids, const WaterAmount& sump) {
   const double number = static_cast<double>(sump.particles);
   const double cell = power<Dim>(end.spacing);
   std::vector<Entrant<Dim>> entrants =
-      find_entrants(end, state, flow, std::optional(sump.particles > 0 ? sump.volume / number : cell));
+      find_entrants(end, state, flow, liquids, std::optional(sump.particles > 0 ? sump.volume / number : cell));
   const auto waiting = static_cast<std::size_t>(sump.particles);
   if (entrants.size() > waiting) {
     const auto inside = [&](const Entrant<Dim>& entrant) { return -end.opening.beyond(entrant.position); };
@@ -197,9 +200,10 @@ std::vector<Entrant<Dim>> find_returning(const OpenEnd<Dim>& end, OpenEndState& 
   return entrants;
 }
 
-/// Makes particles of those whose places this rank owns. Ghosts and lists are forgotten.
-template <int Dim>
-void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, std::int64_t first_id) {
+/// Makes particles of those whose places this rank owns, with the id `id_of` of each number. Ghosts and lists are
+/// forgotten.
+template <int Dim, class IdOf>
+void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, IdOf&& id_of) {
   const Communicator& ranks = flow.setup.ranks;
   Particles<Dim>& particles = flow.state.particles;
   flow.neighbourhood.forget(particles);
@@ -212,7 +216,7 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, std::
             .velocity = entrant.velocity,
             .pressure = entrant.pressure,
             .volume = entrant.volume,
-            .id = first_id + static_cast<std::int64_t>(own[n])};
+            .id = id_of(own[n])};
   });
 }
 
@@ -226,15 +230,27 @@ bool OpenEnds<Dim>::bring_in(Flow<Dim>& flow) {
     if (!ends_[e].is_driven()) continue;
     const OpenEnd<Dim>& end = ends_[e];
     OpenEndState& state = states_[e];
-    const std::vector<Entrant<Dim>> entrants = end.circuit < 0 ? find_entrants(end, state, flow, std::nullopt)
-                                                               : find_returning(end, state, flow, sump(end.circuit));
+    const std::vector<Entrant<Dim>> entrants = end.circuit < 0
+                                                   ? find_entrants(end, state, flow, liquids_[e], std::nullopt)
+                                                   : find_returning(end, state, flow, liquids_[e], sump(end.circuit));
     if (entrants.empty()) continue;
     some_came = true;
-    std::int64_t first_id = setup.first_wall_id + flow.walls.particles.numbers;
-    for (const OpenEndState& any : states_) first_id += any.arrived.particles;
-    add_water(flow, entrants, first_id);
+    const std::int64_t first_id = setup.first_wall_id + flow.walls.particles.numbers;
+    const bool are_several = setup.liquids.are_several();
+    std::int64_t earlier = 0;
+    for (const OpenEndState& any : states_) earlier += any.arrived.particles;
+    if (are_several) earlier = state.arrived.particles;
+    add_water(flow, entrants, [&](std::size_t n) {
+      const std::int64_t range =
+          are_several ? range_of_inflow(e, static_cast<std::size_t>(entrants[n].liquid), setup.liquids.density.size())
+                      : 0;
+      return first_id + range * ids_in_range + earlier + static_cast<std::int64_t>(n);
+    });
     for (const Entrant<Dim>& entrant : entrants) {
-      const double mass = setup.liquid.density * entrant.volume;
+      const double density =
+          are_several ? setup.liquids.density[static_cast<std::size_t>(entrant.liquid)] : setup.liquid.density;
+      const double mass = density * entrant.volume;
+      if (are_several) state.arrived_mass += mass;
       state.arrived +=
           {1, entrant.volume, mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
     }

@@ -20,7 +20,7 @@ TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
 TAILWATER_SAVED(inline, LeavingWave, height, number, swing, swing_rate)
 TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, delayed_speed, acceleration, mean_speed, mean_discharge,
                 invariant, depth, level, is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows, wave, miss,
-                asked, asked_total, departed, arrived, short_steps)
+                asked, asked_total, departed, arrived, departed_mass, arrived_mass, short_steps)
 
 namespace {
 
@@ -30,8 +30,10 @@ Json json_of_miss(const LevelError& miss) {
   return {{"by_m", miss.most}, {"since_s", miss.since}, {"for_s", miss.total}};
 }
 
-Json json_of_passed(const WaterAmount& passed, double density) {
+/// `mass` [kg] is that of several liquids; 0: there is one.
+Json json_of_passed(const WaterAmount& passed, double mass, double density) {
   Json json = summary_of(passed, density);
+  if (mass > 0.0) json["mass_kg"] = mass;
   json["energy_J"] = passed.energy;
   return json;
 }
@@ -93,8 +95,10 @@ Json OpenEnds<Dim>::balance(OpeningKind kind, double density) const {
     // In the intended direction, and `back`.
     Json json;
     json["name"] = end.opening.name;
-    json.update(json_of_passed(is_inlet ? state.arrived : state.departed, density));
-    json["back"] = json_of_passed(is_inlet ? state.departed : state.arrived, density);
+    const Json in = json_of_passed(state.arrived, state.arrived_mass, density);
+    const Json out = json_of_passed(state.departed, state.departed_mass, density);
+    json.update(is_inlet ? in : out);
+    json["back"] = is_inlet ? out : in;
     if (end.circuit >= 0 && is_inlet) json["steps_short_of_water"] = state.short_steps;
     if (end.flow.feeds()) json["asked_for_m3"] = state.asked;
     if (end.holds_level()) json["level_missed"] = json_of_miss(state.miss);
@@ -129,6 +133,13 @@ void OpenEnds<Dim>::extend_box(Box<Dim>& box) const {
 }
 
 template <int Dim>
+void OpenEnds<Dim>::begin(Flow<Dim>& flow) {
+  liquids_.resize(ends_.size());
+  if (!flow.setup.liquids.are_several()) return;
+  for (std::size_t e = 0; e < ends_.size(); ++e) liquids_[e] = LiquidsBeyond(ends_[e], flow);
+}
+
+template <int Dim>
 Json OpenEnds<Dim>::save() const {
   return {{"states", states_}, {"warnings", warnings_}};
 }
@@ -152,7 +163,13 @@ void OpenEnds<Dim>::take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leav
   }
   const bool some_leave = std::ranges::any_of(left_by, [](const auto& water) { return !water.empty(); });
   if (!flow.setup.ranks.any(some_leave)) return;
-  for (std::size_t e = 0; e < ends_.size(); ++e) states_[e].departed += amount_of<Dim>(flow, left_by[e]);
+  for (std::size_t e = 0; e < ends_.size(); ++e) {
+    states_[e].departed += amount_of<Dim>(flow, left_by[e]);
+    if (!flow.setup.liquids.are_several()) continue;
+    states_[e].departed_mass += flow.setup.ranks.sum(sum_over(left_by[e].size(), 0.0, [&](std::size_t n) {
+      return flow.density_of(left_by[e][n]) * flow.water_volume_of(left_by[e][n]);
+    }));
+  }
 }
 
 template <int Dim>
@@ -201,14 +218,16 @@ void OpenEnds<Dim>::write_row(Flow<Dim>& flow, std::size_t i) const {
   LinearSystem::Row row = flow.pressure_rows.row(i);
   if (total == 0.0) {
     row.set_weights([](std::size_t) { return 0.0; });
-    row.finish(
-        1.0, end.pressure_at(states_[end_of_[i]], particles.position[i], particles.velocity[i], setup.liquid.density));
+    const auto e = static_cast<std::size_t>(end_of_[i]);
+    row.finish(1.0, end.pressure_at(states_[e], particles.position[i], particles.velocity[i],
+                                    density_above(flow, end, states_[e], liquids_[e], particles.position[i])));
     return;
   }
+  const double density = flow.density_of(i);
   double hydrostatic = 0.0;
   const double sum = row.set_weights([&](std::size_t k) {
     const double share = weight(k) / total;
-    hydrostatic += share * setup.liquid.density * setup.gravity.dot(pairs.d(i, k));
+    hydrostatic += share * density * setup.gravity.dot(pairs.d(i, k));
     return share;
   });
   row.finish(sum, hydrostatic);
@@ -237,7 +256,7 @@ double OpenEnds<Dim>::work_of_driven_particle(const Flow<Dim>& flow, std::size_t
         inverse_reference(terms, i) * particles.pressure[i] + inverse_reference(terms, j) * particles.pressure[j];
     return Vec<Dim>((particles.volume[j] * sum) * flow.surroundings.pair_vectors.at(pairs, i, k));
   });
-  const Vec<Dim> weight = flow.setup.liquid.density * flow.setup.gravity;
+  const Vec<Dim> weight = flow.density_of(i) * flow.setup.gravity;
   return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
 }
 

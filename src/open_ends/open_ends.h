@@ -8,6 +8,7 @@
 #include "base/box.h"
 #include "flow/part.h"
 #include "open_ends/fibres.h"
+#include "open_ends/liquids_beyond.h"
 #include "open_ends/open_end.h"
 
 namespace tailwater {
@@ -40,6 +41,7 @@ class OpenEnds final : public Part<Dim> {
   std::string_view name() const override { return "open_ends"; }
   bool is_open() const override { return true; }
   void extend_box(Box<Dim>& box) const override;
+  void begin(Flow<Dim>& flow) override;
   Json save() const override;
   bool restore(const Json& saved) override;
   void take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leaves) override;
@@ -69,6 +71,7 @@ class OpenEnds final : public Part<Dim> {
   bool is_first(const std::string& warning);
 
   std::vector<OpenEnd<Dim>> ends_;
+  std::vector<LiquidsBeyond> liquids_;  ///< of each end
   // Saved in checkpoints.
   std::vector<OpenEndState> states_;
   std::vector<std::string> warnings_;  ///< kinds of those that were given

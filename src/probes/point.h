@@ -3,8 +3,9 @@
 //
 //   f(x) = sum w W (a . q_j) f_j,    M a = (1, 0, ..),    M = sum w W q_j q_j^T
 //
-// Derivatives are those of the fitted linear field. Where the neighbours do not span space (M nearly singular), a = (1/M_00, 0, ..), which gives the Shepard mean. Where
-// there is no water, c(x) <= 1/2 (water_share.h), all values and the column `wet` are 0.
+// Derivatives are those of the fitted linear field. Where the neighbours do not span space (M nearly singular), a =
+// (1/M_00, 0, ..), which gives the Shepard mean. Where there is no water, c(x) <= 1/2 (water_share.h), all values and
+// the column `wet` are 0.
 #pragma once
 
 #include "case/spec.h"

@@ -54,6 +54,11 @@ LAYERS = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name=
 LOCK = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name='water', viscosity=1e-3}]", "--set",
         "fluid=[{min=[0, 0], max=[0.5, 0.5], liquid='brine'}, {min=[0.5, 0], max=[1, 0.5], liquid='water'}]", "--set",
         "wall=[{shape='box', min=[0, 0], max=[1, 0.5]}]")
+WEDGE = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name='water', viscosity=1e-3}]", "--set",
+         "fluid=[{min=[0, 0], max=[0.1, 0.2], liquid='brine'}, {min=[0.1, 0], max=[1, 0.2], liquid='water'}, "
+         "{min=[0, 0.2], max=[1, 0.5], liquid='water'}]", "--set",
+         "wall=[{points=[[0, 2], [0, 0.2]]}, {points=[[0, 0], [1, 0], [1, 2]]}]", "--set",
+         "inlet=[{from=[0, 0], to=[0, 0.2], discharge=0.3}]")
 CUBE = ("--set", "case.dimension=3", "--set", "physics.gravity=[0, 0, -9.81]", "--set",
         "fluid=[{min=[0, 0, 0], max=[0.5, 0.3, 0.3]}]", "--set",
         "wall=[{shape='box', min=[0, 0, 0], max=[0.8, 0.3, 0.6], open=['+z']}]", "--set",
@@ -70,6 +75,7 @@ FEATURES = {
     "water that enters a porous layer": ROCK,
     "two liquids": LAYERS,
     "two liquids in a full box": LOCK,
+    "brine that enters under water": WEDGE,
     "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),
     "a body that floats on a line": BARGE,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
