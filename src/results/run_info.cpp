@@ -45,6 +45,24 @@ std::string water_line(const Json& summary) {
   return line;
 }
 
+/// The lines of a liquid whose viscous forces are solved for, and of each of several liquids.
+void append_liquids(const Json& summary, std::vector<InfoLine>& lines) {
+  if (const auto liquid = summary.find("liquid"); liquid != summary.end()) {
+    lines.push_back(
+        {"liquid", fmt::format("{} ({}), viscous forces solved for in {:.0f} iterations in the last step; "
+                               "{:.3g} of the volume flowed",
+                               text_of_key(*liquid, "name"), text_of_key(*liquid, "rheology"),
+                               number_of(*liquid, "viscous_iterations"), number_of(*liquid, "yielded_fraction"))});
+  }
+  if (const auto liquids = summary.find("liquids"); liquids != summary.end()) {
+    for (const Json& each : *liquids) {
+      lines.push_back({printable(each.at("name").get<std::string>()),
+                       fmt::format("{:.6g} kg{}, {:.2g} of its volume mixed with others", number_of(each, "mass_kg"),
+                                   per_metre(summary), number_of(each, "mixed_fraction"))});
+    }
+  }
+}
+
 std::string pockets_in_words(double count, double volume, double pressure, std::string_view per_metre) {
   if (count == 0.0) return "no pocket";
   return fmt::format("{:.0f} pocket{}, {:.4g} m^3{}, {:.4g} Pa in the largest", count, count == 1.0 ? "" : "s", volume,
@@ -228,20 +246,7 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
   if (const auto air = summary.find("pockets"); air != summary.end()) {
     lines.push_back({"air", air_line(*air, per_metre(summary))});
   }
-  if (const auto liquid = summary.find("liquid"); liquid != summary.end()) {
-    lines.push_back(
-        {"liquid", fmt::format("{} ({}), viscous forces solved for in {:.0f} iterations in the last step; "
-                               "{:.3g} of the volume flowed",
-                               text_of_key(*liquid, "name"), text_of_key(*liquid, "rheology"),
-                               number_of(*liquid, "viscous_iterations"), number_of(*liquid, "yielded_fraction"))});
-  }
-  if (const auto liquids = summary.find("liquids"); liquids != summary.end()) {
-    for (const Json& each : *liquids) {
-      lines.push_back({printable(each.at("name").get<std::string>()),
-                       fmt::format("{:.6g} kg{}, {:.2g} of its volume mixed with others", number_of(each, "mass_kg"),
-                                   per_metre(summary), number_of(each, "mixed_fraction"))});
-    }
-  }
+  append_liquids(summary, lines);
   const Json& energy = summary.at("energy");
   lines.push_back({"energy", fmt::format("{:.6g} J{} at the start, {:.6g} at the end, largest rise {:.2g}",
                                          number_of(energy, "start_J"), per_metre(summary), number_of(energy, "end_J"),
