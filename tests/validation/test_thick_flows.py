@@ -64,6 +64,21 @@ class Current(RunTest):
                              {"probes/front.csv": {"time_s": np.array([0.0, 10.0]), "front_m": np.array([0.2, 0.97 * exact])}})
         self.assertAlmostEqual(thick_flows.viscous_dam_break(run)["front_error"], -0.03, places=6)
 
+    def test_known_errors_of_both_directions_come_back(self):
+        exact = thick_flows.axisymmetric_front(10.0, np.pi * 0.1**3, 0.1, 9.81)
+        run = self.write_run(SLUMP, [(10.0, lattice((0, 0), (0.2, 0.1), 0.005), {})],
+                             {f"probes/{name}.csv": {"time_s": np.array([0.0, 10.0]), "front_m": np.array([0.1, factor * exact])}
+                              for name, factor in (("front", 0.97), ("diagonal", 1.02))})
+        errors = thick_flows.axisymmetric_dam_break(run)
+        self.assertAlmostEqual(errors["front_error"], -0.03, places=6)
+        self.assertAlmostEqual(errors["diagonal_error"], 0.02, places=6)
+
+    def test_axisymmetric_front_keeps_the_similarity(self):
+        # The front of h = t^-1/4 f(r t^-1/8) goes with t^1/8.
+        one = thick_flows.axisymmetric_front(1.0, 0.003, 0.1, 9.81)
+        self.assertAlmostEqual(thick_flows.axisymmetric_front(256.0, 0.003, 0.1, 9.81), 2 * one)
+        self.assertAlmostEqual(thick_flows.axisymmetric_front(1.0, 8 * 0.003, 0.1, 2 * 9.81), 2 * 2 ** 0.25 * one)
+
     def test_front_keeps_the_similarity(self):
         # The front of h = t^-1/5 f(x t^-1/5) goes with t^1/5.
         one = thick_flows.viscous_front(1.0, 0.02, 0.1, 9.81)

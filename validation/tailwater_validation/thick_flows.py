@@ -43,6 +43,24 @@ def viscous_dam_break(run):
     return {"front_error": float(front.value[-1] / exact - 1)}
 
 
+def axisymmetric_front(time, volume, viscosity, gravity):
+    """Radius (m) of a thin viscous current of this volume (m^3): Huppert (1982), J. Fluid Mech. 121, 43."""
+    return 0.894 * (gravity * volume**3 / (3 * viscosity)) ** 0.125 * time**0.125
+
+
+def axisymmetric_dam_break(run):
+    """front_error and diagonal_error: the fronts along x and between x and y at the end over that of Huppert (1982),
+    less 1. The block is a quarter of a cylinder of the height and radius H."""
+    liquid, = run.case["liquid"]
+    volume = math.pi * run.parameters["H"] ** 3
+    errors = {}
+    for probe in ("front", "diagonal"):
+        front = run.curve(probe, "front_m")
+        exact = axisymmetric_front(front.time[-1], volume, liquid["viscosity"] / liquid["density"], run.gravity)
+        errors[f"{probe}_error"] = float(front.value[-1] / exact - 1)
+    return errors
+
+
 def slump_reach(area, density, yield_stress, gravity):
     """Reach (m) of a yielding liquid at rest over a bed: Liu & Mei (1989), J. Fluid Mech. 207, 505, whose surface
     h = sqrt(2 t_y (L - x)/(rho g)) holds the area 2/3 L h(0)."""
@@ -69,4 +87,5 @@ def yielding_slump(run):
             "surface_error": rms(np.array(errors)) / height}
 
 
-FLOWS = {"thick-film": thick_film, "viscous-dam-break": viscous_dam_break, "yielding-slump": yielding_slump}
+FLOWS = {"thick-film": thick_film, "viscous-dam-break": viscous_dam_break,
+         "axisymmetric-dam-break": axisymmetric_dam_break, "yielding-slump": yielding_slump}
