@@ -169,6 +169,16 @@ class ProbeOutput(ProgramTest):
         (self.folder / "all.toml").write_text(text)
         return types
 
+    def columns_in_a_liquid(self, dimension):
+        """Columns of a velocity probe with a liquid, beside which the case must have no pockets of air."""
+        (self.folder / "liquid.toml").write_text(
+            f"case.dimension = {dimension}\nparticles.spacing = 0.05\ntime.end = 0.03\n"
+            + TANK[dimension].replace("[[fluid]]", '[[fluid]]\nliquid = "brine"', 1)
+            + '[[liquid]]\nname = "brine"\nviscosity = 1e-3\n[[probe]]\nname = "point"\ntype = "velocity"\n'
+            + f'at = {point(dimension, 0.2, 0.2)}\nliquid = "brine"\n')
+        self.call("run", "liquid.toml", "--out", "liquid", "--quiet", "--force", "-n", "1")
+        return self.table("liquid/probes/point.csv")[0][1:]
+
     def assert_in_order(self, some, all_of_them, what):
         """Asserts that `some` are in the list, in the order of the list."""
         self.assertEqual(some, [one for one in all_of_them if one in some], what)
@@ -201,6 +211,9 @@ class ProbeOutput(ProgramTest):
                                          [(result, unit) for result, unit, _ in results], kind)
                     told.setdefault(kind, set()).update(one["name"] for one in quantities)
                     self.assertIn(f"\n{name}: {summary['results'][name]['words']}\n", log)
+                in_liquid = self.columns_in_a_liquid(dimension)
+                self.assertEqual(in_liquid, [heading for heading, *_ in page["velocity"]["column"]])
+                written["velocity"].update(in_liquid)
                 for kind, tables in page.items():
                     self.assertEqual(written[kind], {heading for heading, *_ in tables["column"]}, kind)
                     # A pressure that does not rise has no rise time.
