@@ -39,6 +39,9 @@ BARGE = ("--set", "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, {name='hull'
          "centre=[0.6, 0.6], inertia=[17]}]", "--set", "mooring=[{body='barge', at=[0.2, 0.3], anchor=[0, 0], "
          "stiffness=100}]", "--set", "probe=[{name='barge', type='motion', body='barge'}, {name='energy', "
          "type='energy'}]")
+SUNK = ("--set", "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]]}, {name='hull', shape='polygon', points=[[0.6, 0], "
+        "[0.9, 0.3], [0.6, 0.6], [0.3, 0.3]], fluid_side='outside'}]", "--set", "physics.tension=1e4", "--set",
+        "probe=[{name='lift', type='force', walls=['hull']}, {name='all', type='pressure-map', averaging_time=0.02}]")
 POCKET = ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}, {name='hull', shape='box', min=[0.2, 0.3], "
           "max=[1, 1.1], fluid_side='outside'}]", "--set", "body=[{name='barge', walls=['hull'], mass=160, "
           "centre=[0.6, 0.6], inertia=[17]}]", "--set", "air={pockets='adiabatic', pressure=1000}",
@@ -78,6 +81,7 @@ FEATURES = {
     "brine that enters under water": WEDGE,
     "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),
     "a body that floats on a line": BARGE,
+    "a hull on the bed, in water under tension": SUNK,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
     "an inlet, a tailwater whose water circulates, and a discharge probe": FLUME,
     "three dimensions and multigrid": (*CUBE, "--set", "pressure_solver.preconditioner=gamg"),
