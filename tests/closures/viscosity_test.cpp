@@ -160,6 +160,38 @@ TYPED_TEST(ViscosityTest, NewtonianWithNoiseIsTheSumOfBoth) {
   }
 }
 
+// Factors of the noise viscosity: 1 and 0 are with it and without it, and pairs of particles with both have half of it,
+// so that momentum is conserved.
+TYPED_TEST(ViscosityTest, NoiseViscosityHasTheMeanFactorOfEachPair) {
+  constexpr int Dim = TypeParam::value;
+  const ParticleSet<Dim> set = jittered_block<Dim>(dx);
+  Noise noise(45);
+  const auto velocity = sample(set, [&](const Vec<Dim>&) { return noise.vector<Dim>(); });
+  const std::vector<Mat<Dim>> gradient(set.size(), Mat<Dim>::Zero());
+  const PairVectorField<Dim> vectors = kernel_gradients<Dim>(set);
+  const auto with = [&](const std::vector<float>& factors) {
+    std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
+    add_newtonian_viscosity<Dim>(set.pairs(), set.particles, dx, vectors, std::vector<double>(set.size(), 0.0), 0.1,
+                                 velocity, gradient, acceleration, {}, factors);
+    return acceleration;
+  };
+  const std::vector<Vec<Dim>> all = with({});
+  const std::vector<Vec<Dim>> half = with(std::vector<float>(set.size(), 0.5F));
+  const std::vector<Vec<Dim>> none = with(std::vector<float>(set.size(), 0.0F));
+  std::vector<float> mixed(set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) mixed[i] = set.position(i)[0] < 0.0 ? 0.0F : 1.0F;
+  const std::vector<Vec<Dim>> some = with(mixed);
+  Vec<Dim> momentum = Vec<Dim>::Zero();
+  double size = 0.0;
+  for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
+    ASSERT_EQ(none[i].norm(), 0.0);
+    ASSERT_LT((2.0 * half[i] - all[i]).norm(), 100.0 * single_eps * all[i].norm());
+    momentum += set.particles.volume[i] * some[i];
+    size += set.particles.volume[i] * some[i].norm();
+  }
+  EXPECT_LT(momentum.norm(), 1e-12 * size);
+}
+
 TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
   constexpr int Dim = TypeParam::value;
   constexpr int edge = Dim == 2 ? 14 : 10;

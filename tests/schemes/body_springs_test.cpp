@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "bodies/floating_bodies.h"
 #include "schemes/cases.h"
@@ -62,6 +63,28 @@ TEST(FloatingBody, IsSlowedByItsDampers) {
   box.quadratic_damping = {};
   box.damping = {0.0, 1e12, 0.0};
   EXPECT_NEAR(flown(spec, "y", 0.3, longest).velocity[1], -box.mass * g / 1e12, 1e-12);
+}
+
+// A box ten particles wide heaves on a spring under water. Potential flow does not damp it. The water takes 24 % of its
+// amplitude in a period, measured on 2026-11-28, and 36 % with noise viscosity beside the hull; the bound is between.
+TEST(FloatingBody, IsHardlyDampedByWaterThatMovesAroundIt) {
+  CaseSpec spec = tank_case<2>(0.05, 1.6, 1.6);
+  add_box(spec, {0.55, 0.55}, {1.05, 1.05}, 1000.0);
+  BodyTable& box = spec.bodies[0];
+  box.free = {"y"};
+  const double omega = 2.0 * std::numbers::pi / 0.5;
+  box.springs = {0.0, 2.0 * box.mass * omega * omega, 0.0};
+  box.velocity = {0.0, 0.3};
+  Flow<2> flow = make_flow<2>(spec);
+  std::vector<double> turns;
+  double before = 1.0;
+  while (turns.size() < 5) {
+    step(flow);
+    const BodyState<2>& body = flow.state.motion.bodies.each[0];
+    if (before * body.velocity[1] < 0.0) turns.push_back(body.centre[1]);
+    before = body.velocity[1];
+  }
+  EXPECT_GT((turns[4] - turns[3]) / (turns[2] - turns[1]), 0.7);
 }
 
 }  // namespace
