@@ -162,7 +162,10 @@ Json table_rules_of_schema(std::string_view table) {
         {rule_for("periodic_x", is_range()), rule_for("periodic_y", is_range()), rule_for("periodic_z", is_range())});
   }
   if (table == "fluid") return Json::array({rule_for("points", at_least(3))});
-  if (table == "refinement") return Json::array({rule_for("points", at_least(3))});
+  if (table == "refinement") {
+    return Json::array(
+        {rule_for("points", at_least(3)), if_then(is("shape", {"walls"}), rule_for("walls", at_least(1)))});
+  }
   if (table == "porous") {
     return Json::array(
         {rule_for("points", at_least(3)),
