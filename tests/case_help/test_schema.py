@@ -40,7 +40,7 @@ UNSEEN = {
         "unknown_name_is_reported_once_if_dx_uses_it", "velocity_of_an_unknown_name", "velocity_of_z_in_a_plane",
         "unknown parameter", "discharge that jumps", "discharge without a value", "velocity that overflows"},
     "names": {
-        "body_of_no_wall", "body_with_a_motion", "body_with_the_water_inside", "default_name_taken", "fluid_name_twice",
+        "body_of_no_wall", "zone_around_no_wall", "body_with_a_motion", "body_with_the_water_inside", "default_name_taken", "fluid_name_twice",
         "gate_with_the_name_of_a_wall", "liquid_in_a_porous_layer", "liquid_that_is_unknown",
         "liquid_that_no_block_is_of", "two_liquids", "liquids_of_too_different_densities",
         "probe_of_an_unknown_liquid", "inlet_with_water_from_an_unknown_outlet", "mooring_of_no_body",
