@@ -25,7 +25,8 @@ IMAGES = ROOT / "docs" / "images" / "gallery"
 RUNS = ROOT / "out" / "gallery"
 WIDTH = 900  # pixels of a picture
 # s; the moment that is shown, where it is not the end.
-MOMENTS = {"dam-break": 0.8, "pier": 0.6, "run-up": 3.4, "solitary-wave": 2.0, "sloshing": 4.5, "floating-box": 0.1}
+MOMENTS = {"dam-break": 0.8, "dam-break-box": 0.6, "shore": 3.6, "pier": 0.6, "run-up": 3.4, "solitary-wave": 2.0,
+           "sloshing": 4.5, "floating-box": 0.1}
 NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "seconds")
 HEAD = """\
 # Gallery

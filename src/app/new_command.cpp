@@ -21,6 +21,7 @@ namespace {
 
 const std::map<std::string, const char*> templates_by_name{
     {"dam-break", templates::dam_break},
+    {"dam-break-box", templates::dam_break_box},
     {"tank", templates::tank},
     {"pier", templates::pier},
     {"channel", templates::channel},
@@ -28,11 +29,13 @@ const std::map<std::string, const char*> templates_by_name{
     {"weir", templates::weir},
     {"broad-weir", templates::broad_weir},
     {"ogee", templates::ogee},
+    {"spillway", templates::spillway},
     {"sluice-gate", templates::sluice_gate},
     {"hydraulic-jump", templates::hydraulic_jump},
     {"backwater", templates::backwater},
     {"circulation", templates::circulation},
     {"run-up", templates::run_up},
+    {"shore", templates::shore},
     {"wave-flume", templates::wave_flume},
     {"rubble-mound", templates::rubble_mound},
     {"tailings", templates::tailings},
@@ -105,17 +108,20 @@ void add_new_command(CLI::App& app, ExitCode&) {
       "Example: tailwater new dam-break my.toml\n\n"
       "Templates:\n"
       "  dam-break       a water column collapses onto a dry bed\n"
+      "  dam-break-box   the column hits a box, with fine particles around it\n"
       "  tank            water at rest\n"
       "  channel         uniform flow with inlet, tailwater and a discharge probe\n"
       "  river-reach     flow over a surveyed bed from a CSV file\n"
       "  weir            sharp-crested weir\n"
       "  broad-weir      broad-crested weir\n"
       "  ogee            ogee crest at its design head\n"
+      "  spillway        3D notch in a dam, with fine particles at the notch\n"
       "  sluice-gate     flow under a sluice gate\n"
       "  hydraulic-jump  hydraulic jump against a tailwater\n"
       "  backwater       backwater in a sloping channel with rough side walls\n"
       "  circulation     long channel; outflow re-enters at the inlet\n"
       "  run-up          solitary wave on a plane beach\n"
+      "  shore           solitary wave on a beach, with fine particles at the shore\n"
       "  pier            3D dam break against a pier from a mesh file\n"
       "  wave-flume      regular waves, wave gauges and a damping zone\n"
       "  rubble-mound    regular waves on a porous breakwater of two layers\n"
