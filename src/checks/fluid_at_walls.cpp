@@ -10,6 +10,7 @@
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "parallel/at_start.h"
+#include "refinement/spacing_field.h"
 #include "sampling/wall_particles.h"
 
 namespace tailwater {
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The expected places of the first particles in front of a wall.
+/// The expected places of the first particles in front of a wall, for the spacing of the case.
 struct Standing {
   double regular;   ///< dx from the wall
   double least;     ///< m; nearer is too near
@@ -77,6 +78,15 @@ bool is_short(const WallFace<Dim>& face, double dx) {
   return Dim == 2 && (face.corners[1] - face.corners[0]).norm() < long_enough * dx;
 }
 
+/// The least distance [m] at a place in a zone. Particles keep off walls by the spacing in the middle of their cells,
+/// which differs by up to a fifth in a border.
+template <int Dim>
+double least_in(const SpacingField<Dim>& field, double least, const Vec<Dim>& x) {
+  constexpr double change_in_cell = 0.8;
+  const double relative = field.at(x);
+  return relative < 1.0 ? change_in_cell * relative * least : least;
+}
+
 /// The results of all ranks, by the same keys.
 template <class Found>
 std::map<std::pair<int, int>, Found> together(const Communicator& ranks,
@@ -99,10 +109,11 @@ struct Contacts {
   std::map<std::pair<int, int>, Approach<Dim>> by_face;  ///< by face and block
 };
 
-/// `far` [m]: particles farther in front of all walls do not matter.
+/// `least` [m]: nearer is too near at the spacing of the case. `far` [m]: particles farther in front of all walls do
+/// not matter.
 template <int Dim>
-Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, double least, double far,
-                          double dx) {
+Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
+                          const SpacingField<Dim>& field, double least, double far, double dx) {
   Contacts<Dim> contacts;
   Vec<Dim> open = Vec<Dim>::Zero();  // a place in front of the walls, none of which is nearer than `clear` [m]
   double clear = 0.0;
@@ -123,7 +134,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
     const bool is_square = std::abs(std::abs(near.signed_distance) - std::abs(height)) < corner_tolerance * dx;
     if (near.signed_distance >= 0.0) {
       contact.in_front += is_square ? 1 : 0;
-      contact.too_near += near.signed_distance < least ? 1 : 0;
+      contact.too_near += near.signed_distance < least_in(field, least, x) ? 1 : 0;
       if (near.signed_distance < contact.nearest) {
         contact.nearest = near.signed_distance;
         contact.nearest_at = x;
@@ -151,7 +162,8 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
   if (boundary.faces.empty()) return {};
   const double dx = spec.particles.spacing;
   const auto [regular, least, gap_from, gap_to] = standing(spec);
-  const Contacts<Dim> contacts = contacts_of(boundary, fluid, least, gap_to, dx);
+  const SpacingField<Dim> field(spec, boundary);
+  const Contacts<Dim> contacts = contacts_of(boundary, fluid, field, least, gap_to, dx);
   std::vector<std::size_t> in_front(boundary.walls.size(), 0);
   for (const auto& [key, contact] : contacts.by_wall) in_front[key.first] += contact.in_front;
 
@@ -173,10 +185,11 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
                                         {"give the wall the other fluid_side, or move the block"}));
     }
     if (contact.too_near > 0) {
-      findings.push_back(Finding::error(
-          {"{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} at {}", block, wall,
-           contact.too_near, least, Amount{contact.nearest, "m"}, place(contact.nearest_at)},
-          {"put the block's edge on the wall or a whole number of spacings ({:.6g} m) from it", dx}));
+      findings.push_back(
+          Finding::error({"{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} at {}",
+                          block, wall, contact.too_near, least_in(field, least, contact.nearest_at),
+                          Amount{contact.nearest, "m"}, place(contact.nearest_at)},
+                         {"put the block's edge on the wall or a whole number of spacings ({:.6g} m) from it", dx}));
     }
   }
   std::set<std::pair<int, int>> reported;  // wall and block

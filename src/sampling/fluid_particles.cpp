@@ -202,8 +202,10 @@ class BlockWater {
           return;
         }
         std::int64_t parts = 0;
+        // A cell that a wall cuts is divided off the wall, so that its parts do not crowd in front of it.
+        const Vec<Dim> middle = kept_off_walls(spec_, boundary_, block_, spec_.particles.spacing, at(cell));
         divide_cell<Dim>(
-            field_, spec_.particles.spacing, at(cell), edges, [&](const Vec<Dim>& centre, const Vec<Dim>& part) {
+            field_, spec_.particles.spacing, middle, edges, [&](const Vec<Dim>& centre, const Vec<Dim>& part) {
               const std::int64_t id_of_part = first_id_of_parts + (first + n) * ids_per_cell(field_) + parts;
               put_part(centre, part, parts++ == 0 ? first + n : id_of_part);
             });

@@ -823,6 +823,28 @@ TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
   expect_among(check(spec), Severity::error, {"refinement 'zone' lies around wall 'gate', which moves: zones rest"});
 }
 
+// Particles in cells that the slope cuts keep off it by a quarter of the local spacing.
+TEST(Check, ASlopeInAZoneOfRefinementIsNotTooNear) {
+  CaseSpec spec = empty_case(0.03, 2);
+  FluidTable water;
+  water.shape = BlockShape::fill;
+  water.seed = {0.1, 0.1};
+  water.level = 0.3;
+  spec.fluid = {water};
+  WallTable bed;
+  bed.points = {{0.0, 0.6}, {0.0, 0.0}, {0.6, 0.0}, {2.4, 0.45}};
+  bed.fluid_side = FluidSide::left;
+  spec.walls = {bed};
+  RefinementTable zone;
+  zone.min = {0.9, -9.0};
+  zone.max = {9.0, 9.0};
+  for (const int level : {1, 2}) {
+    zone.level = level;
+    spec.refinement = {zone};
+    EXPECT_EQ(listed(check(spec)).find("too near"), std::string::npos) << listed(check(spec));
+  }
+}
+
 // A yield stress of 20 Pa, a depth of 1 m or less and 100 Pa s make a creep of at most 0.1 m/s.
 TEST(Check, ALiquidThatCreepsFarIsReported) {
   CaseSpec spec = tank();
