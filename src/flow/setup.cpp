@@ -63,8 +63,9 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   walls.share_of_water.assign(walls.particles.size(), 0.0);
   if (has_force_probe(spec)) {
     const double radius = traits_of(spec).support * spec.particles.spacing;
-    for_each(walls.particles.size(),
-             [&](std::size_t row) { walls.share_of_water[row] = share_of_water(walls, row, radius); });
+    for_each(walls.particles.size(), [&](std::size_t row) {
+      walls.share_of_water[row] = share_of_water(walls, row, radius * field.at(walls.particles.position[row]));
+    });
   }
   walls.curvature = find_curvature(walls, spec.particles.spacing, reach);
   walls.is_curved = ranks.any(std::ranges::any_of(walls.curvature, [](const Mat<Dim>& S) { return !S.isZero(0.0); }));

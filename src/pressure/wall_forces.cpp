@@ -15,8 +15,8 @@ std::vector<double> shares_of_water(const Flow<Dim>& flow) {
   for_each(particles.size(), [&](std::size_t i) {
     if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) return;
     const auto row = static_cast<std::size_t>(particles.wall_row[i]);
-    share[i] = rests ? flow.walls.share_of_water[row]
-                     : share_of_water(flow.walls, row, kernel_radius(flow.setup.scale.kernel));
+    const double radius = kernel_radius(flow.setup.scale.kernel) * flow.setup.relative_spacing(particles.position[i]);
+    share[i] = rests ? flow.walls.share_of_water[row] : share_of_water(flow.walls, row, radius);
   });
   return share;
 }

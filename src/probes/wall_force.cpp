@@ -18,6 +18,7 @@
 #include "probes/force_shares.h"
 #include "probes/places.h"
 #include "probes/wall_pressure.h"
+#include "refinement/spacing_field.h"
 #include "sampling/wall_particles.h"
 
 namespace tailwater {
@@ -32,16 +33,29 @@ constexpr double patch_margin = 1.0;
 /// dx; a patch that is so near to a wall that faces it is covered: water has no access to it.
 constexpr double reach_of_cover = 0.05;
 
+/// m; the largest spacing at the walls of a probe.
+template <int Dim>
+double spacing_at_walls(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const double dx = spec.particles.spacing;
+  const SpacingField<Dim> field(spec, boundary);
+  if (field.is_uniform()) return dx;
+  const std::vector<WallPatch<Dim>> patches = make_wall_patches(boundary, longest_patch_edge * dx);
+  const std::vector<double> chosen = chosen_shares<Dim>(probe, spec, boundary, patches);
+  return dx * largest_over(patches.size(), field.finest(), [&](std::size_t k) {
+           return chosen[k] > 0.0 ? field.at(patches[k].centre(boundary)) : 0.0;
+         });
+}
+
 template <int Dim>
 class WallForceProbe {
  public:
   WallForceProbe(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
-      : patches_(make_wall_patches(boundary, longest_patch_edge * spec.particles.spacing)),
+      : spacing_(spacing_at_walls(probe, spec, boundary)),
+        patches_(make_wall_patches(boundary, longest_patch_edge * spacing_)),
         chosen_(chosen_shares<Dim>(probe, spec, boundary, patches_)),
         takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
         about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
                                           : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
-        spacing_(spec.particles.spacing),
         reach_((1.5 * dummy_layers(spec) + patch_margin) * spacing_),
         paths_(boundary.walls.size()),
         body_of_(boundary.walls.size(), -1) {
@@ -293,11 +307,11 @@ class WallForceProbe {
     });
   }
 
+  double spacing_;  ///< m; dx at the chosen walls
   std::vector<WallPatch<Dim>> patches_;
   std::vector<double> chosen_;  ///< selected fraction of each patch
   bool takes_all_;
   Vec<Dim> about_;
-  double spacing_;                                   ///< m; dx
   double reach_;                                     ///< m; R
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
