@@ -5,15 +5,14 @@
 #include "checks/checks.h"
 #include "checks/swept_box.h"
 #include "geometry/from_spec.h"
-#include "geometry/mesh_surface.h"
 #include "geometry/opening.h"
 #include "refinement/zone_depth.h"
 
 namespace tailwater {
 namespace {
 
-/// dx; from a zone to meshes, and to open ends, walls that move and bodies outside of the zone. Those have the spacing
-/// of the case, and so has all water in their supports.
+/// dx; from a zone to open ends, walls that move and bodies outside of it. Those have the spacing of the case, and so
+/// has all water in their supports.
 constexpr double clearance = 8.0;
 
 Finding refused(const CaseLabel& owner, const std::string& what, Clause remedy) {
@@ -154,7 +153,7 @@ bool is_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zon
   return finest.widen(-margin_inside<Dim>(spec, zone)).contains(box);
 }
 
-/// Walls that move, meshes and open ends beside a zone.
+/// Walls that move and open ends beside a zone.
 template <int Dim>
 Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
                           const typename SpacingField<Dim>::Zone& zone, const CaseLabel& owner) {
@@ -180,14 +179,6 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
                  "reach at least {:.4g} m beyond that path",
                  clearance * spec.particles.spacing, wall_label(boundary, wall), place(swept.min()), place(swept.max()),
                  margin_inside<Dim>(spec, zone)}));
-  }
-  if constexpr (Dim == 3) {
-    for (const WallMesh& mesh : boundary.meshes) {
-      const Box<3> box(mesh.surface->low(), mesh.surface->high());
-      if (!is_near<Dim>(spec, zone, box)) continue;
-      findings.push_back(
-          refused(owner, "meshes" + within, {"end the zone farther from {}", wall_label(boundary, mesh.wall)}));
-    }
   }
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
     const Box<Dim> box = box_around(end.as_faces());

@@ -47,7 +47,8 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
       .edge = cube_over_spacing * spec.particles.spacing, .share = ranks.rank(), .shares = ranks.size()};
   walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share, lattice);
   if (!field.is_uniform())
-    divide_wall_particles(field, walls.boundary, spec.particles.spacing, dummy_layers(spec), walls.particles);
+    divide_wall_particles<Dim>(field, walls.boundary, spec.particles.spacing, dummy_layers(spec), share, lattice,
+                               walls.particles);
   const double reach = 2.0 * dummy_layers(spec) * spec.particles.spacing;
   for (std::vector<double>* of_rows : {&walls.friction, &walls.roughness, &walls.depth}) {
     of_rows->reserve(walls.particles.size());

@@ -41,6 +41,14 @@ LatticeAxis::LatticeAxis(std::vector<double> planes, double spacing) {
   }
 }
 
+LatticeAxis LatticeAxis::divided(int parts) const {
+  LatticeAxis finer = *this;
+  for (Piece& piece : finer.pieces_) {
+    piece = {piece.begin, piece.width / parts, piece.first * parts, piece.count * parts};
+  }
+  return finer;
+}
+
 const LatticeAxis::Piece& LatticeAxis::piece_of(int cell) const {
   const auto after = std::ranges::upper_bound(pieces_, cell, {}, &Piece::first);
   return after == pieces_.begin() ? pieces_.front() : *(after - 1);

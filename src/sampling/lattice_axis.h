@@ -17,6 +17,9 @@ class LatticeAxis {
   /// plane nearer than spacing/2 to the one before is left out, but not the last one.
   LatticeAxis(std::vector<double> planes, double spacing);
 
+  /// The axis whose cells are each of these in `parts` parts.
+  LatticeAxis divided(int parts) const;
+
   /// Cells between the first plane and the last: 0, ..., count() - 1. Cells outside have the width of the outermost
   /// ones.
   int count() const { return pieces_.back().first + pieces_.back().count; }

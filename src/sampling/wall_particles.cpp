@@ -46,6 +46,27 @@ void append(WallParticles<Dim>& all, WallParticles<Dim> part, std::int64_t on_wa
       [&](auto&... into) { part.apply_to_fields([&](const auto&... entries) { (put(into, entries), ...); }); });
 }
 
+/// The particles of several parts, with numbers one after the other.
+template <int Dim>
+WallParticles<Dim> joined(std::vector<WallParticles<Dim>> parts) {
+  WallParticles<Dim> all;
+  for (const WallParticles<Dim>& part : parts) {
+    all.numbers += part.numbers;
+    all.numbers_on_wall += part.numbers_on_wall;
+  }
+  std::int64_t on_wall = 0;
+  std::int64_t behind = 0;
+  for (WallParticles<Dim>& part : parts) {
+    const std::int64_t more_on_wall = part.numbers_on_wall;
+    const std::int64_t more_behind = part.numbers - part.numbers_on_wall;
+    append(all, std::move(part), on_wall, behind);
+    on_wall += more_on_wall;
+    behind += more_behind;
+  }
+  all.apply_to_fields([](auto&... field) { (field.shrink_to_fit(), ...); });
+  return all;
+}
+
 /// A body with its own faces only, without plates.
 template <int Dim>
 Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
@@ -82,36 +103,18 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
       for (WallParticles<2>& beyond : sample_beyond_ends(boundary, layers)) parts.push_back(std::move(beyond));
     }
   }
-  WallParticles<Dim> all;
-  for (const WallParticles<Dim>& part : parts) {
-    all.numbers += part.numbers;
-    all.numbers_on_wall += part.numbers_on_wall;
-  }
-  std::int64_t on_wall = 0;
-  std::int64_t behind = 0;
-  for (WallParticles<Dim>& part : parts) {
-    const std::int64_t more_on_wall = part.numbers_on_wall;
-    const std::int64_t more_behind = part.numbers - part.numbers_on_wall;
-    append(all, std::move(part), on_wall, behind);
-    on_wall += more_on_wall;
-    behind += more_behind;
-  }
-  all.apply_to_fields([](auto&... field) { (field.shrink_to_fit(), ...); });
-  return all;
+  return joined(std::move(parts));
 }
 
 /// Appends a part of the particle `row` of `whole`.
 template <int Dim>
 void append_part(WallParticles<Dim>& parts, const WallParticles<Dim>& whole, std::size_t row, const Vec<Dim>& position,
                  double share, std::int64_t number) {
-  parts.position.push_back(position);
-  parts.normal.push_back(whole.normal[row]);
-  parts.blocked.push_back(whole.blocked[row]);
-  parts.beyond_edges.push_back(whole.beyond_edges[row]);
-  parts.share.push_back(share);
-  parts.wall.push_back(whole.wall[row]);
-  parts.is_beyond_end.push_back(whole.is_beyond_end[row]);
-  parts.number.push_back(number);
+  parts.apply_to_fields(
+      [&](auto&... into) { whole.apply_to_fields([&](const auto&... from) { (into.push_back(from[row]), ...); }); });
+  parts.position.back() = position;
+  parts.share.back() = share;
+  parts.number.back() = number;
 }
 
 /// The screen of a plate nearer to `x` than `distance`, drawn on behind the wall of `x`; null if there is none.
@@ -169,6 +172,78 @@ Mat<Dim> axes_at_wall(const Boundary<Dim>& boundary, const NearestWall<Dim>& wal
   return axes;
 }
 
+/// Whether the particles of each wall stand on the lattice of the water: those of meshes.
+template <int Dim>
+std::vector<bool> walls_on_lattice(const Boundary<Dim>& boundary) {
+  std::vector<bool> on_lattice(boundary.walls.size(), false);
+  for (const WallMesh& mesh : boundary.meshes) on_lattice[mesh.wall] = true;
+  for (const WallPlate& plate : boundary.plates) {
+    if (plate.sheet) on_lattice[plate.wall] = true;
+  }
+  return on_lattice;
+}
+
+/// The particles of these walls alone.
+template <int Dim>
+WallParticles<Dim> sample_on_lattice(const Boundary<Dim>& boundary, const WallLayers& layers,
+                                     const Lattice<Dim>& lattice) {
+  std::vector<WallParticles<Dim>> parts;
+  if constexpr (Dim == 3) {
+    std::set<int> bodies;
+    for (const WallMesh& mesh : boundary.meshes) bodies.insert(boundary.walls[mesh.wall].body);
+    for (const int body : bodies) {
+      const Boundary<3> alone = body_alone(boundary, body);
+      const WallLayers of_body = layers.of_wall(body != resting_body);
+      WallParticleCollector<3> collector(alone, of_body);
+      sample_meshes(alone, of_body, lattice, collector);
+      parts.push_back(std::move(collector).particles());
+    }
+    Boundary<3> sheets = boundary;
+    std::erase_if(sheets.plates, [](const WallPlate& plate) { return plate.sheet == nullptr; });
+    for (WallParticles<3>& side : sample_plates<3>(sheets, layers, lattice)) parts.push_back(std::move(side));
+  }
+  return joined(std::move(parts));
+}
+
+/// How often the edges of a wall particle are halved whose wall is nearest here.
+template <int Dim>
+int level_at(const SpacingField<Dim>& field, const NearestWall<Dim>& wall, const Vec<Dim>& x) {
+  return static_cast<int>(std::lround(-std::log2(field.at(wall.face < 0 ? x : wall.point))));
+}
+
+/// The levels of cells of a lattice.
+template <int Dim>
+struct LevelsOfCells {
+  const SpacingField<Dim>& field;
+  const Boundary<Dim>& boundary;
+  double spacing;
+  const Lattice<Dim>& lattice;
+
+  /// That of the cell that holds x.
+  int at(const Vec<Dim>& x) const {
+    const auto centre =
+        Vec<Dim>::NullaryExpr([&](int axis) { return lattice[axis].centre(lattice[axis].cell_at(x[axis])); });
+    return level_at(field, boundary.nearest(centre, reach_to_wall * spacing), centre);
+  }
+};
+
+/// Appends particles of a level on the finer lattice in the cells of that level.
+template <int Dim>
+void append_level(const LevelsOfCells<Dim>& levels, int level, const WallLayers& layers, WallParticles<Dim>& all) {
+  const int per_edge = 1 << level;
+  Lattice<Dim> finer = levels.lattice;
+  for (LatticeAxis& axis : finer) axis = axis.divided(per_edge);
+  // One more layer: up to half a level before the next one, supports are larger.
+  const WallParticles<Dim> fine = sample_on_lattice<Dim>(
+      levels.boundary, {layers.spacing / per_edge, layers.count + 1, false, layers.share}, finer);
+  for (std::size_t row = 0; row < fine.size(); ++row) {
+    if (levels.at(fine.position[row]) != level) continue;
+    append_part(all, fine, row, fine.position[row], fine.share[row] / power<Dim>(per_edge),
+                fine.number[row] + all.numbers);
+  }
+  all.numbers += fine.numbers;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -194,15 +269,19 @@ WallParticles<Dim> make_row_and_dummy_particles(const Boundary<Dim>& boundary, d
 
 template <int Dim>
 void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, int layers,
-                           WallParticles<Dim>& particles) {
+                           const SpaceShare& share, const Lattice<Dim>& lattice, WallParticles<Dim>& particles) {
   const std::int64_t parts_of_row = std::llround(power<Dim>(1.0 / field.finest()));
+  const std::vector<bool> on_lattice = walls_on_lattice(boundary);
+  const LevelsOfCells<Dim> levels{field, boundary, spacing, lattice};
   WallParticles<Dim> divided;
   divided.numbers = particles.numbers * parts_of_row;
   divided.numbers_on_wall = particles.numbers_on_wall * parts_of_row;
   for (std::size_t row = 0; row < particles.size(); ++row) {
     const Vec<Dim>& x = particles.position[row];
+    const bool is_on_lattice = on_lattice[particles.wall[row]];
+    if (is_on_lattice && levels.at(x) > 0) continue;  // sampled below
     const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
-    const int per_edge = 1 << std::lround(-std::log2(field.at(wall.face < 0 ? x : wall.point)));
+    const int per_edge = is_on_lattice ? 1 : 1 << level_at(field, wall, x);
     const Mat<Dim> axes = axes_at_wall(boundary, wall);
     const double edge = spacing / per_edge;
     // Where the spacing is the same all around, no water reaches parts behind the layers of this spacing.
@@ -217,6 +296,12 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
       if (may_leave_out && boundary.nearest(place, layers * edge).face < 0) continue;
       append_part(divided, particles, row, place, particles.share[row] / power<Dim>(per_edge),
                   particles.number[row] * parts_of_row + part);
+    }
+  }
+  if (std::ranges::find(on_lattice, true) != on_lattice.end()) {
+    const WallLayers of_case{spacing, layers, false, share};
+    for (int level = 1; level <= std::lround(-std::log2(field.finest())); ++level) {
+      append_level(levels, level, of_case, divided);
     }
   }
   particles = std::move(divided);

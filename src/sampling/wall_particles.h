@@ -42,6 +42,10 @@ struct WallParticles {
   void apply_to_fields(Body&& body) {
     body(position, normal, blocked, beyond_edges, share, wall, is_beyond_end, number);
   }
+  template <class Body>
+  void apply_to_fields(Body&& body) const {
+    body(position, normal, blocked, beyond_edges, share, wall, is_beyond_end, number);
+  }
 };
 
 /// `layers` rows of dummy particles behind each wall, the first at dx/2. Rows follow the wall's shape and join at
@@ -58,12 +62,13 @@ template <int Dim>
 WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double spacing, int layers,
                                         const SpaceShare& share = {}, const Lattice<Dim>& lattice = {});
 
-/// Divides the particles behind walls in zones of refinement, each into 2^Dim along and across its wall, until
-/// their volumes are nearest to that of the local spacing at the wall. Away from borders only `layers` rows of them
-/// remain. On flat walls the rows are the same as those of that spacing.
+/// Divides the particles of make_dummy_particles in zones of refinement, each into 2^Dim along and across its wall,
+/// until their volumes are nearest to that of the local spacing at the wall. Away from borders only `layers` rows of
+/// them remain. On flat walls the rows are the same as those of that spacing. Meshes are sampled again on finer
+/// lattices, whose cells divide those of the case.
 template <int Dim>
 void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, int layers,
-                           WallParticles<Dim>& particles);
+                           const SpaceShare& share, const Lattice<Dim>& lattice, WallParticles<Dim>& particles);
 
 /// One row of particles on the wall itself (F36-F39), dx apart, including its ends and all corners that turn by more
 /// than 30 degrees.

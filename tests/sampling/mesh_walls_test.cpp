@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <set>
 
 #include "geometry/boundary.h"
 #include "geometry/meshes.h"
@@ -77,6 +78,34 @@ TEST(MeshWall, HasTheSameParticlesInShares) {
     }
   }
   EXPECT_EQ(made, all.size());
+}
+
+TEST(MeshWall, HasTheParticlesOfTheFinerSpacingInAZone) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.fluid = {box_fluid({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0})};
+  spec.walls = {folder.wall(sphere_mesh({0.03, 0.02, 0.01}, 0.55, 16), FluidSide::outside)};
+  RefinementTable zone;
+  zone.min = {-9.0, -9.0, -9.0};
+  zone.max = {9.0, 9.0, 9.0};
+  spec.refinement = {zone};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  WallParticles<3> divided = walls_of(spec);
+  divide_wall_particles<3>(SpacingField<3>(spec, boundary), boundary, 0.1, 3, {}, lattice_behind_meshes(spec, boundary),
+                           divided);
+  PointGrid<3> places(1e-6);
+  for (const Vec<3>& x : divided.position) places.add(x);
+  spec.particles.spacing = 0.05;
+  const WallParticles<3> fine = walls_of(spec);
+  EXPECT_GT(fine.size(), 1000);
+  for (std::size_t row = 0; row < fine.size(); ++row) {
+    int same = -1;
+    places.visit_near(fine.position[row], [&](int k) { same = k; });
+    ASSERT_GE(same, 0) << fine.position[row].transpose();
+    EXPECT_NEAR(divided.share[same], fine.share[row] / 8.0, 1e-9);
+    EXPECT_LT((divided.normal[same] - fine.normal[row]).norm(), 1e-9);
+  }
+  EXPECT_EQ(std::set<std::int64_t>(divided.number.begin(), divided.number.end()).size(), divided.size());
 }
 
 TEST(MeshWall, FillsTheSpaceBehindIt) {
