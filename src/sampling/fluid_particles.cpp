@@ -343,8 +343,7 @@ Box<Dim> FluidParticles<Dim>::box() const {
 
 template <int Dim>
 double FluidParticles<Dim>::extent_along(const Vec<Dim>& direction) const {
-  std::array<double, 2> least;
-  least.fill(std::numeric_limits<double>::max());
+  std::array least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   for (const Vec<Dim>& x : position) {
     const double height = direction.dot(x);
     least[0] = std::min(least[0], height);
