@@ -87,6 +87,7 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   const Reading reading = read_gauge(end, flow);
   const double area = reading.volume / end.gauge;
   WaterInside water{.depth = end.depth_of_area(area)};
+  state.surface = water.depth;
   const double breadth = std::max(end.breadth_at(water.depth), end.spacing);
   const bool was_wet = state.is_wet;
   state.is_wet = area > least_depth_over_spacing * end.spacing * breadth;

@@ -18,8 +18,8 @@ constexpr double most_missing = 0.02;
 constexpr double columns_that_wait = 3.0;
 
 /// The warning of an inlet through which the net volume that came in is less than prescribed by `missing` [m^3], which
-/// may be below 0.
-std::string discharge_warning(const std::string& label, double time, double missing, double asked) {
+/// may be below 0. `circulates` is whether its water comes from an outlet.
+std::string discharge_warning(const std::string& label, double time, double missing, double asked, bool circulates) {
   std::string_view problem = "draws less water than";
   std::string_view remedy = "let it draw less, or make the opening or the water in front of it deeper";
   if (missing * asked < 0.0) {
@@ -27,7 +27,8 @@ std::string discharge_warning(const std::string& label, double time, double miss
     remedy = "let it pass less, or use a smaller spacing";
   } else if (missing > 0.0) {
     problem = "brings less water than";
-    remedy = "make the opening larger, or use a smaller spacing";
+    remedy = circulates ? "give a larger reserve, or let it bring less"
+                        : "make the opening larger, or use a smaller spacing";
   }
   return fmt::format(
       "{} {} prescribed: at t = {:.4g} s the volume is off by {:.3g} of {:.3g} m^3 (water_balance in summary.json has "
@@ -59,8 +60,8 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
     const double missing = state.asked - (state.arrived.volume - state.departed.volume);
     const double columns = columns_that_wait * end.spacing * end.area_below(state.depth);
     const bool falls_short = std::abs(missing) > most_missing * state.asked_total + columns;
-    if (end.flow.feeds() && end.circuit < 0 && falls_short && is_first(label + ": discharge")) {
-      tailwater::warn("{}", discharge_warning(label, flow.state.time, missing, state.asked));
+    if (end.flow.feeds() && falls_short && is_first(label + ": discharge")) {
+      tailwater::warn("{}", discharge_warning(label, flow.state.time, missing, state.asked, end.circuit >= 0));
     }
   }
 }

@@ -8,6 +8,7 @@ namespace tailwater {
 namespace {
 
 constexpr double gauge_over_spacing = 2.0;
+constexpr double height_of_spray = 2.0;  // dx; water in a buffer that is so high above the surface falls
 
 }  // namespace
 
@@ -77,7 +78,17 @@ Vec<Dim> OpenEnd<Dim>::velocity_at(const OpenEndState& state, const Vec<Dim>& x)
   if (this->flow.feeds()) return inflow_at(state, x);
   const double above_bottom = height_in(column_at(x), x);
   return (fibre_speed_at(state, x) - state.stretching * behind_border(x)) * this->opening.normal +
-         state.stretching * above_bottom * this->rise;
+         (state.stretching * above_bottom - fall_speed_at(state, x)) * this->rise;
+}
+
+/// Water high above the surface falls. Otherwise the stretching would lift it without end where it stands still, as
+/// beside the banks of a river that leaves in its middle.
+template <int Dim>
+double OpenEnd<Dim>::fall_speed_at(const OpenEndState& state, const Vec<Dim>& x) const {
+  if (state.is_full || this->gravity <= 0.0) return 0.0;
+  const double surface = std::max(state.surface, state.depth) + height_of_spray * spacing;
+  const double above = (this->up.dot(x) - this->floor - surface) / spacing;
+  return std::clamp(above, 0.0, 1.0) * std::sqrt(this->gravity * spacing);
 }
 
 /// The water may become deeper or shallower. Then it is stretched along `rise` and compressed along the channel by

@@ -47,6 +47,7 @@ struct OpenEndState {
   double mean_speed = 0.0;      ///< m/s; `speed`, its long waves only
   double mean_discharge = 0.0;  ///< m^Dim/s; out, likewise
   double invariant = 0.0;       ///< m/s; u - 2 sqrt(g h), which comes from beyond where the channel goes on
+  double surface = 0.0;         ///< m; of the water there above the floor; found anew in each step
   // The buffer.
   double depth = 0.0;                ///< m; of its water above the floor
   double level = 0.0;                ///< m; beyond, where one is prescribed: with what lets waves out
@@ -104,6 +105,7 @@ struct OpenEnd : ChannelEnd<Dim> {
  private:
   Vec<Dim> inflow_at(const OpenEndState& state, const Vec<Dim>& x) const;
   double fibre_speed_at(const OpenEndState& state, const Vec<Dim>& x) const;
+  double fall_speed_at(const OpenEndState& state, const Vec<Dim>& x) const;
 };
 
 }  // namespace tailwater

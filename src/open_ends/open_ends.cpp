@@ -19,8 +19,8 @@ namespace tailwater {
 TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
 TAILWATER_SAVED(inline, LeavingWave, height, number, swing, swing_rate)
 TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, delayed_speed, acceleration, mean_speed, mean_discharge,
-                invariant, depth, level, is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows, wave, miss,
-                asked, asked_total, departed, arrived, departed_mass, arrived_mass, short_steps)
+                invariant, surface, depth, level, is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows,
+                wave, miss, asked, asked_total, departed, arrived, departed_mass, arrived_mass, short_steps)
 
 namespace {
 

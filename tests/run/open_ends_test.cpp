@@ -48,11 +48,12 @@ TEST(OpenEndsWarning, ReportsAtTheEndWhetherALevelIsHeldAgain) {
 }
 
 /// The warnings of a run in which an inlet has passed a net volume `passed` [m^3], compared with the prescribed volume.
-std::string warning_of_discharge(double asked, double passed) {
-  const CaseSpec spec = read_case_text(
-      "particles.spacing = 0.1\ntime.end = 1\n[[wall]]\npoints = [[0, 0], [2, 0], [2, 1]]\n[[fluid]]\nmin = [0, 0]\n"
-      "max = [2, 0.5]\n[[inlet]]\nname = \"in\"\nfrom = [0, 0]\nto = [0, 1]\ndischarge = 0.1\n",
-      "case.toml");
+std::string warning_of_discharge(double asked, double passed, bool circulates = false) {
+  const std::string tank =
+      "particles.spacing = 0.1\ntime.end = 1\n[[wall]]\npoints = [[0, 0], [2, 0]]\n[[fluid]]\nmin = [0, 0]\n"
+      "max = [2, 0.5]\n[[outlet]]\nname = \"out\"\nfrom = [2, 0]\nto = [2, 1]\n[[inlet]]\nname = \"in\"\n"
+      "from = [0, 0]\nto = [0, 1]\ndischarge = 0.1\n";
+  const CaseSpec spec = read_case_text(tank + (circulates ? "water_from = \"out\"\n" : ""), "case.toml");
   Flow<2> flow = make_flow<2>(spec);
   auto& ends = flow.part<OpenEnds<2>>();
   Json saved = ends.save();
@@ -71,6 +72,7 @@ TEST(OpenEndsWarning, ReportsADischargeThatIsNotDelivered) {
   EXPECT_NE(warning_of_discharge(-1.0, -0.8).find("inlet 'in' draws less water than prescribed"), std::string::npos);
   EXPECT_NE(warning_of_discharge(1.0, 1.2).find("inlet 'in' passes more water than prescribed"), std::string::npos);
   EXPECT_NE(warning_of_discharge(-1.0, -1.2).find("inlet 'in' passes more water than prescribed"), std::string::npos);
+  EXPECT_NE(warning_of_discharge(1.0, 0.8, true).find("remedy: give a larger reserve"), std::string::npos);
 }
 
 /// An opening with the section of a valley: columns 0.05 m wide with their bottoms on two slopes of 1.
@@ -107,6 +109,7 @@ TEST(SectionOfAnOpening, FibresOfOneSpeedMoveTheBufferAsOne) {
   OpenEndState state;
   state.fibre_speeds.assign(end.first_fibre.back(), 0.3);
   state.stretching = 0.1;
+  state.depth = 0.5;
   const double behind_border = 0.5 * end.stretch;
   for (const double y : {0.02, 0.31, 0.5, 0.98}) {
     const Vec<3> x(end.opening.corner[0] + 0.5 * end.stretch, y, 0.49);
@@ -115,6 +118,22 @@ TEST(SectionOfAnOpening, FibresOfOneSpeedMoveTheBufferAsOne) {
     EXPECT_NEAR(u[2], 0.1 * (0.49 - end.columns[end.column_at(x)].bottom), 1e-12);
     EXPECT_EQ(u[1], 0.0);
   }
+}
+
+/// Water in the buffer that is more than two spacings above the surface falls, also where all water becomes deeper.
+TEST(SectionOfAnOpening, WaterHighAboveTheSurfaceFalls) {
+  OpenEnd<3> end = valley();
+  end.flow.discharge.reset();
+  OpenEndState state;
+  state.fibre_speeds.assign(end.first_fibre.back(), 0.0);
+  state.stretching = 0.4;
+  state.depth = 0.3;
+  state.surface = 0.32;
+  const auto rise = [&](double z) { return end.velocity_at(state, {end.opening.corner[0], 0.4, z})[2]; };
+  EXPECT_GT(rise(0.42), 0.0) << "spray";
+  EXPECT_LT(rise(0.48), 0.0);
+  state.is_full = true;  // a conduit has no surface
+  EXPECT_GT(rise(0.48), 0.0);
 }
 
 /// Bernoulli's law from the water at rest, and the characteristic that leaves the case.
