@@ -14,7 +14,7 @@ import numpy as np
 
 from tailwater.errors import DataError
 
-from .flume import steady_discharge, steady_mean
+from .flume import solve, steady_discharge, steady_mean
 from .open_basin import WALL, WINDOW, Discharge, Level, basin
 
 LATE = 0.02  # of the period
@@ -132,5 +132,42 @@ def sudden_head(run):
             "depth_error": steady_mean(run, "depth", "connected_m") / (scale * float(depths[0, 0])) - 1, **density(run)}
 
 
+def river_section(x, length):
+    """(height of the bed, width of the bottom) of cases/openings/river_bed.obj, m; its banks rise by 45 degrees."""
+    s = math.sin(math.pi * x / length) ** 2
+    return 0.1 * s, 0.4 - 0.1 * s
+
+
+def backwater_level(x, length, discharge, head, gravity):
+    """Level (m) of subcritical flow without friction that has a total head (m) above z = 0."""
+    bed, bottom = river_section(x, length)
+
+    def head_at(depth):
+        return bed + depth + (discharge / (depth * (bottom + depth))) ** 2 / (2 * gravity)
+
+    depths = np.linspace(0.02, 1.0, 2000)
+    critical = float(depths[np.argmin(head_at(depths))])
+    return bed + solve(lambda depth: head_at(depth) - head, critical, 1.0)
+
+
+def river(run):
+    """level_error_dx: largest error of the mean level at three gauges against the curve on which the head is the same; that
+    downstream is of the level of the rating curve. missing: the fraction of the discharge that has not come in."""
+    p, g = run.parameters, run.gravity
+    level = 0.25 + p["Q"]
+    bed, bottom = river_section(p["L"], p["L"])
+    depth = level - bed
+    head = level + (p["Q"] / (depth * (bottom + depth))) ** 2 / (2 * g)
+    errors = []
+    for probe in run.case["probe"][:3]:
+        x = probe["at"][0]
+        found = river_section(x, p["L"])[0] + steady_mean(run, probe["name"], "connected_m")
+        errors.append(abs(found - backwater_level(x, p["L"], p["Q"], head, g)) / run.spacing)
+    balance = run.summary["water_balance"]
+    inlet = balance["inlets"][0]
+    return {"level_error_dx": max(errors), "missing": 1 - inlet["volume_m3"] / inlet["asked_for_m3"],
+            "outside": balance["outside"]["particles"], **density(run)}
+
+
 FLOWS = {**{name: partial(compared_with, theory_of) for name, theory_of in THEORIES.items()},
-         "reservoir": reservoir, "sudden-head": sudden_head}
+         "reservoir": reservoir, "sudden-head": sudden_head, "river": river}

@@ -21,6 +21,9 @@ FLOWS = {
     "sudden_head": ("a head stands at once beside shallow still water", 3.0,
                     (("discharge_error", "discharge behind the bore, relative error", "", 0.03),
                      ("depth_error", "depth behind the bore, relative error", "", 0.03))),
+    "river": ("a river on a surveyed bed in 3D, with a rating curve", 60.0,
+              (("level_error_dx", "mean levels over a riffle, largest error against the backwater curve", "dx", 1.0),
+               ("outside", "particles that leave beside the openings", "", 0.0))),
 }
 
 
@@ -38,7 +41,7 @@ def openings(plan):
                for name, (words, _, _) in FLOWS.items()]
     return Study(
         "openings", "Open ends whose levels and discharges change", EXACT,
-        "Seven basins and channels without friction, 6 to 20 particles deep, whose ends hold a level, bring a discharge or take it.",
+        "Seven basins and channels and a river in 3D without friction, 4 to 20 particles deep, whose ends hold a level, bring a discharge or take it.",
         "Shallow water has no vertical acceleration and sharp bores; both are compared as means over two times sqrt(H/g).",
         tuple(checks), tuple(Plot(words + ".", (runs[name],), draw) for name, (words, _, _) in FLOWS.items()),
         shown=runs["draining_tank"], moments=(2.0, 6.0), has_histories=False)  # the reservoir starts dry
