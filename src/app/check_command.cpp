@@ -124,7 +124,7 @@ void print_sections(const CaseSpec& spec) {
 }
 
 /// Cost of a particle and step over that without zones (docs/theory/refinement.md).
-constexpr double cost_in_zones = 1.6;
+constexpr double cost_in_zones = 1.3;
 
 /// Prints the effects of refinement zones on the case.
 template <int Dim>
