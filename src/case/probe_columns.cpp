@@ -33,6 +33,7 @@ constexpr std::array units_by_measure{
     Units{"rad/s", "rad/s", "_rad_per_s", "_rad_per_s"},
     Units{"Pa s", "Pa s", "_Pa_s", "_Pa_s"},
     Units{"W", "W/m", "_W", "_W_per_m"},
+    Units{"1/s", "1/s", "_per_s", "_per_s"},
 };
 
 std::vector<std::string> names_of(const DeclaredColumn& column, int dimension) {

@@ -126,7 +126,7 @@ const std::vector<ProbeInfo> of_flow{
      "Velocity at a point in the water",
      {{"", speed, "velocity; 0 in air", by_default, velocity},
       {"wet", number, "1 under water, else 0"},
-      {"shear_rate_per_s", number, "shear rate (1/s), if the probe has a `liquid`", none, one, liquid},
+      {"shear_rate", shear_rate, "shear rate, if the probe has a `liquid`", none, one, liquid},
       {"viscosity", impulse, "viscosity of that liquid at this shear rate", none, one, liquid},
       {"shear_stress", pressure, "product of the two", possible, one, liquid}},
      {{"u", "u", "u", mean}, {"v", "v", "v", mean}, {"w", "w", "w", mean}}},

@@ -23,6 +23,7 @@ enum class Measure {
   angular_speed,
   impulse,
   power,
+  shear_rate,
 };
 
 struct SeriesColumn {
