@@ -18,7 +18,7 @@ constexpr double flush_cosine = 0.9999;
 constexpr double widest_line = 1.5;
 
 /// [dx]; size of the pieces by which a patch is divided where a hull stands in a wall.
-constexpr double longest_piece = 0.1;
+constexpr double longest_part = 0.1;
 
 /// Least value of -cos of the angle between the normals of a piece and of the wall that it faces.
 constexpr double least_opposite = 0.5;
@@ -89,7 +89,7 @@ double NarrowGaps<Dim>::wetted_measure(const WallPatch<Dim>& patch, const OtherW
   const double dx = flow_.setup.scale.spacing;
   if (wall.distance > dx) return patch.measure;
   const int hull = hulls_.of_wall[boundary.faces[patch.face].wall];
-  const std::vector<WallPatch<Dim>> pieces = pieces_of(patch, boundary, longest_piece * dx);
+  const std::vector<WallPatch<Dim>> pieces = pieces_of(patch, boundary, longest_part * dx);
   const auto in_front = std::ranges::count_if(pieces, [&](const WallPatch<Dim>& piece) {
     return other_wall(hull, piece.centre(boundary), widest_gap * dx).distance > 0.0;
   });
