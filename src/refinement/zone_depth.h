@@ -53,14 +53,14 @@ class ZoneDepth {
   void add_walls(const RefinementTable& table, const Boundary<Dim>& boundary);
   void add_piece(const WallFace<Dim>& piece);
   /// m; without images in periodic directions.
-  double depth_of_image(const Vec<Dim>& x) const;
+  double depth_of_image(const Vec<Dim>& place) const;
   double exact_depth(const Vec<Dim>& x) const;
   Around around(const Vec<Dim>& x) const;
   static Weights weights_at(const Vec<Dim>& off);
   static double weighted(const double* first, const Weights& weights);
   bool is_far(const Vec<Dim>& x) const;
   /// The tile whose inner nodes include a node; computed when it is needed first.
-  const Tile& tile_around(const Cell<Dim>& tile) const;
+  const Tile& tile_around(const Cell<Dim>& cell) const;
 
   std::vector<WallFace<Dim>> pieces_;  ///< of the outline, or of the walls
   Polygon outline_;                    ///< has no corners for walls
