@@ -82,6 +82,7 @@ class Installed(unittest.TestCase):
         self.assertIn("[[wall]]", call("bed", survey, "--to", "bed.stl"))
         sea = write("sea.csv", "f [Hz], S [m^2/Hz]\n0.5, 0\n0.8, 0.001\n1.2, 0\n")
         call("paddle", sea, "--to", "paddle.csv", "--depth", "0.4", "--duration", "20")
+        self.assertIn("particles", call("refine", "out", "--case", "my.toml"))
         self.assertIn("zhou", call("validate", "--list"))
         self.assertIn("tank", call("bench", "robustness", "--list"))
         self.assertIn("GAUGE", call("waves", "--help"))
