@@ -7,7 +7,7 @@ The first line of a TOML block states its use, as in:
   # my.toml                                                      a complete case, saved under this name
   # append to my.toml, without [[damping]]                       the case so far, less these tables, and then the block
   # replace in the template weir                                 values of the template in `tailwater new weir`
-  # in my.toml                                                   an excerpt: my.toml has these values
+  # in my.toml                                                   an excerpt: my.toml has these values; or one of cases/
   # append to a case                                             any case; here a closed tank, half full
 The result must be a case that `tailwater check` accepts. Commands of a page run in order, in an empty folder, if they
 take less than a second; runs in 2D end after a few steps. Of the others the command, options, files and keys are checked.
@@ -43,10 +43,10 @@ fluid_side = "inside"
 min = [0, 0]
 max = [1, 0.25]
 """
-USE = re.compile(r"# (?:(append to|replace in|in) )?(?:the template ([\w-]+)|(a case)|([\w-]*\.?[\w-]+\.toml))"
+USE = re.compile(r"# (?:(append to|replace in|in) )?(?:the template ([\w-]+)|(a case)|((?:(?<=# in )cases/\w+/)?[\w-]*\.?[\w-]+\.toml))"
                  r"(?:, without ([\w\[\], ]+))?$")
 # Pages whose scripts run here. The scripts of the others run in tests, which name the page.
-RUN_HERE = {f"docs/guide/{name}.md" for name in ("gauge", "openings", "stl", "terrain")}
+RUN_HERE = {f"docs/guide/{name}.md" for name in ("gauge", "openings", "stl", "terrain", "wave_energy")}
 TESTS = "".join((ROOT / f"tests/python/test_{name}.py").read_text(encoding="utf-8") for name in ("guide", "report"))
 SIGNATURES = "docs/reference/python.md"
 # Files that a page expects of its reader, and what stands in for them.
