@@ -26,10 +26,6 @@ void find_gradient_beside(const Flow<Dim>& flow, double balanced, const std::vec
   });
 }
 
-}  // namespace
-
-namespace {
-
 /// Among disordered particles a uniform pressure has the gradient 2 p sum_j w_j a_ij, which drives them together where
 /// p < 0 (tensile instability). Inside water under tension it is subtracted: pairs then have p_j - p_i for p_j + p_i
 /// (Sun et al. 2018).
