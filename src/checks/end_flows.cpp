@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "case/formulation.h"
 #include "checks/checks.h"
@@ -27,12 +29,29 @@ double time_of_crossing(const CaseSpec& spec, const ChannelEnd<Dim>& end) {
   return (traits_of(spec).support + 1.0) * spec.particles.spacing / std::sqrt(gravity * end.height);
 }
 
+/// Largest sum of the discharges [m^3/s] that the case prescribes at its inlets, up to a time.
+template <int Dim>
+double largest_inflow(std::span<const ChannelEnd<Dim>> ends, double last) {
+  constexpr int count = 100;
+  double largest = 0.0;
+  for (int k = 0; k <= count; ++k) {
+    double sum = 0.0;
+    for (const ChannelEnd<Dim>& end : ends) {
+      if (end.flow.discharge) sum += std::max(0.0, end.flow.discharge->at(last * k / count));
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 /// Checks the prescribed values of one open end over the run.
 template <int Dim>
 class EndFlowCheck {
  public:
-  EndFlowCheck(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end)
-      : end_(end),
+  /// `inflow` [m^3/s] is the largest into the case.
+  EndFlowCheck(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end, double inflow)
+      : inflow_(inflow),
+        end_(end),
         full_gravity_(gravity_of<Dim>(spec)),
         label_(end.opening.label()),
         dx_(spec.particles.spacing),
@@ -48,12 +67,17 @@ class EndFlowCheck {
     look_at_values("level", "m", end_.flow.level);
     if (findings_.empty()) follow();
     if (findings_.empty()) look_at_thinness();
+    if (findings_.empty()) look_at_rating();
     return std::move(findings_);
   }
 
  private:
   void error(Clause problem, Clause remedy) {
     findings_.push_back(Finding::error(std::move(problem), std::move(remedy)));
+  }
+
+  void warn(Clause problem, Clause remedy) {
+    findings_.push_back(Finding::warning(std::move(problem), std::move(remedy)));
   }
 
   Vec<Dim> top() const {
@@ -166,6 +190,32 @@ class EndFlowCheck {
     }
   }
 
+  /// A level may depend on the discharge q, which is not known beforehand: it is followed up to all that flows in.
+  void look_at_rating() {
+    if (!end_.holds_level() || end_.gravity == 0.0) return;
+    constexpr int count = 20;
+    double before = end_.flow.level->at(last_, 0.0);
+    for (int k = 1; k <= count; ++k) {
+      const double q = inflow_ * k / count;
+      const double level = end_.flow.level->at(last_, q);
+      if (level < before) {
+        warn({"{} falls from {:.4g} to {:.4g} where q grows to {:.4g}: what flows out lowers the level, and draws more",
+              label_.with_key("level"), Amount{before, "m"}, level, Amount{q, discharge_unit}},
+             {"give an expression that grows with q"});
+        return;
+      }
+      if (level > end_.floor + end_.height && !has_lid_) {
+        warn({"{} = {:.4g} at q = {:.4g}, of up to {:.4g} that flow in, is above the top of the opening, {:.6g} m, "
+              "where no wall is",
+              label_.with_key("level"), Amount{level, "m"}, q, Amount{inflow_, discharge_unit},
+              end_.floor + end_.height},
+             {"make the opening and the walls beside it higher, or correct the expression"});
+        return;
+      }
+      before = level;
+    }
+  }
+
   void look_at_froude(double time, double q, double depth) {
     const double speed = depth > 0.0 ? std::abs(q) / depth : 0.0;
     const double froude = depth > 0.0 ? speed / std::sqrt(end_.gravity * depth) : 0.0;
@@ -181,6 +231,9 @@ class EndFlowCheck {
     }
   }
 
+  static constexpr const char* discharge_unit = Dim == 2 ? "m^2/s" : "m^3/s";
+
+  double inflow_;  ///< m^3/s
   const ChannelEnd<Dim>& end_;
   Vec<Dim> full_gravity_;  ///< m/s^2
   CaseLabel label_;
@@ -196,8 +249,10 @@ template <int Dim>
 Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
   if (boundary.faces.empty()) return findings;  // check_open_ends reports this
-  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
-    if (end.is_driven()) append(findings, EndFlowCheck<Dim>(spec, boundary, end).findings());
+  const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
+  const double inflow = largest_inflow<Dim>(ends, spec.time.end);
+  for (const ChannelEnd<Dim>& end : ends) {
+    if (end.is_driven()) append(findings, EndFlowCheck<Dim>(spec, boundary, end, inflow).findings());
   }
   return findings;
 }

@@ -1166,6 +1166,18 @@ TEST(Check, ALevelOutsideItsOpeningIsAnError) {
   expect_only(check(spec), Severity::error, {"level = -0.1 m at t = 0 s is below the lowest point", "not depths"});
 }
 
+TEST(Check, ALevelThatTheDischargeTakesOutOfItsOpeningIsReported) {
+  CaseSpec spec = flume(0.5);
+  spec.outlets[0].level = "0.3 + 0.8*q";
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.outlets[0].level = "0.3 + 1.1*q";
+  expect_only(check(spec), Severity::warning,
+              {"outlet 'outlet1': level = 0.8", "of up to 0.5 m^2/s that flow in, is above the top of the opening"});
+  spec.outlets[0].level = "0.6 - 0.2*q";
+  expect_only(check(spec), Severity::warning,
+              {"outlet 'outlet1': level falls from 0.6 m to 0.595 where q grows to 0.025 m^2/s", "grows with q"});
+}
+
 TEST(Check, ASeriesThatIsTooShortOrJumpsIsAnError) {
   CaseSpec spec = flume();
   spec.inlets[0].discharge.reset();
