@@ -58,8 +58,14 @@ Box<Dim> box_of_probe(const ProbeTable& probe) {
   return box;  // other probes search for a wall, and report if there is none
 }
 
-/// Adds a warning about times that are never reached.
+/// Adds a warning about times that are never reached, and about means over more than the run.
 void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findings) {
+  if (probe.averaging_time > spec.time.end) {
+    findings.push_back(Finding::warning({"{}: averaging_time = {:.6g} is longer than the run of {:.6g} s: its largest "
+                                         "pressure is no mean over that time",
+                                         label(probe), Amount{probe.averaging_time, "s"}, spec.time.end},
+                                        {"give a shorter one, or end the run later"}));
+  }
   const auto is_late = [&](double time) { return time > spec.time.end; };
   const auto late = std::ranges::count_if(probe.times, is_late);
   if (late == 0) return;

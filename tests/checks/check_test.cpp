@@ -888,6 +888,12 @@ TEST(Check, TimesAfterTheEndAreTold) {
   probe.times = {0.5, 1.0, 7.5, 3.0};
   spec.probes = {probe};
   expect_only(check(spec), Severity::warning, {"probe 'surface': 2 of its 4 times are after time.end = 1 s", "7.5 s"});
+  probe.times.clear();
+  probe.type = ProbeType::pressure;
+  probe.at = {0.5, 0.1};
+  probe.averaging_time = 2.0;
+  spec.probes = {probe};
+  expect_only(check(spec), Severity::warning, {"probe 'surface': averaging_time = 2 s is longer than the run of 1 s"});
 }
 
 // A hundred walls that shake for a quarter of an hour: their way is 190 km.
