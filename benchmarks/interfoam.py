@@ -436,6 +436,17 @@ def run_zhou(dx, end, folder):
     return cpu_seconds(log), end, water, steps, pressure.time, pressure.value, level.value
 
 
+def may_begin(options):
+    """Whether interFoam is installed and the folder is new; prints an error otherwise."""
+    if not shutil.which("interFoam"):
+        print("error: interFoam is not installed; remedy: apt-get install openfoam", file=sys.stderr)
+        return False
+    if options.out.exists() and not options.score:
+        print(f"error: {options.out} exists; remedy: name a new folder", file=sys.stderr)
+        return False
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=CASES)
@@ -449,11 +460,7 @@ def main():
     parser.add_argument("--end", type=float, help="s")
     parser.add_argument("--score", action="store_true", help="run nothing, score what OUT holds")
     options = parser.parse_args()
-    if not shutil.which("interFoam"):
-        print("error: interFoam is not installed; remedy: apt-get install openfoam", file=sys.stderr)
-        return 2
-    if options.out.exists() and not options.score:
-        print(f"error: {options.out} exists; remedy: name a new folder", file=sys.stderr)
+    if not may_begin(options):
         return 2
     case = CASES[options.case](options)
     case.end = options.end or case.end

@@ -10,7 +10,6 @@ import argparse
 import itertools
 import json
 import pathlib
-import shutil
 import sys
 
 import interfoam
@@ -123,11 +122,7 @@ def main():
     parser.add_argument("--walls", default="slip", choices=("slip", "no-slip"))
     parser.add_argument("--score", action="store_true", help="run nothing, score what OUT holds")
     options = parser.parse_args()
-    if not shutil.which("interFoam"):
-        print("error: interFoam is not installed; remedy: apt-get install openfoam", file=sys.stderr)
-        return 2
-    if options.out.exists() and not options.score:
-        print(f"error: {options.out} exists; remedy: name a new folder", file=sys.stderr)
+    if not interfoam.may_begin(options):
         return 2
     options.case, options.turbulence, options.air_density, options.surface_tension = "kleefsman2005", "none", 1.2, 0.0
     case = Box(options)
