@@ -16,15 +16,21 @@ bool is_hull(const WallTable& wall) {
   return is_closed && wall.fluid_side == FluidSide::outside;
 }
 
+/// The hull of each of `count` walls, or -1.
+std::vector<int> hull_of_each(std::size_t count, const std::vector<int>& hulls) {
+  std::vector<int> hull_of_wall(count, -1);
+  for (std::size_t k = 0; k < hulls.size(); ++k) hull_of_wall[hulls[k]] = static_cast<int>(k);
+  return hull_of_wall;
+}
+
 }  // namespace
 
 template <int Dim>
 FixedHulls<Dim>::FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hulls, const std::vector<int>& body_of_wall,
                             double spacing)
     : hulls_(std::move(hulls)),
-      hull_of_wall_(boundary.walls.size(), -1),
-      surfaces_(make_hull_surfaces(boundary, hulls_, body_of_wall, spacing)) {
-  for (std::size_t k = 0; k < hulls_.size(); ++k) hull_of_wall_[hulls_[k]] = static_cast<int>(k);
+      hull_of_wall_(hull_of_each(boundary.walls.size(), hulls_)),
+      surfaces_(make_hull_surfaces(boundary, hull_of_wall_, body_of_wall, spacing)) {
   const bool moves = std::ranges::any_of(boundary.walls, &WallProperties::moves);
   const double reach = reach_of_shares * spacing;
   for (const WallPatch<Dim>& patch : make_wall_patches(boundary, spacing)) {
@@ -42,8 +48,10 @@ void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
   if (std::ranges::any_of(boundary.walls, &WallProperties::moves)) return;
   const NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
+  std::vector<bool> faces_wall;
+  for (std::size_t k = 0; k < hulls_.size(); ++k) faces_wall.push_back(gaps.wall_across(static_cast<int>(k)) >= 0);
   std::erase_if(patches_, [&](const WallPatch<Dim>& patch) {
-    return gaps.wall_across(hull_of_wall_[boundary.faces[patch.face].wall]) < 0;
+    return !faces_wall[static_cast<std::size_t>(hull_of_wall_[boundary.faces[patch.face].wall])];
   });
 }
 
@@ -55,21 +63,21 @@ ForceSums<Dim> FixedHulls<Dim>::new_sums(const Flow<Dim>& flow) const {
 
 template <int Dim>
 void FixedHulls<Dim>::report(Flow<Dim>& flow) {
-  reported_.clear();
+  has_report_ = false;
   if (!has_hulls() || !air_of(flow).state.pockets.empty()) return;
   NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
   gaps.measure(gaps.find_stagnant());
   for (std::size_t k = 0; k < hulls_.size(); ++k) {
     const int beside = gaps.wall_across(static_cast<int>(k));
     if (beside < 0) continue;
-    reported_.push_back(k);
+    has_report_ = true;
     flow.wall_forces.beside_walls.push_back({.walls = {hulls_[k]},
                                              .beside = beside,
                                              .centre = Vec<Dim>::Zero(),
                                              .force = Vec<Dim>::Zero(),
                                              .moment = Turn<Dim>::Zero()});
   }
-  if (reported_.empty()) return;
+  if (!has_report_) return;
   const std::vector<double>& pressure = flow.state.particles.pressure;
   ForceSums<Dim> sums = new_sums(flow);
   add_pressure_of_pairs<Dim>(flow, hull_of_wall_, pressure, sums);
@@ -105,7 +113,7 @@ void FixedHulls<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
 
 template <int Dim>
 void FixedHulls<Dim>::project_again(Flow<Dim>& flow, const std::vector<double>& correction, double /*dt*/) {
-  if (reported_.empty()) return;
+  if (!has_report_) return;
   ForceSums<Dim> sums = new_sums(flow);
   add_pressure_of_pairs<Dim>(flow, hull_of_wall_, correction, sums);
   add_to_report(flow, sums);
@@ -113,7 +121,7 @@ void FixedHulls<Dim>::project_again(Flow<Dim>& flow, const std::vector<double>& 
 
 template <int Dim>
 void FixedHulls<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*start*/, double /*dt*/) {
-  if (reported_.empty()) return;
+  if (!has_report_) return;
   ForceSums<Dim> sums = new_sums(flow);
   add_guard<Dim>(flow, hull_of_wall_, sums);
   add_to_report(flow, sums);

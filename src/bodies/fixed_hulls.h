@@ -50,7 +50,7 @@ class FixedHulls final : public Part<Dim> {
   std::vector<int> hull_of_wall_;  ///< of each wall, or -1
   std::vector<ContactSurface<Dim>> surfaces_;
   std::vector<WallPatch<Dim>> patches_;
-  std::vector<std::size_t> reported_;  ///< hulls in the report of this step, which has them in this order
+  bool has_report_ = false;  ///< whether a hull is in the report of this step
 };
 
 template <int Dim>

@@ -69,11 +69,9 @@ ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const 
 }
 
 template <int Dim>
-std::vector<ContactSurface<Dim>> make_hull_surfaces(const Boundary<Dim>& boundary, const std::vector<int>& hulls,
+std::vector<ContactSurface<Dim>> make_hull_surfaces(const Boundary<Dim>& boundary, const std::vector<int>& hull_of_wall,
                                                     const std::vector<int>& body_of_wall, double spacing) {
   const double reach = reach_behind_walls * spacing;
-  std::vector<int> hull_of_wall(boundary.walls.size(), -1);
-  for (std::size_t k = 0; k < hulls.size(); ++k) hull_of_wall[hulls[k]] = static_cast<int>(k);
   std::vector<ContactSurface<Dim>> surfaces;
   surfaces.push_back(
       {part_of(boundary, reach, [&](int wall) { return !boundary.walls[wall].moves() && hull_of_wall[wall] < 0; })});

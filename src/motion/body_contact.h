@@ -35,9 +35,10 @@ template <int Dim>
 ContactSurfaces<Dim> make_contact_surfaces(const Boundary<Dim>& boundary, const std::vector<FloatingBody<Dim>>& bodies,
                                            double spacing);
 
-/// The surfaces of a case with fixed hulls, where hull k is the wall `hulls[k]`. The walls of bodies are left out.
+/// The surfaces of a case with fixed hulls; `hull_of_wall` has the hull of each wall, or -1. The walls of bodies are
+/// left out.
 template <int Dim>
-std::vector<ContactSurface<Dim>> make_hull_surfaces(const Boundary<Dim>& boundary, const std::vector<int>& hulls,
+std::vector<ContactSurface<Dim>> make_hull_surfaces(const Boundary<Dim>& boundary, const std::vector<int>& hull_of_wall,
                                                     const std::vector<int>& body_of_wall, double spacing);
 
 }  // namespace tailwater
