@@ -66,20 +66,22 @@ void FrameOutput<Dim>::write(const Flow<Dim>& flow) {
   std::vector<Vec<Dim>> position(fluid.size());
   std::vector<double> pressure(fluid.size());
   std::vector<double> speed(fluid.size());
-  std::vector<double> size(fluid.size());
-  std::vector<double> liquid(fluid.size());
+  const bool has_sizes = flow.setup.graded != nullptr;
+  const bool has_liquids = flow.setup.liquids.are_several();
+  std::vector<double> size(has_sizes ? fluid.size() : 0);
+  std::vector<double> liquid(has_liquids ? fluid.size() : 0);
   for_each(fluid.size(), [&](std::size_t k) {
     const std::size_t i = fluid[k];
     id[k] = particles.id[i];
     position[k] = particles.position[i];
     pressure[k] = particles.pressure[i];
     speed[k] = particles.velocity[i].norm();
-    size[k] = edge_of<Dim>(particles.volume[i]);
-    liquid[k] = flow.setup.liquids.of(particles.id[i]);
+    if (has_sizes) size[k] = edge_of<Dim>(particles.volume[i]);
+    if (has_liquids) liquid[k] = flow.setup.liquids.of(particles.id[i]);
   });
   std::vector<std::span<const double>> scalars{pressure, speed};  // as frame_scalars names them
-  if (flow.setup.graded != nullptr) scalars.emplace_back(size);
-  if (flow.setup.liquids.are_several()) scalars.emplace_back(liquid);
+  if (has_sizes) scalars.emplace_back(size);
+  if (has_liquids) scalars.emplace_back(liquid);
   const std::vector<AffineMap<Dim>> poses = poses_of(flow);
   series_.write({.time = flow.state.time, .id = id, .position = position, .scalars = scalars, .poses = poses},
                 flow.setup.ranks);

@@ -307,8 +307,9 @@ Json scene_json(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const Json box = box_json(boundary, ends);
   const Columns columns = columns_of_probes(spec, boundary);
   Json scalars = Json::array();
-  for (const FrameScalar& scalar : frame_scalars(spec))
+  for (const FrameScalar& scalar : frame_scalars(spec)) {
     scalars.push_back({{"name", scalar.name}, {"unit", scalar.unit}});
+  }
   Json liquids = Json::array();
   if (has_several_liquids(spec)) {
     for (const LiquidTable& liquid : spec.liquids) liquids.push_back(liquid.name);
