@@ -198,6 +198,11 @@ class EndFlowCheck {
     for (int k = 1; k <= count; ++k) {
       const double q = inflow_ * k / count;
       const double level = end_.flow.level->at(last_, q);
+      if (!std::isfinite(level)) {
+        error({"{} has no finite value at q = {:.4g}", label_.with_key("level"), Amount{q, discharge_unit}},
+              {"give an expression that has one for all discharges up to {:.4g}", Amount{inflow_, discharge_unit}});
+        return;
+      }
       if (level < before) {
         warn({"{} falls from {:.4g} to {:.4g} where q grows to {:.4g}: what flows out lowers the level, and draws more",
               label_.with_key("level"), Amount{before, "m"}, level, Amount{q, discharge_unit}},

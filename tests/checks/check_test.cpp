@@ -1182,6 +1182,10 @@ TEST(Check, ALevelThatTheDischargeTakesOutOfItsOpeningIsReported) {
   spec.outlets[0].level = "0.6 - 0.2*q";
   expect_only(check(spec), Severity::warning,
               {"outlet 'outlet1': level falls from 0.6 m to 0.595 where q grows to 0.025 m^2/s", "grows with q"});
+  spec.outlets[0].level = "0.3 + sqrt(0.1 - q)";
+  expect_among(check(spec), Severity::warning, {"level falls"});
+  spec.outlets[0].level = "q < 0.2 ? 0.3 : sqrt(0.1 - q)";
+  expect_only(check(spec), Severity::error, {"level has no finite value at q = 0.2 m^2/s", "up to 0.5 m^2/s"});
 }
 
 TEST(Check, ASeriesThatIsTooShortOrJumpsIsAnError) {
