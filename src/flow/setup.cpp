@@ -46,9 +46,10 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
   const SpaceShare share{
       .edge = cube_over_spacing * spec.particles.spacing, .share = ranks.rank(), .shares = ranks.size()};
   walls.particles = model.make_particles(walls.boundary, spec.particles.spacing, dummy_layers(spec), share, lattice);
-  if (!field.is_uniform())
+  if (!field.is_uniform()) {
     divide_wall_particles<Dim>(field, walls.boundary, spec.particles.spacing, dummy_layers(spec), share, lattice,
                                walls.particles);
+  }
   const double reach = 2.0 * dummy_layers(spec) * spec.particles.spacing;
   for (std::vector<double>* of_rows : {&walls.friction, &walls.roughness, &walls.depth}) {
     of_rows->reserve(walls.particles.size());
