@@ -100,19 +100,37 @@ class Code:
 
 @dataclass
 class Done:
-    """Cost, wall pressure and, of zhou, the length of water at the gauge H1 of a finished run."""
+    """Cost and result of a finished run. The type of the result depends on the flow: Readings, a run, a number."""
 
     cpu: float  # s
     simulated: float  # s
     fluid: int
     steps: int
-    times: np.ndarray  # s
-    pressure: np.ndarray  # Pa; on the wall
-    level: np.ndarray | None = None  # m
+    result: object
 
     @property
     def price(self):
         return self.cpu / self.simulated
+
+
+@dataclass
+class Readings:
+    """Wall pressure and, of zhou, the length of water at the gauge H1."""
+
+    times: np.ndarray  # s
+    pressure: np.ndarray  # Pa
+    level: np.ndarray | None = None  # m
+
+
+def done_with_readings(cpu, simulated, fluid, steps, *readings):
+    return Done(cpu, simulated, fluid, steps, Readings(*readings))
+
+
+def done_by_tailwater(folder, result):
+    """Done of a finished run of Tailwater, whose cost is in its folder."""
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    return Done(summary["cost"]["cpu_s"], summary["time_s"]["reached"], summary["particles"]["fluid"],
+                summary["steps"]["count"], result)
 
 
 def tailwater(program, name, case, settings, folder):
@@ -127,11 +145,9 @@ def tailwater(program, name, case, settings, folder):
     for setting in (f"{spacing}={case.dx}", f"time.end={case.end}", "wall.tank.slip=free", *settings):
         command += ["--set", setting]
     subprocess.run(command, check=True)
-    summary = json.loads((folder / "run/summary.json").read_text())
     times, pressure = column(folder, probe, "time_s"), column(folder, probe, "pressure_Pa")
     level = column(folder, "H1", "wet_m") if name == "zhou" else None
-    return Done(summary["cost"]["cpu_s"], summary["time_s"]["reached"], summary["particles"]["fluid"],
-                summary["steps"]["count"], times, pressure, level)
+    return done_by_tailwater(folder / "run", Readings(times, pressure, level))
 
 
 def column(folder, probe, name):
@@ -142,23 +158,24 @@ def column(folder, probe, name):
 def pysph(scheme, dx, end, folder):
     command = ["/usr/bin/python3", "-B", ROOT / "benchmarks/pysph_zhou.py", scheme, str(dx), str(end), f"{folder}/{scheme}"]
     told = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()[-1])
-    return Done(told["cpu_s"], told["simulated_s"], told["fluid"], told["steps"], *np.array(told["readings"]).T)
+    return done_with_readings(told["cpu_s"], told["simulated_s"], told["fluid"], told["steps"], *np.array(told["readings"]).T)
 
 
 def noise(run, case):
     """The noise over rho g H; nothing if the run ends before the water arrives."""
-    late = run.times >= NOISY_FROM
+    times, pressure = run.result.times, run.result.pressure
+    late = times >= NOISY_FROM
     if not late.any():
         return None
-    around = [run.pressure[abs(run.times - time) <= WINDOW / 2] for time in run.times[late]]
-    about_median = run.pressure[late] - [np.median(values) for values in around]
+    around = [pressure[abs(times - time) <= WINDOW / 2] for time in times[late]]
+    about_median = pressure[late] - [np.median(values) for values in around]
     return float(np.sqrt(np.mean(about_median**2))) / case.pressure
 
 
 def arrival(run, case):
     """s; nothing if the run ends before."""
-    arrived = np.flatnonzero(run.pressure > ARRIVED * case.pressure)
-    return float(run.times[arrived[0]]) if len(arrived) else None
+    arrived = np.flatnonzero(run.result.pressure > ARRIVED * case.pressure)
+    return float(run.result.times[arrived[0]]) if len(arrived) else None
 
 
 def or_dash(value, form):
@@ -185,12 +202,12 @@ def available_codes(name, case, options, folder):
     if name == "zhou" and shutil.which("interFoam"):
         codes["interFoam"] = Code("Courant number 0.4, vanLeer, linearUpwind, PISO of 3 corrections; water and air; free walls",
                                   "Tailwater", f"benchmarks/interfoam.py zhou1999 FOLDER --dx {case.dx:g} --end {case.end:g}",
-                                  lambda: Done(*interfoam.run_zhou(case.dx, case.end, tempfile.mkdtemp(dir=folder))))
+                                  lambda: done_with_readings(*interfoam.run_zhou(case.dx, case.end, tempfile.mkdtemp(dir=folder))))
     if options.dfsph:
         scene = pathlib.Path(tempfile.mkdtemp(dir=folder))
         codes["DFSPH"] = Code("viscosity, tolerances and steps of SPlisHSPlasH's own scenes; free walls",
                               "authors of SPlisHSPlasH", "benchmarks/dfsph.py: SPHSimulator scene.json --no-gui",
-                              lambda: Done(*dfsph.run(options.dfsph, case, scene)))
+                              lambda: done_with_readings(*dfsph.run(options.dfsph, case, scene)))
     return codes
 
 

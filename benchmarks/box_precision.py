@@ -1,8 +1,6 @@
 """The dam break against a box in 3D (SPHERIC 2) for work_precision.py: codes, and their errors against the laboratory."""
 
 import argparse
-import dataclasses
-import json
 import pathlib
 import shutil
 import subprocess
@@ -22,20 +20,9 @@ ERRORS = {"impulse": ("impulse at P1 to P4", "mean relative error"), "arrival": 
 BETWEEN = {}  # The laboratory has one reading.
 
 
-@dataclasses.dataclass
-class Done:
-    """Cost of a finished run, and the run with its curves."""
-
-    cpu: float  # s
-    simulated: float  # s
-    fluid: int
-    steps: int
-    run: object
-
-
 def errors_of(done):
     """{error: value}; impulses and arrivals are missing where the water does not reach a sensor."""
-    run = done.run
+    run = done.result
     found = {"level": np.mean([box.mean_error(run, gauge, END) / 100 for gauge in box.HEIGHT_BARS]),
              "impulse": np.mean([abs(box.excess(box.of_impact, run, sensor)) / 100 for sensor in box.SENSORS])}
     try:
@@ -51,8 +38,7 @@ def tailwater(program, dx, settings, folder):
     out = folder / f"box_{dx:g}"
     subprocess.run([program, "run", beside.ROOT / "cases/kleefsman2005/case.toml", "--out", out, "--force", "--quiet", "-n", "1",
                     *words], check=True)
-    told = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return Done(told["cost"]["cpu_s"], told["time_s"]["reached"], told["particles"]["fluid"], told["steps"]["count"], Run(out))
+    return beside.done_by_tailwater(out, Run(out))
 
 
 def foam(dx, folder):
@@ -61,8 +47,8 @@ def foam(dx, folder):
     case.end = END
     case.run()
     log = case.folder / "log.interFoam"
-    steps = sum(line.startswith("Time = ") for line in log.read_text().splitlines())
-    return Done(interfoam.cpu_seconds(log), END, round(1.228 * box.DEPTH / dx**3), steps, case)
+    water = round(1.228 * box.DEPTH / dx**3)
+    return beside.Done(interfoam.cpu_seconds(log), END, water, interfoam.count_steps(log), case)
 
 
 def codes(dx, options, folder):

@@ -422,6 +422,10 @@ def cpu_seconds(log):
     return float(re.findall(r"ExecutionTime = ([\d.]+) s", log.read_text())[-1])
 
 
+def count_steps(log):
+    return len(re.findall(r"^Time = ", log.read_text(), re.MULTILINE))
+
+
 def run_zhou(dx, end, folder):
     """Zhou's dam break for beside.py, with free walls: CPU seconds, simulated seconds, cells of water, steps, and, sampled
     SAMPLES times, times, pressure on the wall (Pa) and length of water at the gauge H1 (m)."""
@@ -432,8 +436,7 @@ def run_zhou(dx, end, folder):
     log = case.folder / "log.interFoam"
     pressure, level = case.curve(zhou1999.READ_AT, "pressure_Pa"), case.curve("H1", "wet_m")
     water = round(case.column[0] * case.column[1] / case.spacing**2)
-    steps = len(re.findall(r"^Time = ", log.read_text(), re.MULTILINE))
-    return cpu_seconds(log), end, water, steps, pressure.time, pressure.value, level.value
+    return cpu_seconds(log), end, water, count_steps(log), pressure.time, pressure.value, level.value
 
 
 def may_begin(options):

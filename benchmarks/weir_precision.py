@@ -2,8 +2,6 @@
 Rehbock's formula. The plate is smooth: interFoam has free walls and no surface tension, as Tailwater."""
 
 import argparse
-import dataclasses
-import json
 import pathlib
 import shutil
 import subprocess
@@ -23,24 +21,14 @@ ERRORS = {"head": ("head above the crest", "relative error")}
 BETWEEN = {}
 
 
-@dataclasses.dataclass
-class Done:
-    """Cost of a finished run, and its head (m): the mean of the second half."""
-
-    cpu: float  # s
-    simulated: float  # s
-    fluid: int
-    steps: int
-    head: float
-
-
 def rehbock_head():
     """m; of water without surface tension, as both codes have it: without the 1.1 mm that Rehbock adds."""
     return flume.solve(lambda head: flume.rehbock(head, HEIGHT, 0.0) - DISCHARGE, 0.0, 1.0)
 
 
 def errors_of(done):
-    return {"head": abs(done.head / rehbock_head() - 1)}
+    """{error: value}. The result of a run is its head (m), the mean of the second half."""
+    return {"head": abs(done.result / rehbock_head() - 1)}
 
 
 class Weir(interfoam.Case):
@@ -124,20 +112,16 @@ def tailwater(program, dx, settings, folder):
     subprocess.run([program, "new", "weir", case, "--force"], check=True, stdout=subprocess.DEVNULL)
     words = [word for each in (f"particles.spacing={dx}", *settings) for word in ("--set", each)]
     subprocess.run([program, "run", case, "--out", out, "--force", "--quiet", "-n", "1", *words], check=True)
-    told = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     curve = Run(out).curve("upstream", "connected_m").window(0.5 * END, END)
-    return Done(told["cost"]["cpu_s"], told["time_s"]["reached"], told["particles"]["fluid"], told["steps"]["count"],
-                float(curve.value.mean()) - HEIGHT)
+    return beside.done_by_tailwater(out, float(curve.value.mean()) - HEIGHT)
 
 
 def foam(dx, folder):
     case = Weir(argparse.Namespace(out=pathlib.Path(folder) / f"foam_{dx:g}", dx=dx, turbulence="none", air_density=1.2,
                                    surface_tension=0.0, walls="slip", end=END))
     case.run()
-    log = case.folder / "log.interFoam"
-    steps = sum(line.startswith("Time = ") for line in log.read_text().splitlines())
     water = round(UPSTREAM * (HEIGHT + EXPECTED) / dx**2)
-    return Done(case.cost, END, water, steps, case.head())
+    return beside.Done(case.cost, END, water, interfoam.count_steps(case.folder / "log.interFoam"), case.head())
 
 
 def codes(dx, options, folder):

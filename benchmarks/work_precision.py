@@ -76,13 +76,14 @@ def pressure_error(laboratory, computed):
 
 def errors_of(run, case):
     """{error: value} of a finished run."""
-    times = run.times / zhou1999.TIME_SCALE
-    pressure = Curve.from_samples(times, run.pressure / zhou1999.PRESSURE_SCALE)
+    readings = run.result
+    times = readings.times / zhou1999.TIME_SCALE
+    pressure = Curve.from_samples(times, readings.pressure / zhou1999.PRESSURE_SCALE)
     found = {"pressure": np.mean([pressure_error(curve, pressure) for curve in measured("P2")]),
              "impulse": np.mean([abs(impulse(pressure) / impulse(curve) - 1) for curve in measured("P2")]),
              "noise": beside.noise(run, case)}
-    if run.level is not None:
-        level = Curve.from_samples(times, run.level / zhou1999.H)
+    if readings.level is not None:
+        level = Curve.from_samples(times, readings.level / zhou1999.H)
         found["level"] = np.mean([rms_difference(curve, level, *LEVEL_WINDOW, zhou1999.GRID) for curve in measured("H1")])
     return {name: float(value) for name, value in found.items()}
 

@@ -49,10 +49,10 @@ class Dfsph(unittest.TestCase):
             program = Path(folder) / "pretender"
             program.write_text(PRETENDER)
             program.chmod(0o755)
-            run = beside.Done(*dfsph.run(program, case, Path(folder)))
+            run = beside.done_with_readings(*dfsph.run(program, case, Path(folder)))
         self.assertEqual((run.steps, run.fluid), (10, 160))
-        np.testing.assert_allclose(run.times, 0.005 * np.arange(1, 11))
-        np.testing.assert_allclose(run.pressure, 1000 * 9.81 * 0.48, rtol=0.02)
+        np.testing.assert_allclose(run.result.times, 0.005 * np.arange(1, 11))
+        np.testing.assert_allclose(run.result.pressure, 1000 * 9.81 * 0.48, rtol=0.02)
         self.assertAlmostEqual(beside.arrival(run, case), 0.005)
 
     def test_sees_no_water_where_there_is_little(self):
@@ -82,7 +82,7 @@ class Records(unittest.TestCase):
 
     def test_finished_codes_are_the_peers(self):
         case = beside.zhou(0.03, 1.0)
-        done = beside.Done(10.0, 2.0, 800, 100, np.array([0.5, 0.9]), np.array([0.0, case.pressure]))
+        done = beside.done_with_readings(10.0, 2.0, 800, 100, np.array([0.5, 0.9]), np.array([0.0, case.pressure]))
         code = beside.Code("defaults", "its authors", "run it", lambda: done)
         cases = [{"case": "zhou", "codes": [beside.record(name, code, case, run, "") for name, run in (
             ("Tailwater", done), ("Other", done), ("Broken", None))]}]
@@ -102,7 +102,7 @@ class Noise(unittest.TestCase):
         steady = 1000.0 * np.ones_like(times)
         spiky = steady + np.where(np.arange(len(times)) % 50 == 25, case.pressure, 0.0)
         for pressure, expected in ((steady, 0.0), (spiky, np.sqrt(1 / 50))):
-            run = beside.Done(1.0, 1.0, 1, 1, times, pressure)
+            run = beside.done_with_readings(1.0, 1.0, 1, 1, times, pressure)
             self.assertAlmostEqual(beside.noise(run, case), expected, delta=1e-6)
 
 

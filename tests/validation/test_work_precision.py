@@ -28,9 +28,10 @@ def run_of(pressure_factor=1.0, level_more=0.0):
     pressure, level = work_precision.measured("P2")[0], work_precision.measured("H1")[0]
     times = np.arange(0.0, work_precision.END, 0.001)
     over_T = times / zhou1999.TIME_SCALE
-    return beside.Done(3.0, work_precision.END, 800, len(times), times,
-                       pressure_factor * zhou1999.PRESSURE_SCALE * np.interp(over_T, pressure.time, pressure.value),
-                       zhou1999.H * (level_more + np.interp(over_T, level.time, level.value)))
+    return beside.done_with_readings(
+        3.0, work_precision.END, 800, len(times), times,
+        pressure_factor * zhou1999.PRESSURE_SCALE * np.interp(over_T, pressure.time, pressure.value),
+        zhou1999.H * (level_more + np.interp(over_T, level.time, level.value)))
 
 
 class Errors(unittest.TestCase):
@@ -71,7 +72,7 @@ class Box(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.box = OtherBox(argparse.Namespace(case="kleefsman2005", out=Path(scratch.name), dx=0.05, walls="slip", turbulence="none",
                                                air_density=1.2, surface_tension=0.0))
-        self.done = box_precision.Done(1.0, 2.0, 1, 1, self.box)
+        self.done = beside.Done(1.0, 2.0, 1, 1, self.box)
 
     def test_errors_are_those_of_the_curves(self):
         self.assertEqual(set(box_precision.errors_of(self.done).values()), {0.0})
@@ -93,8 +94,8 @@ class Weir(unittest.TestCase):
     def test_error_is_that_of_the_head(self):
         head = weir_precision.rehbock_head()
         self.assertAlmostEqual(head, 0.0877 + 0.0011, delta=1e-4)  # of laboratory water, and the addition for it
-        self.assertEqual(weir_precision.errors_of(weir_precision.Done(1.0, 8.0, 1, 1, head)), {"head": 0.0})
-        self.assertAlmostEqual(weir_precision.errors_of(weir_precision.Done(1.0, 8.0, 1, 1, 1.02 * head))["head"], 0.02)
+        self.assertEqual(weir_precision.errors_of(beside.Done(1.0, 8.0, 1, 1, head)), {"head": 0.0})
+        self.assertAlmostEqual(weir_precision.errors_of(beside.Done(1.0, 8.0, 1, 1, 1.02 * head))["head"], 0.02)
 
     def test_cells_on_both_sides_of_the_plate_share_no_corners_below_the_crest(self):
         with tempfile.TemporaryDirectory() as folder:
