@@ -7,7 +7,7 @@ Usage: scripts/evidence.py           makes the file from docs/validation.json, t
 
 A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where `WHAT` is `all`, names of studies, keys
 in quotes after `keys`, as in `keys "zhou1999.noise"`, `counts`, a sentence, or `work CASE`, the cost of errors beside other
-codes. `short` before `WHAT` leaves only quantity, value, target, result and spacing. A figure in a sentence stands between
+codes, or `readings`, those of laboratories within the scatter of the data. `short` before `WHAT` leaves only quantity, value, target, result and spacing. A figure in a sentence stands between
 `<!-- figure: KEY -->` and `<!-- figure: end -->`. docs/validation.json is what `tailwater validate` wrote.
 """
 import json
@@ -20,6 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 from tailwater_validation.evidence import NO_TARGET, NOT_RUN, evidence_of, read_targets  # noqa: E402
 from tailwater_validation.peers import work_table  # noqa: E402
+from tailwater_validation.scatter import read_scatter, readings_table  # noqa: E402
 
 SOURCE, KEPT = ROOT / "docs" / "validation.json", ROOT / "python" / "tailwater" / "evidence.json"
 TABLE = re.compile(r"<!-- evidence: (?!end -->)(?P<what>.+?) -->\n.*?<!-- evidence: end -->", re.DOTALL)
@@ -74,6 +75,8 @@ def table(evidence, what):
     lines = [f"<!-- evidence: {what} -->"]
     if what == "counts":
         return "\n".join([*lines, sentence(evidence), "<!-- evidence: end -->"])
+    if what == "readings":
+        return "\n".join([*lines, *readings_table(stored()["studies"], read_scatter()), "<!-- evidence: end -->"])
     if what.split()[0] == "work":
         return "\n".join([*lines, *work_table(*what.split()[1:]), "<!-- evidence: end -->"])
     words = what.removeprefix("short ")
@@ -117,8 +120,13 @@ def contradictions(text, evidence):
     return found
 
 
+def stored():
+    """Results of the validation."""
+    return json.loads(SOURCE.read_text(encoding="utf-8"))
+
+
 def made():
-    return evidence_of(json.loads(SOURCE.read_text(encoding="utf-8")), read_targets())
+    return evidence_of(stored(), read_targets())
 
 
 def text_of(evidence):

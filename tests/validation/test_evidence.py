@@ -13,6 +13,7 @@ from tailwater.run import Run
 from tailwater_validation import evidence
 from tailwater_validation.case_values import friction_of_walls, read_case, water_height
 from tailwater_validation.metric import Metric, result_of
+from tailwater_validation.scatter import readings_table
 from tailwater_validation.studies import studies
 from tailwater_validation.study import CASES, AllChecks, Plan
 
@@ -150,6 +151,25 @@ class Evidence(unittest.TestCase):
         stored["studies"][0]["metrics"][0]["high"] = 1.0
         with self.assertRaisesRegex(ValueError, "zhou1999.H1.T6: the target is .*remedy"):
             evidence.evidence_of(stored, evidence.read_targets())
+
+
+class Readings(unittest.TestCase):
+    def table_of(self, value, uncertainty):
+        metric = {"name": "a.depth", "what": "depth", "value": value, "unit": "m", "low": None, "high": 0.3, "verdict": "met",
+                  "uncertainty": uncertainty}
+        study = {"title": "Flow: Author (1999)", "metrics": [metric]}
+        return readings_table([study], {"a.depth": {"high": 0.1, "source": "two readings differ"}})
+
+    def test_interval_that_reaches_into_the_scatter_is_within(self):
+        for value, uncertainty, within, count in ((0.09, None, "yes", 1), (0.15, None, "**no**", 0), (0.15, 0.06, "yes", 1)):
+            lines = self.table_of(value, uncertainty)
+            self.assertTrue(lines[0].startswith(f"{count} of 1 readings"), lines[0])
+            self.assertIn("1 of the 1 that have a target meet it", lines[0])
+            self.assertIn(f"| {within} |", lines[-1])
+
+    def test_entries_must_have_a_stored_result(self):
+        with self.assertRaisesRegex(ValueError, "no stored result has the name b"):
+            readings_table([], {"b": {"high": 1.0, "source": "somewhere"}})
 
 
 class Pages(unittest.TestCase):
