@@ -51,10 +51,13 @@ TESTS = "".join((ROOT / f"tests/python/test_{name}.py").read_text(encoding="utf-
 SIGNATURES = "docs/reference/python.md"
 # Files that a page expects of its reader, and what stands in for them.
 STAND_INS = {
+    "docs/reference/examples.md": {"gauge.csv": "t [s], depth [mm]\n0, 100\n1, 90\n"},
     "docs/theory/moving_walls.md": {"roll.csv": "t [s], angle [deg]\n0, 0\n1, 5\n2, 0\n"},
     "docs/theory/waves.md": {"paddle.csv": "t [s], x [m]\n0, 0\n1, 0.02\n20, 0\n"},
     "docs/theory/probes.md": {"gauge_1.csv": "t [s], H1 [mm]\n0, 100\n1, 90\n"},
 }
+EXAMPLES = "docs/reference/examples.md"
+NO_EXAMPLE = {"parameters", "parallel", "limits", "study"}  # of the page of the case file, and keys for studies
 OTHER_PROGRAMS = {"apt", "clang-tidy", "cmake", "cp", "export", "mpirun"}
 NO_READER = {"README.md", "CODE_OF_CONDUCT.md"}  # README has a section on its readers
 LONG_ROW = 60  # characters; shorter rows are headings and common pairs
@@ -312,6 +315,15 @@ def span_faults(name, text):
             yield line, f"`{span}`: the table {key[1]} has no key {key[2]}"
 
 
+def example_faults(name, text):
+    """Tables of the case file and types of probes without an example on the page of examples."""
+    if name == EXAMPLES:
+        types = next(key for key in TABLES["probe"]["keys"] if key["name"] == "type")["choices"]
+        headings = set(re.findall(r"^### \[{0,2}([\w-]+)\]{0,2}$", text, re.MULTILINE))
+        for missing in sorted({*TABLES, *types} - headings - NO_EXAMPLE):
+            yield 1, f"there is no example of {missing}"
+
+
 def reader_faults(name, text):
     if name not in NO_READER and not re.match(r"(\s*<!--.*-->)?# .*\n\n(?:!\[.*\n\n)?For ", text):
         yield 3, 'the first line below the title does not say for whom the page is; begin it with "For users", ...'
@@ -331,7 +343,7 @@ def page_faults(name, text):
     """(line, message) of a page."""
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         walked = Walk(name, text).faults
-    return sorted([*walked, *span_faults(name, text), *reader_faults(name, text)])
+    return sorted([*walked, *span_faults(name, text), *reader_faults(name, text), *example_faults(name, text)])
 
 
 def names():

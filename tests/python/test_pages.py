@@ -119,6 +119,13 @@ class Pages(PackageTest):
         text = "# A guide\n\nFor users.\n\n```python\nx = 1\n```\n"
         self.assertEqual(pages.page_faults("docs/guide/editor.md", text), [(6, "no test runs this script")])
 
+    def test_tables_and_probes_without_an_example_are_found(self):
+        found = [message for _, message in pages.example_faults(pages.EXAMPLES, "### [[gate]]\n\n### depth\n")]
+        self.assertIn("there is no example of force", found)
+        self.assertIn("there is no example of wall", found)
+        self.assertNotIn("there is no example of gate", found)
+        self.assertNotIn("there is no example of depth", found)
+
     def test_rows_that_stand_twice_are_found(self):
         row = "| a row that is long enough to be more than a heading | 1 | 2 | 3 |\n"
         found = list(pages.repeated_rows({"a": "# A\n" + row, "b": row, "c": f"<!-- evidence: x -->\n{row}<!-- evidence: end -->\n"}))

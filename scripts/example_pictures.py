@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+"""Draws the pictures of docs/reference/examples.md into docs/images/examples: each shows the case of the example above it.
+
+Usage: scripts/example_pictures.py
+"""
+import contextlib
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import pages
+
+PAGE = "docs/reference/examples.md"
+LARGEST = 60e3  # bytes of a picture
+SECTION = re.compile(r"```toml\n(?P<text>[^`]*)```\n\n!\[.*?\]\((?P<picture>.*?)\)", re.DOTALL)
+
+
+def draw(text, picture):
+    """Writes the preview of the case of a block of TOML, with fewer particles where it is large. Throws RuntimeError if the block has faults."""
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        file, faults = pages.assemble(pages.Block(1, "toml", text))
+        if faults:
+            raise RuntimeError(f"{PAGE}: {faults[0]}")
+        spacing = pages.Case(file)["particles.spacing"]
+        while True:
+            subprocess.run([pages.program(), "check", file, "--preview", picture, "--set", f"particles.spacing={spacing}"],
+                           check=True, stdout=subprocess.DEVNULL)
+            if picture.stat().st_size <= LARGEST:
+                return
+            spacing = f"2*({spacing})"
+
+
+def main():
+    page = pages.ROOT / PAGE
+    for section in SECTION.finditer(page.read_text(encoding="utf-8")):
+        picture = (page.parent / section["picture"]).resolve()
+        picture.parent.mkdir(exist_ok=True)
+        draw(section["text"], picture)
+        print(f"example_pictures.py: {picture.relative_to(pages.ROOT)}, {picture.stat().st_size / 1e3:.0f} kB")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
