@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Walks the guides of waves on a wall and of a barge in a lock: makes their cases as they say, runs them, prints what their
-blocks of Python print, and draws their pictures into docs/images.
+"""Follows guides: makes their cases and runs their commands in order, prints the output of their blocks of Python, and draws
+their pictures into docs/images.
 
-Usage: scripts/walk_guides.py [GUIDE ...]    of waves_on_a_wall, floating_box; all by default
-The runs stay in out/guides and are not made again. All take three minutes of CPU time.
+Usage: scripts/walk_guides.py [GUIDE ...]    of waves_on_a_wall, floating_box, sloshing, overtopping; all by default
+The runs stay in out/guides and are not made again. All take seven minutes of CPU time.
 """
 import os
 import pathlib
@@ -22,28 +22,37 @@ from tailwater.program import call  # noqa: E402
 from tailwater_validation import floating  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
-GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge"}  # and the folder of its sweep
+# Guides, and the folder of the first sweep of each.
+GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge", "sloshing": "tank", "overtopping": "dike"}
 
 
 def text_of(guide):
     return (ROOT / "docs/guide" / f"{guide}.md").read_text(encoding="utf-8")
 
 
-def commands(guide):
-    """Those of the program, in order, as lists of words."""
-    return [words[1:] for block in pages.blocks(text_of(guide)) if block.kind == "indented"
-            for _, words in pages.commands(block.text) if words[0] == "tailwater"]
-
-
-def write_case(guide):
-    """The case file that a reader of the guide has, in this folder; returns its name."""
-    call(*commands(guide)[0], "--force")
+def follow(guide, run):
+    """Makes the cases of a guide in this folder and calls `run` with the words of each command of the program, in order;
+    returns the name of the last case."""
     for block in pages.blocks(text_of(guide)):
         if block.kind == "toml":
             name, faults = pages.assemble(block)
             if faults:
                 raise RuntimeError(f"{guide}.md:{block.line}: {faults[0]}")
+        elif block.kind == "indented":
+            for _, words in pages.commands(block.text):
+                if words[0] == "tailwater":
+                    run(words[1:])
     return name
+
+
+def make_template(words):
+    if words[0] == "new":
+        call(*words, "--force")
+
+
+def write_case(guide):
+    """The last case file that a reader of the guide has, in this folder; returns its name."""
+    return follow(guide, make_template)
 
 
 def run_blocks(guide, old="", new=""):
@@ -99,14 +108,43 @@ def draw_floating_box(runs, names):
            {"Archimedes": 100.0}, "floating_box_displacement")
 
 
+def draw_sloshing(runs, names):
+    resonant = min(runs, key=lambda run: abs(run.parameters["T"] - 1.98))
+    level = resonant.curve("end", "highest_m")
+    picture(resonant, level.time[np.argmax(level.value)], "sloshing")
+    with matplotlib.rc_context(plots.STYLE):
+        figure = plots.new_figure(height=3.2)
+        axes = figure.subplots()
+        for name, colour, words in (("tank", plots.BLUE, "without a baffle"), ("baffled", plots.ORANGE, "with the baffle")):
+            periods = sorted(names["forces"][name])
+            axes.plot(periods, [names["forces"][name][period] for period in periods], "o-", color=colour, label=words)
+        away = sorted(runs, key=lambda run: run.parameters["T"])
+        axes.plot([run.parameters["T"] for run in away], [names["linear_theory"](run) for run in away], "x", color=plots.GREY,
+                  label="linear theory, without")
+        axes.set(xlabel="period of the motion (s)", ylabel="force (N/m)", ylim=(0, 1250))
+        axes.legend(loc="upper right", frameon=False)
+        figure.savefig("curves.png", dpi=plots.DPI)
+    image = Image.open("curves.png").convert("RGB")
+    image.thumbnail((1000, 1000))
+    image.save(IMAGES / "sloshing_force.webp", quality=85, method=6)
+
+
+def draw_overtopping(runs, names):
+    volume = runs[-1].curve("over", "volume_m3")
+    rate = np.gradient(volume.value, volume.time)
+    picture(runs[-1], volume.time[np.argmax(rate)], "overtopping")
+
+
+def run_command(words):
+    print(">", *words, flush=True)
+    subprocess.run([str(tw.program()), *words, *(["--force"] if words[0] == "new" else [])], check=True)
+
+
 def walk(guide):
     folder = ROOT / "out/guides" / guide
     folder.mkdir(parents=True, exist_ok=True)
     os.chdir(folder)
-    print(f"walk_guides.py: {guide}, {write_case(guide)}", flush=True)
-    for words in commands(guide)[1:]:
-        print(">", *words, flush=True)
-        subprocess.run([str(tw.program()), *words], check=True)
+    print(f"walk_guides.py: {guide}, {follow(guide, run_command)}", flush=True)
     runs = list(tw.Sweep(GUIDES[guide]))
     globals()[f"draw_{guide}"](runs, run_blocks(guide))
     for run in runs:
