@@ -58,6 +58,8 @@ STAND_INS = {
 }
 EXAMPLES = "docs/reference/examples.md"
 NO_EXAMPLE = {"parameters", "parallel", "limits", "study"}  # of the page of the case file, and keys for studies
+PROGRAM = "tests/install/program"
+BUILT = {path.read_text(encoding="utf-8") for path in (ROOT / PROGRAM).iterdir()}  # by a test
 OTHER_PROGRAMS = {"apt", "clang-tidy", "cmake", "cp", "export", "mpirun"}
 NO_READER = {"README.md", "CODE_OF_CONDUCT.md"}  # README has a section on its readers
 LONG_ROW = 60  # characters; shorter rows are headings and common pairs
@@ -231,6 +233,8 @@ class Walk:
                 self.follow_python(block, names)
             elif block.kind == "indented":
                 self.follow_commands(block)
+            elif block.kind in ("cpp", "cmake") and block.text not in BUILT:
+                self.fault(block.line, f"no test builds this text; it is not that of a file in {PROGRAM}")
 
     def fault(self, line, message):
         self.faults.append((line, message))
