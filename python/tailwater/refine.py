@@ -297,7 +297,7 @@ def refine(options):
     print("\n".join(f"# {line}" for line in cost))
     if options.write:
         if options.write.exists():
-            raise InputError(f"{options.write} exists; remedy: another name")
+            raise InputError(f"{options.write} exists; remedy: choose another name")
         options.write.write_text(text_with(case, tables), encoding="utf-8")
         print(f"# written: {options.write}")
 

@@ -57,7 +57,7 @@ std::filesystem::path preview_file(const CheckOptions& options) {
     if (!std::filesystem::exists(std::filesystem::symlink_status(file))) continue;
     require_own_regular_file(file);
     if (is_asked_for && !is_preview(file)) {
-      throw InputError("--preview {}: '{}' is a file of yours and no preview; remedy: another name",
+      throw InputError("--preview {}: '{}' exists and is not a preview; remedy: choose another name",
                        options.preview.string(), file.string());
     }
   }
@@ -192,7 +192,7 @@ void check_case(const CheckOptions& options) {
   const CaseSpec spec = read_case(options.case_file, options.overrides);
   std::error_code error;  // without a preview there is nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {
-    throw InputError("--preview {} is the case file itself; remedy: another name", options.preview.string());
+    throw InputError("--preview {} is the case file itself; remedy: choose another name", options.preview.string());
   }
   if (options.preview.extension() == ".png") {
     throw InputError(

@@ -22,7 +22,7 @@ void migrate(const std::filesystem::path& old_file, const std::filesystem::path&
     return;
   }
   if (std::filesystem::exists(std::filesystem::symlink_status(new_file))) {
-    throw InputError("'{}' exists and is not overwritten; remedy: another name", new_file.string());
+    throw InputError("'{}' exists and is not overwritten; remedy: choose another name", new_file.string());
   }
   write_text_file(new_file, migration.text);
   fmt::print("Wrote {0}. Next:\n  tailwater check {0}\n", new_file.string());

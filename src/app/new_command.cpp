@@ -65,7 +65,7 @@ void require_place(const std::filesystem::path& file, bool force) {
   if (!std::filesystem::exists(status)) return;
   require_own_regular_file(file);
   if (force) return;
-  throw InputError("'{}' exists and is not overwritten; remedy: another name, or --force", file.string());
+  throw InputError("'{}' exists and is not overwritten; remedy: choose another name, or add --force", file.string());
 }
 
 bool holds(const std::filesystem::path& file, std::string_view text) {

@@ -253,12 +253,11 @@ void require_same_sweep(const fs::path& out, const SweepPlan& plan, const std::v
   if (!is_sweep(out)) {
     const bool is_free = !fs::exists(out, error) || (fs::is_directory(out, error) && fs::is_empty(out, error));
     if (is_free) return;
-    throw InputError("--out {}: is there already, and is not the folder of a sweep; remedy: another name",
-                     out.string());
+    throw InputError("--out {}: exists and is not the folder of a sweep; remedy: choose another name", out.string());
   }
   const SweepPlan earlier = read_sweep_record(out);
   if (earlier.keys != plan.keys) {
-    throw InputError("--out {}: has a sweep of {}, and not of {}; remedy: another name", out.string(),
+    throw InputError("--out {}: has a sweep of {}, not of {}; remedy: choose another name", out.string(),
                      fmt::join(earlier.keys, " and "), fmt::join(plan.keys, " and "));
   }
   for (const SweepMember& member : earlier.members) {

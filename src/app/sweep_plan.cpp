@@ -77,7 +77,7 @@ SweepKey parse_sweep_key(const std::string& option) {
   for (const std::string& value : key.values) {
     if (value.empty()) throw InputError("--sweep {}: a value is missing; {}", option, sweep_usage);
     if (!seen.insert(value).second) {
-      throw InputError("--sweep {}: the value {} is there twice; remedy: each value once", option, value);
+      throw InputError("--sweep {}: the value {} is given twice; remedy: give each value once", option, value);
     }
   }
   return key;
@@ -133,7 +133,7 @@ SweepPlan sweep_plan(const std::vector<std::string>& options) {
     SweepKey key = parse_sweep_key(option);
     for (const SweepKey& other : keys) {
       if (other.key != key.key) continue;
-      throw InputError("--sweep {}: the key is swept twice; remedy: all its values in one --sweep", option);
+      throw InputError("--sweep {}: the key is swept twice; remedy: give all its values in one --sweep", option);
     }
     count *= key.values.size();
     if (count > most_members) {

@@ -130,9 +130,9 @@ fs::path start_case(const fs::path& folder, const std::optional<fs::path>& case_
   const fs::path run = folder / out;
   const fs::path saved = case_file ? *case_file : folder / (out + ".toml");
   std::error_code error;
-  if (fs::exists(run, error)) throw InputError("'{}' is there already; remedy: another name", out);
+  if (fs::exists(run, error)) throw InputError("'{}' exists already; remedy: choose another name", out);
   if (!case_file && fs::exists(saved, error)) {
-    throw InputError("'{}' is there already; remedy: another name", saved.string());
+    throw InputError("'{}' exists already; remedy: choose another name", saved.string());
   }
   write_text_file(saved, text);
   start_apart({this_program(), "run", saved.string(), "--out", run.string(), "-n", std::to_string(ranks), "--quiet"},

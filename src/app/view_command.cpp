@@ -125,10 +125,12 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
         sweeps.push_back(fs::absolute(path));
         add_members(path, content);
       } else if (fs::exists(path / report_name, error)) {
-        if (paths.size() > 1) throw InputError("a report is shown alone; remedy: name one report, or runs only");
+        if (paths.size() > 1)
+          throw InputError("only one report can be shown at a time; remedy: name one report, or only runs");
         add_report(path, content);
       } else if (fs::exists(path / study_name, error)) {
-        if (paths.size() > 1) throw InputError("a study is shown alone; remedy: name one study, or runs only");
+        if (paths.size() > 1)
+          throw InputError("only one study can be shown at a time; remedy: name one study, or only runs");
         add_study(path, content);
       } else if (is_run(path)) {
         content.runs.push_back({name_of_folder(path), fs::absolute(path)});
@@ -137,7 +139,8 @@ ViewContent content_of(const std::vector<fs::path>& paths, std::vector<fs::path>
                          path.string(), what_it_has(path));
       }
     } else if (fs::is_regular_file(path, error) && path.extension() == ".toml") {
-      if (paths.size() > 1) throw InputError("a case is shown alone; remedy: name one case, or runs only");
+      if (paths.size() > 1)
+        throw InputError("only one case can be shown at a time; remedy: name one case, or only runs");
       content.mode = "case";
       content.case_file = fs::absolute(path);
     } else {

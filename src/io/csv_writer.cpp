@@ -17,7 +17,7 @@ namespace tailwater {
 namespace {
 
 constexpr std::string_view remedy_for_other_file =
-    "remedy: put the file back, or begin the run anew: tailwater run --force";
+    "remedy: restore the file, or start the run again: tailwater run --force";
 
 }  // namespace
 

@@ -77,8 +77,9 @@ class ViewServer::Service {
     const char* host = "127.0.0.1";
     port_ = port == 0 ? http_.bind_to_any_port(host) : (http_.bind_to_port(host, port) ? port : -1);
     if (port_ < 0) {
-      throw IoError("port {} of 127.0.0.1 cannot be listened to: it may be taken; remedy: another --port, or none",
-                    port);
+      throw IoError(
+          "cannot listen on port {} of 127.0.0.1, which may be in use; remedy: choose another --port, or leave it out",
+          port);
     }
     http_.let_many_wait();
   }

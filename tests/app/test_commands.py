@@ -331,7 +331,7 @@ end = 1e-6
         os.mkfifo(self.folder / "pipe.svg")
         (self.folder / "mine.svg").write_text("<svg>my drawing</svg>")
         (self.folder / "link.svg").symlink_to("mine.svg")
-        for name, part in (("pipe.svg", "a device or a pipe"), ("link.svg", "a link"), ("mine.svg", "a file of yours")):
+        for name, part in (("pipe.svg", "a device or a pipe"), ("link.svg", "a link"), ("mine.svg", "is not a preview")):
             self.assertIn(part, self.call("check", "small.toml", "--preview", name, expect=2).stderr)
         self.assertEqual((self.folder / "mine.svg").read_text(), "<svg>my drawing</svg>")
         for _ in range(2):

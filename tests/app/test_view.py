@@ -327,7 +327,7 @@ class OfADoneRun(Viewed):
         self.assertEqual(self.json("api/run/0/info")["state"], "done")
         _, data = self.exported("report")
         self.assertEqual((data["state"]["report"], len(data["runs"])), (report, 1))
-        self.assertIn("shown alone", self.call("view", "report", "run", expect=2).stderr)
+        self.assertIn("only one report", self.call("view", "report", "run", expect=2).stderr)
         alone = [{"shown": None}]
         (self.folder / "report/report.json").write_text(json.dumps({"studies": alone}))
         self.view("report")  # the folder has no run to start from
@@ -346,17 +346,17 @@ class OfADoneRun(Viewed):
         self.assertEqual(self.json("api/run/0/info")["state"], "done")
         _, data = self.exported("study")
         self.assertEqual((data["state"]["report"], len(data["runs"])), (study, 1))
-        self.assertIn("shown alone", self.call("view", "study", "run", expect=2).stderr)
+        self.assertIn("only one study", self.call("view", "study", "run", expect=2).stderr)
         (self.folder / "study/study.json").write_text('{"runs": []}')
         self.assertIn("not the table of tailwater study", self.call("view", "study", expect=2).stderr)
 
     def test_says_what_cannot_be_viewed(self):
         for words, part in ((("nothing",), "neither the folder of a run nor a case file"),
-                            ((".",), "it has runs in it; remedy: tailwater view ./"), (("small.toml", "run"), "a case is shown alone"),
+                            ((".",), "it has runs in it; remedy: tailwater view ./"), (("small.toml", "run"), "only one case can be shown"),
                             (("small.toml", "--export", "x.html"), "nothing to show before it has run")):
             self.assertIn(part, self.call("view", *words, expect=2).stderr)
         self.view("run")
-        self.assertIn("cannot be listened to", self.call("view", "run", "--port", self.port, expect=4).stderr)
+        self.assertIn("cannot listen on port", self.call("view", "run", "--port", self.port, expect=4).stderr)
 
 
 class OfALiveRun(Viewed):
