@@ -2,8 +2,9 @@
 """Follows guides: makes their cases and runs their commands in order, prints the output of their blocks of Python, and draws
 their pictures into docs/images.
 
-Usage: scripts/walk_guides.py [GUIDE ...]    of waves_on_a_wall, floating_box, sloshing, overtopping; all by default
-The runs stay in out/guides and are not made again. All take seven minutes of CPU time.
+Usage: scripts/walk_guides.py [GUIDE ...]    of waves_on_a_wall, floating_box, sloshing, overtopping, gate_and_basin; all by
+default
+The runs stay in out/guides and are not made again. All take eight minutes of CPU time.
 """
 import os
 import pathlib
@@ -23,7 +24,8 @@ from tailwater_validation import floating  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 # Guides, and the folder of the first sweep of each.
-GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge", "sloshing": "tank", "overtopping": "dike"}
+GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge", "sloshing": "tank", "overtopping": "dike",
+          "gate_and_basin": "basin"}
 
 
 def text_of(guide):
@@ -133,6 +135,10 @@ def draw_overtopping(runs, names):
     volume = runs[-1].curve("over", "volume_m3")
     rate = np.gradient(volume.value, volume.time)
     picture(runs[-1], volume.time[np.argmax(rate)], "overtopping")
+
+
+def draw_gate_and_basin(runs, names):
+    picture(runs[0], 8.0, "gate_and_basin")
 
 
 def run_command(words):
