@@ -19,6 +19,14 @@ from tailwater.fields import list_frames, read_frame, read_polydata, to_frame
 from tailwater.program import call
 
 
+def names_in(block):
+    """Keys of a block of the summary and of those in it; those of probes are on another page."""
+    for name, value in block.items():
+        yield name
+        if isinstance(value, dict) and name not in ("probes", "results"):
+            yield from names_in(value)
+
+
 class Runs(PackageTest):
     def setUp(self):
         super().setUp()
@@ -98,6 +106,10 @@ class Runs(PackageTest):
         self.assertEqual(len(run.steps), run.summary["steps"]["count"])
         self.assertEqual(run.results["depth"]["type"], "depth")
         self.assertIn("done", repr(run))
+        # The reference names each of them.
+        page = (Path(__file__).resolve().parents[2] / "docs/reference/summary.md").read_text(encoding="utf-8")
+        names = {*names_in(run.summary), *run.steps.columns, run.steps.index.name}
+        self.assertEqual({name for name in names if f"`{name}`" not in page}, set())
 
     def test_measurements_are_scored(self):
         self.write("gauge.csv", "t [s], depth [mm]\n0, 500\n0.08, 500\n")
