@@ -21,6 +21,7 @@
 #include "case/reader.h"
 #include "checks/broken_case.h"
 #include "checks/preview.h"
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "io/messages.h"
@@ -81,10 +82,10 @@ void print_as_json(const CheckOptions& options) {
 /// Writes the previews, with the places of errors marked, and prints their paths.
 template <int Dim>
 void write_previews(const CaseSpec& spec, const CheckOptions& options, const Boundary<Dim>& boundary,
-                    const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
+                    const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls, std::span<const Duct<Dim>> ducts,
                     std::span<const Vec<Dim>> bad_places = {}) {
   const std::filesystem::path preview = preview_file(options);
-  write_text_file(preview, preview_svg(spec, boundary, fluid, walls, bad_places));
+  write_text_file(preview, preview_svg(spec, boundary, fluid, walls, ducts, bad_places));
   fmt::print("preview:   {}\n", preview.string());
   if constexpr (Dim == 3) {
     const std::filesystem::path image = std::filesystem::path(preview).replace_extension(".png");
@@ -104,7 +105,7 @@ void show_bad_places(const CaseSpec& spec, const CheckOptions& options, const Fi
   if (places.empty()) return;
   try {
     const BrokenCase<Dim> drawing = draw_broken_case<Dim>(spec);
-    write_previews<Dim>(spec, options, drawing.boundary, drawing.fluid, {}, places);
+    write_previews<Dim>(spec, options, drawing.boundary, drawing.fluid, {}, find_ducts(spec, drawing.boundary), places);
   } catch (const InputError&) {
     // Nothing can be drawn, for the reason in the findings.
   } catch (const IoError& problem) {
@@ -184,7 +185,7 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   // Cells are divided in zones only for particles with velocities.
   const auto velocities = spec.refinement.empty() ? StartVelocities::left_out : StartVelocities::found;
   const auto fluid = make_fluid_particles(spec, drawn, {}, 0, velocities);
-  write_previews<Dim>(spec, options, drawn, fluid, flow.walls.particles);
+  write_previews<Dim>(spec, options, drawn, fluid, flow.walls.particles, flow.walls.boundary.ducts);
 }
 
 void check_case(const CheckOptions& options) {
@@ -205,7 +206,7 @@ void check_case(const CheckOptions& options) {
       if (spec.general.dimension == 2) {
         check_in<2>(spec, options);
       } else {
-        check_in<3>(spec, options);
+        check_in<3>(with_sections_found(spec), options);
       }
     });
   } catch (const SolverError& failure) {

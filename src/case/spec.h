@@ -736,6 +736,8 @@ struct Section {
   double radius = 0.0;
   Coordinates through;
 
+  std::vector<Coordinates> found;  ///< m; corners of the section of a point, once found (geometry/opening.h)
+
   bool operator==(const Section&) const = default;
 
   template <class Self, class Visitor>

@@ -126,7 +126,7 @@ std::vector<int> label_rows(const std::vector<double>& x, const std::vector<std:
 
 /// Draws the ducts that the program adds beyond openings, in which the conditions of an opening hold.
 template <int Dim>
-void draw_ducts(Svg& svg, const std::vector<Duct<Dim>>& ducts, const View& view) {
+void draw_ducts(Svg& svg, std::span<const Duct<Dim>> ducts, const View& view) {
   for (const Duct<Dim>& duct : ducts) {
     const std::vector<Vec<Dim>> rim = duct.mouth.rim();
     const std::vector<Vec<Dim>> outer = duct.mouth.moved_out(duct.length).rim();
@@ -170,7 +170,7 @@ bool is_drawn(const Boundary<Dim>& boundary, const WallParticles<Dim>& walls, st
 /// The extent of everything that the picture must show.
 template <int Dim>
 Extent extent_of(const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls,
-                 const std::vector<Opening<Dim>>& ends, const std::vector<Duct<Dim>>& ducts,
+                 const std::vector<Opening<Dim>>& ends, std::span<const Duct<Dim>> ducts,
                  const std::vector<Marker>& markers, std::span<const Vec<Dim>> bad_places) {
   Extent extent;
   const auto include_faces = [&](const std::vector<WallFace<Dim>>& faces) {
@@ -307,11 +307,11 @@ void draw_marker(Svg& svg, const Marker& marker, int row, const View& view) {
 
 template <int Dim>
 std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
-                        const WallParticles<Dim>& walls, std::span<const Vec<Dim>> bad_places) {
+                        const WallParticles<Dim>& walls, std::span<const Duct<Dim>> ducts,
+                        std::span<const Vec<Dim>> bad_places) {
   const double dx = spec.particles.spacing;
   const std::vector<Marker> markers = markers_of(spec);
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
-  const std::vector<Duct<Dim>> ducts = find_ducts(spec, boundary);
   View view = fitted_view(extent_of(boundary, fluid, walls, ends, ducts, markers, bad_places), dx);
 
   std::vector<double> label_x;

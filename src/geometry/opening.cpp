@@ -205,6 +205,27 @@ std::vector<Vec<3>> corners_of_polygon(const Section& section, const CaseLabel& 
   return corners;
 }
 
+/// The corners of the part of a plane between the walls.
+std::vector<Vec<3>> corners_through_point(const Section& section, OpeningKind kind, const CaseLabel& owner,
+                                          const Vec<3>& direction, const CaseSpec& spec) {
+  std::vector<Vec<3>> corners;
+  for (const Coordinates& x : section.found) corners.push_back(to_vec<3>(x, owner, "through"));
+  if (!corners.empty()) return corners;
+  const Vec<3> point = to_vec<3>(section.through, owner, "through");
+  const Vec<3> outwards = kind == OpeningKind::inlet ? Vec<3>(-direction) : direction;
+  CaseSpec walls_alone = spec;  // whose free ends depend on the openings
+  walls_alone.inlets.clear();
+  walls_alone.outlets.clear();
+  corners = section_around(make_boundary<3>(walls_alone), point, outwards,
+                           upright_in_plane(direction, gravity_of<3>(spec)), spec.particles.spacing);
+  if (corners.empty()) {
+    throw CaseError({"{}: no walls hold water in the plane through {} at right angles to {}", owner, place(point),
+                     vector_text(direction)},
+                    {"put the point between walls that reach its height, above the bed"});
+  }
+  return corners;
+}
+
 template <int Dim>
 Opening<Dim> make_opening(OpeningKind kind, std::string name, const Section& section, const CaseSpec& spec) {
   Opening<Dim> opening;
@@ -227,19 +248,7 @@ Opening<Dim> make_opening(OpeningKind kind, std::string name, const Section& sec
       return opening;
     }
     if (!section.through.empty()) {
-      const Vec<3> point = to_vec<3>(section.through, opening.label(), "through");
-      const Vec<3> outwards = kind == OpeningKind::inlet ? Vec<3>(-direction) : direction;
-      CaseSpec walls_alone = spec;  // whose free ends depend on the openings
-      walls_alone.inlets.clear();
-      walls_alone.outlets.clear();
-      const std::vector<Vec<3>> corners =
-          section_around(make_boundary<3>(walls_alone), point, outwards, upright_in_plane(direction, gravity), dx);
-      if (corners.empty()) {
-        throw CaseError({"{}: no walls hold water in the plane through {} at right angles to {}", opening.label(),
-                         place(point), vector_text(direction)},
-                        {"put the point between walls that reach its height, above the bed"});
-      }
-      outline(corners, direction, gravity, dx, opening);
+      outline(corners_through_point(section, kind, opening.label(), direction, spec), direction, gravity, dx, opening);
       return opening;
     }
   }
@@ -264,6 +273,28 @@ std::vector<Opening<Dim>> make_open_ends(const CaseSpec& spec) {
     openings.back().meets_air = table.beyond == Beyond::air;
   }
   return openings;
+}
+
+CaseSpec with_sections_found(const CaseSpec& spec) {
+  CaseSpec complete = spec;
+  if (spec.general.dimension == 2) return complete;
+  const auto find = [&](OpeningKind kind, const std::string& name, Section& section) {
+    if (section.through.empty()) return;
+    Opening<3> opening;
+    opening.kind = kind;
+    opening.name = name;
+    const Vec<3> direction = to_vec<3>(section.direction, opening.label(), "direction").normalized();
+    for (const Vec<3>& x : corners_through_point(section, kind, opening.label(), direction, spec)) {
+      section.found.push_back({x[0], x[1], x[2]});
+    }
+  };
+  for (std::size_t k = 0; k < complete.inlets.size(); ++k) {
+    find(OpeningKind::inlet, name_or_number(spec.inlets[k].name, "inlet", k), complete.inlets[k]);
+  }
+  for (std::size_t k = 0; k < complete.outlets.size(); ++k) {
+    find(OpeningKind::outlet, name_or_number(spec.outlets[k].name, "outlet", k), complete.outlets[k]);
+  }
+  return complete;
 }
 
 template <int Dim>

@@ -52,6 +52,10 @@ struct Opening {
 template <int Dim>
 std::vector<Opening<Dim>> make_open_ends(const CaseSpec& spec);
 
+/// The case with the sections that its openings have `through` a point, so that make_open_ends need not find them among
+/// the walls at each call. Throws CaseError as make_open_ends does.
+CaseSpec with_sections_found(const CaseSpec& spec);
+
 /// The section of a discharge probe; its normal is the direction that counts as positive. Throws CaseError likewise.
 template <int Dim>
 Opening<Dim> make_section(const ProbeTable& probe, double spacing);

@@ -14,6 +14,7 @@
 #include "base/json.h"
 #include "checks/check.h"
 #include "geometry/from_spec.h"
+#include "geometry/opening.h"
 #include "io/messages.h"
 #include "parallel/at_start.h"
 #include "results/summary_file.h"
@@ -138,9 +139,10 @@ void require_sound_geometry(const CaseSpec& spec, const Communicator& ranks, Cas
 ExitCode run_case(const CaseSpec& spec, const RunOptions& options, const Communicator& ranks,
                   const SealedFile* checkpoint) {
   return with_places(spec, [&] {
-    require_sound_geometry(spec, ranks, checkpoint == nullptr ? CaseWarnings::told : CaseWarnings::left_out);
-    return spec.general.dimension == 2 ? run_in<2>(spec, options, ranks, checkpoint)
-                                       : run_in<3>(spec, options, ranks, checkpoint);
+    const CaseSpec complete = with_sections_found(spec);
+    require_sound_geometry(complete, ranks, checkpoint == nullptr ? CaseWarnings::told : CaseWarnings::left_out);
+    return spec.general.dimension == 2 ? run_in<2>(complete, options, ranks, checkpoint)
+                                       : run_in<3>(complete, options, ranks, checkpoint);
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "checks/broken_case.h"
 #include "checks/preview.h"
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "geometry/meshes.h"
 #include "sampling/wall_particles.h"
@@ -26,7 +27,8 @@ std::string preview(const CaseSpec& spec) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
   return preview_svg<Dim>(
       spec, boundary, make_fluid_particles<Dim>(spec, boundary),
-      make_dummy_particles<Dim>(boundary, spec.particles.spacing, 3, {}, lattice_behind_meshes(spec, boundary)));
+      make_dummy_particles<Dim>(boundary, spec.particles.spacing, 3, {}, lattice_behind_meshes(spec, boundary)),
+      find_ducts(spec, boundary));
 }
 
 TEST(Preview, ShowsParticlesWallsProbesAndCounts) {
@@ -82,7 +84,7 @@ TEST(Preview, CirclesBadPlaces) {
   const CaseSpec spec = tank();
   const Boundary<2> boundary = make_boundary<2>(spec);
   const std::array<Vec<2>, 2> places{Vec<2>(0.5, 0.1), Vec<2>(2.5, 0.1)};
-  const std::string svg = preview_svg<2>(spec, boundary, make_fluid_particles<2>(spec, boundary), {}, places);
+  const std::string svg = preview_svg<2>(spec, boundary, make_fluid_particles<2>(spec, boundary), {}, {}, places);
   EXPECT_EQ(occurrences(svg, "<circle"), 2u);
   EXPECT_NE(svg.find(">2.5</text>"), std::string::npos) << "the picture reaches to the second place";
 }
