@@ -62,7 +62,7 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
 
 /// Errors: an inlet or an outlet
 /// - that lies across a periodic direction, overlaps a wall, cuts through water, or faces the wrong way;
-/// - that has a rim that is not on the walls;
+/// - that has a rim that is not on the walls, or on a wall that moves;
 /// - that has walls or water in the space of its duct or its jet, or shares that space with another;
 /// - that is a hole without a definition of the far side.
 template <int Dim>

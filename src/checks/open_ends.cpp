@@ -136,6 +136,26 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
   }
 }
 
+/// Checks that no part of the rim is on a moving wall alone: the opening stays where it is drawn.
+template <int Dim>
+void check_rim_rests(const CaseSpec& spec, const Boundary<Dim>& boundary, const Opening<Dim>& end, Findings& findings) {
+  const double tolerance = rim_tolerance(end) * spec.particles.spacing;
+  for (const Vec<Dim>& x : whole_rim(end, spec.particles.spacing)) {
+    const NearestWall<Dim> wall = boundary.nearest(x, tolerance);
+    if (wall.face < 0 || !boundary.walls[boundary.faces[wall.face].wall].moves()) continue;
+    const bool rests = std::ranges::any_of(boundary.faces, [&](const WallFace<Dim>& face) {
+      return !boundary.walls[face.wall].moves() && (closest_point(face, x) - x).norm() <= tolerance;
+    });
+    if (rests) continue;
+    findings.push_back(
+        Finding::error({"{} has its rim at {} on {}, which moves; an opening stays where it is drawn, so that a gap "
+                        "opens between them",
+                        end.label(), place(x), wall_label(boundary, boundary.faces[wall.face].wall)},
+                       {"end the moving wall before the opening, and draw a wall at rest around the opening"}));
+    return;
+  }
+}
+
 /// Checks that no walls or water of the case are in the space of the duct that the program adds, or of a free jet.
 template <int Dim>
 void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& channel_end,
@@ -262,6 +282,7 @@ Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, co
   for (const ChannelEnd<Dim>& end : ends) {
     check_direction(spec, end.mouth, findings);
     check_rim(spec, boundary, end.mouth, findings);
+    check_rim_rests(spec, boundary, end.mouth, findings);
     check_space_beyond(spec, boundary, end, findings);
     check_beyond(spec, boundary, end, findings);
     if (check_fluid_beyond(spec, end, fluid, findings)) check_facing(spec, boundary, end.mouth, findings);

@@ -63,6 +63,19 @@ TEST(EndChecks, AHoleNeedsSomethingBeyond) {
   EXPECT_EQ(errors_of(flush_inlet), "");
 }
 
+// An opening stays where it is drawn: a wall that leaves its rim would leave a gap.
+TEST(EndChecks, AnOpeningInAMovingWallIsRefused) {
+  CaseSpec spec = tank_with_slot();
+  spec.outlets[0].beyond = Beyond::air;
+  spec.walls[1].displacement = {"0.1*t", "0"};
+  const std::string refused = errors_of(spec);
+  EXPECT_NE(refused.find("has its rim at (1, 0.2) on wall 'wall2', which moves"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("draw a wall at rest around the opening"), std::string::npos) << refused;
+  spec.walls[1].points.front() = {1.0, 0.3};
+  spec.walls.push_back(polyline({{1.0, 0.2}, {1.0, 0.3}}));
+  EXPECT_EQ(errors_of(spec).find("which moves"), std::string::npos) << errors_of(spec);
+}
+
 /// A shaft leads to this outlet, so the channel continues below it.
 TEST(EndChecks, AShaftIsNoHole) {
   CaseSpec spec = tank_over_slot();
