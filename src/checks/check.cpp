@@ -26,7 +26,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_overlap(spec, boundary, fluid));
   append(findings, check_fluid_at_walls(spec, boundary, fluid));
   append(findings, check_open_ends(spec, boundary, fluid));
-  const Findings flows = check_end_flows(spec, boundary);
+  const Findings flows = check_end_flows(spec, boundary, fluid);
   append(findings, flows);
   if (!has_error(findings)) append(findings, check_closed_space(spec, boundary, fluid));
   append(findings, check_wave_makers(spec, fluid));

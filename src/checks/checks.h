@@ -70,9 +70,9 @@ Findings check_open_ends(const CaseSpec& spec, const Boundary<Dim>& boundary, co
 
 /// Errors: the prescribed values of an inlet or outlet do not cover the run, are not finite, or jump; a level outside
 /// the opening; more water than the opening can pass; a level with a subcritical flow; an implausible speed. Warning: a
-/// flow shallower than a spacing.
+/// flow shallower than a spacing, unless water that cannot leave dams it.
 template <int Dim>
-Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary);
+Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Error: an inlet that brings more water than a space without a way out can hold. Spaces that a moving wall may open
 /// are excluded.

@@ -16,6 +16,7 @@ constexpr double rim_on_wall = 0.1;          // dx, between the top of an openin
 constexpr double least_cosine = 1.0 - 1e-6;  // between gravity's part along an opening and an edge of it
 constexpr double most_of_range = 0.5;        // of the largest value; change while a wave crosses the end
 constexpr double most_moments = 1e5;         // maximum number of times at which a quantity is evaluated
+constexpr double in_front = 3.0;             // dx; water so near to an opening stands before it
 /// Froude number beyond which a value is mistyped: a jet of 20 m/s and 0.1 m depth.
 constexpr double most_froude = 20.0;
 constexpr const char* unit_hint =
@@ -44,13 +45,61 @@ double largest_inflow(std::span<const ChannelEnd<Dim>> ends, double last) {
   return largest;
 }
 
+/// m; height of a place, 0 without gravity
+template <int Dim>
+double height_of(const Vec<Dim>& x, const Vec<Dim>& gravity) {
+  return gravity.isZero(0.0) ? 0.0 : -gravity.normalized().dot(x);
+}
+
+/// m; height of the lowest point of an opening
+template <int Dim>
+double lowest_of(const ChannelEnd<Dim>& end, const Vec<Dim>& gravity) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec<Dim>& x : end.mouth.rim()) lowest = std::min(lowest, height_of(x, gravity));
+  return lowest;
+}
+
+/// m; height to which an open end may let the water of the case sink, up to a time.
+template <int Dim>
+double lowest_level_by(const ChannelEnd<Dim>& end, const Vec<Dim>& gravity, double last) {
+  constexpr int count = 100;
+  const double bottom = lowest_of(end, gravity);
+  if (!end.is_driven()) return bottom;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= count; ++k) {
+    const double time = last * k / count;
+    if (end.holds_level()) lowest = std::min(lowest, std::max(bottom, end.flow.level->at(time)));
+    if (end.flow.feeds() && end.discharge(time, end.height) < 0.0) return bottom;
+  }
+  return lowest;
+}
+
+/// Whether water of the start stands deeper than a spacing before an inlet, and no other opening is so low that it may
+/// leave. Then the inflow does not become critical. Collective.
+template <int Dim>
+bool is_dammed(const CaseSpec& spec, const ChannelEnd<Dim>& inlet, std::span<const ChannelEnd<Dim>> ends,
+               const FluidParticles<Dim>& fluid) {
+  const double dx = spec.particles.spacing;
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  const double deep = lowest_of(inlet, gravity) + dx;
+  const bool own = std::ranges::any_of(fluid.position, [&](const Vec<Dim>& x) {
+    const double distance = -inlet.mouth.beyond(x);
+    return distance >= 0.0 && distance < in_front * dx && inlet.mouth.spans(x) && height_of(x, gravity) > deep;
+  });
+  return fluid.ranks.any(own) && std::ranges::none_of(ends, [&](const ChannelEnd<Dim>& end) {
+           return &end != &inlet && lowest_level_by(end, gravity, spec.time.end) < deep;
+         });
+}
+
 /// Checks the prescribed values of one open end over the run.
 template <int Dim>
 class EndFlowCheck {
  public:
-  /// `inflow` [m^3/s] is the largest into the case.
-  EndFlowCheck(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end, double inflow)
+  /// `inflow` [m^3/s] is the largest into the case; `is_dammed` as above.
+  EndFlowCheck(const CaseSpec& spec, const Boundary<Dim>& boundary, const ChannelEnd<Dim>& end, double inflow,
+               bool is_dammed)
       : inflow_(inflow),
+        is_dammed_(is_dammed),
         end_(end),
         full_gravity_(gravity_of<Dim>(spec)),
         label_(end.opening.label()),
@@ -161,7 +210,7 @@ class EndFlowCheck {
 
   /// A discharge may begin and end at 0: only one that never makes a row of particles is reported.
   void look_at_thinness() {
-    if (end_.flow.level || !end_.flow.feeds() || end_.gravity == 0.0 || has_lid_) return;
+    if (end_.flow.level || !end_.flow.feeds() || end_.gravity == 0.0 || has_lid_ || is_dammed_) return;
     const double critical = end_.largest_depth(last_);
     if (critical == 0.0 || critical >= dx_) return;
     findings_.push_back(Finding::warning(
@@ -239,6 +288,7 @@ class EndFlowCheck {
   static constexpr const char* discharge_unit = Dim == 2 ? "m^2/s" : "m^3/s";
 
   double inflow_;  ///< m^3/s
+  bool is_dammed_;
   const ChannelEnd<Dim>& end_;
   Vec<Dim> full_gravity_;  ///< m/s^2
   CaseLabel label_;
@@ -251,13 +301,15 @@ class EndFlowCheck {
 }  // namespace
 
 template <int Dim>
-Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+Findings check_end_flows(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Findings findings;
   if (boundary.faces.empty()) return findings;  // check_open_ends reports this
   const std::vector<ChannelEnd<Dim>> ends = make_channel_ends<Dim>(spec);
   const double inflow = largest_inflow<Dim>(ends, spec.time.end);
   for (const ChannelEnd<Dim>& end : ends) {
-    if (end.is_driven()) append(findings, EndFlowCheck<Dim>(spec, boundary, end, inflow).findings());
+    if (!end.is_driven()) continue;
+    const bool dammed = end.flow.feeds() && is_dammed<Dim>(spec, end, ends, fluid);
+    append(findings, EndFlowCheck<Dim>(spec, boundary, end, inflow, dammed).findings());
   }
   return findings;
 }

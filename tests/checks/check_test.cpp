@@ -1158,9 +1158,25 @@ TEST(Check, WhatAnInletCannotPassIsAnError) {
   expect_only(check(fast), Severity::error, {"at 50 m/s, which is implausible", "a velocity in m/s"});
   fast.inlets[0].velocity = 1.0;
   expect_only(check(fast), Severity::error, {"level is given, but the flow is subcritical", "remove the level"});
-  CaseSpec thin = flume(0.09);  // critical at 0.094 m
-  expect_only(check(thin), Severity::warning,
-              {"critical at a depth of 0.0938 m at most, less than the spacing of 0.1 m"});
+}
+
+// The flow is critical at 0.094 m where it is free to be so. Water that cannot sink below a spacing dams it.
+TEST(Check, AThinInflowIsReportedWhereNothingDamsIt) {
+  CaseSpec spec = flume(0.09);
+  EXPECT_TRUE(check(spec).empty()) << "0.4 m of water, and the level beyond: " << listed(check(spec));
+  const auto expect_warning = [&] {
+    expect_only(check(spec), Severity::warning,
+                {"critical at a depth of 0.0938 m at most, less than the spacing of 0.1 m"});
+  };
+  spec.outlets[0].level = "0.4 - 0.035*t";
+  expect_warning();
+  spec.outlets[0].level.reset();
+  expect_warning();
+  spec.outlets.clear();
+  spec.walls = {polyline({{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}})};
+  EXPECT_TRUE(check(spec).empty()) << "a basin: " << listed(check(spec));
+  spec.fluid = {box_fluid({1.5, 0.0}, {2.0, 0.4})};
+  expect_among(check(spec), Severity::warning, {"critical at a depth of 0.0938 m"});
 }
 
 TEST(Check, ALevelOutsideItsOpeningIsAnError) {
