@@ -84,6 +84,8 @@ void BodyCoupling<Dim>::begin() {
   bodies_.has_stagnant_water = flow_.setup.ranks.any(!bodies_.stagnant.empty());
   gaps_.measure(bodies_.stagnant);
   gaps_.hold_water(flow_, bodies_.stagnant);
+  bodies_.sealed = gaps_.find_sealed(flow_.state.particles.pressure);
+  let_through_films(bodies_.sealed, flow_);
   allowed_tension_ = allowed_tension(flow_);
   add_air_stiffness();
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "air/enclosed_air.h"
-#include "bodies/narrow_gaps.h"
 #include "case/formulation.h"
 
 namespace tailwater {
@@ -27,10 +26,11 @@ std::vector<int> hull_of_each(std::size_t count, const std::vector<int>& hulls) 
 
 template <int Dim>
 FixedHulls<Dim>::FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hulls, const std::vector<int>& body_of_wall,
-                            double spacing)
+                            double spacing, bool has_probes)
     : hulls_(std::move(hulls)),
       hull_of_wall_(hull_of_each(boundary.walls.size(), hulls_)),
-      surfaces_(make_hull_surfaces(boundary, hull_of_wall_, body_of_wall, spacing)) {
+      surfaces_(make_hull_surfaces(boundary, hull_of_wall_, body_of_wall, spacing)),
+      has_probes_(has_probes) {
   const bool moves = std::ranges::any_of(boundary.walls, &WallProperties::moves);
   const double reach = reach_of_shares * spacing;
   for (const WallPatch<Dim>& patch : make_wall_patches(boundary, spacing)) {
@@ -50,9 +50,31 @@ void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   const NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
   std::vector<bool> faces_wall;
   for (std::size_t k = 0; k < hulls_.size(); ++k) faces_wall.push_back(gaps.wall_across(static_cast<int>(k)) >= 0);
+  has_films_ = gaps.has_films();
   std::erase_if(patches_, [&](const WallPatch<Dim>& patch) {
     return !faces_wall[static_cast<std::size_t>(hull_of_wall_[boundary.faces[patch.face].wall])];
   });
+}
+
+template <int Dim>
+void FixedHulls<Dim>::claim(const Flow<Dim>& /*flow*/, std::span<Role> /*role*/) {
+  sealed_ = {};  // until the gaps of this step are known
+}
+
+/// Changes the rows of a second projection, which adds to a pressure that films have changed already.
+template <int Dim>
+void FixedHulls<Dim>::write_rows(Flow<Dim>& flow) {
+  let_correction_through_films(sealed_, flow.pressure_rows);
+}
+
+template <int Dim>
+int FixedHulls<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
+  if (!has_hulls() || !has_films_) return 0;
+  NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
+  gaps.measure({});
+  sealed_ = gaps.find_sealed(flow.state.particles.pressure);
+  let_through_films(sealed_, flow);
+  return 0;
 }
 
 /// Moments are about the origin.
@@ -64,7 +86,7 @@ ForceSums<Dim> FixedHulls<Dim>::new_sums(const Flow<Dim>& flow) const {
 template <int Dim>
 void FixedHulls<Dim>::report(Flow<Dim>& flow) {
   has_report_ = false;
-  if (!has_hulls() || !air_of(flow).state.pockets.empty()) return;
+  if (!has_probes_ || !has_hulls() || !air_of(flow).state.pockets.empty()) return;
   NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
   gaps.measure(gaps.find_stagnant());
   for (std::size_t k = 0; k < hulls_.size(); ++k) {
@@ -130,8 +152,7 @@ void FixedHulls<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*start
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_fixed_hulls(const CaseSpec& spec, const Setup<Dim>& setup,
                                             const Boundary<Dim>& boundary) {
-  const bool is_covered =
-      traits_of(spec).no_floating.empty() && spec.liquids.empty() && spec.refinement.empty() && has_force_probe(spec);
+  const bool is_covered = traits_of(spec).no_floating.empty() && spec.liquids.empty() && spec.refinement.empty();
   if (!is_covered) return nullptr;
   const std::vector<int> body_of_wall = bodies_of_walls(make_bodies<Dim>(spec), boundary.walls.size());
   std::vector<int> hulls;
@@ -139,7 +160,8 @@ std::unique_ptr<Part<Dim>> make_fixed_hulls(const CaseSpec& spec, const Setup<Di
     if (is_hull(spec.walls[w]) && body_of_wall[w] < 0) hulls.push_back(static_cast<int>(w));
   }
   if (hulls.empty()) return nullptr;
-  auto part = std::make_unique<FixedHulls<Dim>>(boundary, std::move(hulls), body_of_wall, setup.scale.spacing);
+  auto part = std::make_unique<FixedHulls<Dim>>(boundary, std::move(hulls), body_of_wall, setup.scale.spacing,
+                                                has_force_probe(spec));
   if (!part->has_hulls()) return nullptr;
   return part;
 }

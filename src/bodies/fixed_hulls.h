@@ -1,6 +1,7 @@
 // Fixed hulls, as a part of a flow: closed walls with water around them that are no bodies, such as a pipe on the bed.
 // Where another wall is near such a hull, force probes get the integral of the pressure over its surface
-// (narrow_gaps.h). The water is not changed.
+// (narrow_gaps.h). Water that hulls seal has the pressure of that beyond the films (sealed_water.cpp). Other water is
+// not changed.
 #pragma once
 
 #include <string_view>
@@ -8,6 +9,7 @@
 
 #include "bodies/force_sums.h"
 #include "bodies/hulls.h"
+#include "bodies/narrow_gaps.h"
 #include "flow/part.h"
 
 namespace tailwater {
@@ -19,15 +21,20 @@ template <int Dim>
 class FixedHulls final : public Part<Dim> {
  public:
   FixedHulls() = default;  ///< none
-  /// The walls in `hulls`, indices into Boundary::walls; `body_of_wall` has the body of each wall, or -1.
+  /// The walls in `hulls`, indices into Boundary::walls; `body_of_wall` has the body of each wall, or -1;
+  /// `has_probes`, whether anything reads forces.
   FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hulls, const std::vector<int>& body_of_wall,
-             double spacing);
+             double spacing, bool has_probes);
 
   /// False where no wall is so near a hull that its force is not that of pairs, unless walls move.
   bool has_hulls() const { return !patches_.empty(); }
 
   std::string_view name() const override { return "fixed_hulls"; }
+  bool changes_rows() const override { return sealed_.is_any(); }
   void begin(Flow<Dim>& flow) override;
+  void claim(const Flow<Dim>& flow, std::span<Role> role) override;
+  void write_rows(Flow<Dim>& flow) override;
+  int pose(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt) override;
   void stay(Flow<Dim>& flow) override;
   void correct(Flow<Dim>& flow, double dt) override;
   void project_again(Flow<Dim>& flow, const std::vector<double>& correction, double dt) override;
@@ -50,6 +57,9 @@ class FixedHulls final : public Part<Dim> {
   std::vector<int> hull_of_wall_;  ///< of each wall, or -1
   std::vector<ContactSurface<Dim>> surfaces_;
   std::vector<WallPatch<Dim>> patches_;
+  bool has_probes_ = false;
+  bool has_films_ = true;    ///< whether a film can be in a gap of a hull
+  SealedWater sealed_;       ///< in this step
   bool has_report_ = false;  ///< whether a hull is in the report of this step
 };
 

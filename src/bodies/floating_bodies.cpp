@@ -96,6 +96,7 @@ StepLimits FloatingBodies<Dim>::step_limits(const Flow<Dim>& /*flow*/) const {
 template <int Dim>
 void FloatingBodies<Dim>::claim(const Flow<Dim>& /*flow*/, std::span<Role> /*role*/) {
   stagnant.clear();  // until the gaps of this step are known
+  sealed = {};
 }
 
 template <int Dim>
@@ -109,6 +110,7 @@ template <int Dim>
 void FloatingBodies<Dim>::write_rows(Flow<Dim>& flow) {
   for (const std::size_t i : stagnant)
     flow.pressure_rows.row(i).finish_as_zero();  // no later pass corrects its pressure
+  let_correction_through_films(sealed, flow.pressure_rows);
 }
 
 template <int Dim>

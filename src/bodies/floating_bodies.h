@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bodies/hulls.h"
+#include "bodies/sealed_water.h"
 #include "flow/flow.h"
 #include "flow/part.h"
 #include "geometry/wall_patches.h"
@@ -30,6 +31,7 @@ class FloatingBodies final : public Part<Dim> {
   std::vector<Twist<Dim>> start_velocity;  ///< of each body
   std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps
   bool has_stagnant_water = false;         ///< on any rank
+  SealedWater sealed;                      ///< by the bodies
 
   /// Degrees of freedom of all bodies.
   std::size_t freedom_count() const;
@@ -44,7 +46,7 @@ class FloatingBodies final : public Part<Dim> {
 
   std::string_view name() const override { return "bodies"; }
   bool needs_wall_forces() const override { return true; }
-  bool changes_rows() const override { return has_stagnant_water; }
+  bool changes_rows() const override { return has_stagnant_water || sealed.is_any(); }
   StepLimits step_limits(const Flow<Dim>& flow) const override;
   void claim(const Flow<Dim>& flow, std::span<Role> role) override;
   /// Starts with the acceleration of the last step.

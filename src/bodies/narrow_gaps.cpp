@@ -304,9 +304,8 @@ void NarrowGaps<Dim>::measure_pairs() {
 }
 
 template <int Dim>
-Eigen::VectorXd NarrowGaps<Dim>::find_pressure(const std::vector<double>& pressure) const {
-  const auto count = [](std::size_t n) { return static_cast<Eigen::Index>(n); };
-  std::vector<double> sums(2 * pieces_.size(), 0.0);  // per piece: weight of its water, weighted heads
+std::vector<double> NarrowGaps<Dim>::heads_beside(const std::vector<double>& pressure) const {
+  std::vector<double> sums(2 * pieces_.size(), 0.0);
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     const Piece& piece = pieces_[n];
     for (std::size_t k = 0; k < piece.water.size(); ++k) {
@@ -315,6 +314,13 @@ Eigen::VectorXd NarrowGaps<Dim>::find_pressure(const std::vector<double>& pressu
     }
   }
   flow_.setup.ranks.sum_of_each(sums);
+  return sums;
+}
+
+template <int Dim>
+Eigen::VectorXd NarrowGaps<Dim>::find_pressure(const std::vector<double>& pressure) const {
+  const auto count = [](std::size_t n) { return static_cast<Eigen::Index>(n); };
+  const std::vector<double> sums = heads_beside(pressure);
   Eigen::VectorXd p = Eigen::VectorXd::Zero(count(pieces_.size()));
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     if (sums[2 * n] == 0.0) continue;

@@ -21,12 +21,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/box.h"
 #include "bodies/floating_bodies.h"
 #include "bodies/hulls.h"
+#include "bodies/sealed_water.h"
 #include "neighbours/cell_grid.h"
 
 namespace tailwater {
@@ -43,6 +45,13 @@ class NarrowGaps {
   void measure(std::span<const std::size_t> stagnant);
   /// Holds the stagnant water at rest, with the pressure of the water around it. Changes the flow's rows. Collective.
   void hold_water(Flow<Dim>& flow, std::span<const std::size_t> stagnant) const;
+
+  /// The sealed water at the present `pressure` [Pa], after `measure` (sealed_water.cpp). Collective.
+  SealedWater find_sealed(const std::vector<double>& pressure) const;
+  /// Whether some piece faces another wall across a gap that a film can fill.
+  bool has_films() const {
+    return std::ranges::any_of(pieces_, [](const Piece& piece) { return piece.film > 0.0; });
+  }
 
   /// Calls push(hull, x, force, couple) for the force that pairs miss on each piece of a hull in `pressure` [Pa], which
   /// is up to date. All ranks make the same calls. Collective.
@@ -168,6 +177,10 @@ class NarrowGaps {
   std::int32_t nearest_piece(int hull, const Vec<Dim>& x) const;
   template <class Visit>
   void visit_near(const Piece& piece, double reach, Visit&& visit) const;
+  /// For each piece the weight of its water, and the weighted sum of the heads [Pa]. Collective.
+  std::vector<double> heads_beside(const std::vector<double>& pressure) const;
+  /// Mean head [Pa] of other water beside the gap of piece e, by the number of each piece's water and `heads_beside`.
+  std::optional<double> head_beyond(std::size_t e, std::span<const double> water, std::span<const double> heads) const;
   /// Pressure [Pa] at each piece.
   Eigen::VectorXd find_pressure(const std::vector<double>& pressure) const;
   double weight_of(const Vec<Dim>& x) const { return flow_.setup.liquid.density * flow_.setup.gravity.dot(x); }
