@@ -207,13 +207,20 @@ void append_plate(const WallTable& table, int wall, const CaseLabel& owner, doub
 
 /// Plates are filed in cells of space before the memory of the particles is known (Boundary::hang_screens).
 constexpr double most_cells_of_a_plate = 3e8;
+/// Cells beside the plate, which are filed, take a hundred bytes each. So long a plate has 1e8 particles and more.
+constexpr double most_filed_cells = 1e7;
 
 template <int Dim>
 void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, const CaseLabel& owner, double spacing,
                        double reach) {
   Box<Dim> box;
-  for (std::size_t f = first_face; f < boundary.faces.size(); ++f) box.extend(boundary.faces[f].box());
-  if (box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= most_cells_of_a_plate) return;
+  double filed = 0.0;
+  for (std::size_t f = first_face; f < boundary.faces.size(); ++f) {
+    box.extend(boundary.faces[f].box());
+    filed += boundary.faces[f].measure() / power<Dim>(reach) * reach;
+  }
+  const bool has_few_cells = box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= most_cells_of_a_plate;
+  if (has_few_cells && filed <= most_filed_cells) return;
   const double length = box.sizes().maxCoeff();
   throw CaseError(
       {"{} reaches over {:.3g}, which is {:.3g} times particles.spacing", owner, Amount{length, "m"}, length / spacing},

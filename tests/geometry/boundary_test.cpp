@@ -173,6 +173,9 @@ TEST(Boundary, BadWallsAreNamedWithThePoint) {
   spec.walls = {polyline({{0, 0}, {0, 1.5e9}})};
   spec.walls[0].shape = WallShape::plate;
   EXPECT_TRUE(contains(input_error_of(spec), "reaches over 1.5e+09 m, which is 1.5e+10 times particles.spacing"));
+  // So does the check before a shorter one takes gigabytes of cells.
+  spec.walls[0].points[1][1] = 1e7;
+  EXPECT_TRUE(contains(input_error_of(spec), "reaches over 1e+07 m, which is 1e+08 times particles.spacing"));
   spec = empty_case(0.1, 3);
   spec.walls = {polyline({{0, 0, 0}, {1, 0, 0}})};
   EXPECT_TRUE(contains(input_error_of(spec), "2D only"));
