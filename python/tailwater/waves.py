@@ -45,8 +45,8 @@ def gauge_numbers(time, depth, period=None):
     heights, periods = single_waves(time, elevation)
     if heights.size < MIN_WAVES:
         if period is None:
-            raise DataError(f"holds {heights.size} waves between {time[0]:.4g} and {time[-1]:.4g} s; at least {MIN_WAVES} are "
-                            "needed; remedy: give a longer window, or the period of regular waves (--period)")
+            raise DataError(f"holds {heights.size} waves; at least {MIN_WAVES} are needed; remedy: give a longer window, or the "
+                            "period of regular waves (--period)")
         heights, periods = np.array([np.ptp(elevation)]), np.array([period])
     highest_third = np.sort(heights)[::-1][:max(1, heights.size // 3)]
     frequency, density = spectrum(time, elevation)
@@ -56,6 +56,15 @@ def gauge_numbers(time, depth, period=None):
             "H_third_m": float(highest_third.mean()), "H_max_m": float(heights.max()), "crest_m": float(elevation.max()),
             "trough_m": float(elevation.min()), "Hm0_m": float(4 * np.sqrt(energy)), "T_mean_s": float(periods.mean()),
             "T_peak_s": 1 / peak_frequency(frequency[inside], density[inside])}
+
+
+def numbers_in_window(gauges, n, window, period):
+    """`gauge_numbers` of gauge n. An error names the gauge and the window that the user gave, which `gauges` may have
+    shortened to whole waves."""
+    try:
+        return gauge_numbers(gauges.time, gauges.depth[n], period)
+    except DataError as error:
+        raise DataError(f"gauge '{gauges.names[n]}' between {window[0]:.4g} and {window[1]:.4g} s {error}") from error
 
 
 def set_up(time, depth, still, period):
@@ -295,19 +304,16 @@ def analyse(run, names=(), start=None, end=None, depth=None, period=None, respon
     `period` (s) is that of regular waves, found if it is not given; `responses` names motion and force probes, `overtopping`
     discharge probes. Throws DataError."""
     gauges = Gauges(run, list(names), start, end)
+    window = (float(gauges.time[0]), float(gauges.time[-1]))
     known = period or period_of_case(run)
-    first = gauge_numbers(gauges.time, gauges.depth[0], known)
+    first = numbers_in_window(gauges, 0, window, known)
     harmonics = regular_harmonics(gauges, known or first["T_mean_s"], bool(period))
     mean_period = harmonics[0].period if harmonics else first["T_mean_s"]
-    window = (float(gauges.time[0]), float(gauges.time[-1]))
     gauges.whole_waves(mean_period)
     numbers = {"from_s": float(gauges.time[0]), "to_s": float(gauges.time[-1]), "gauges": {}}
     spectra = {}
     for n, (name, reading) in enumerate(zip(gauges.names, gauges.depth)):
-        try:
-            numbers["gauges"][name] = gauge_numbers(gauges.time, reading, mean_period if harmonics else None)
-        except DataError as error:
-            raise DataError(f"gauge '{name}' {error}") from error
+        numbers["gauges"][name] = numbers_in_window(gauges, n, window, mean_period if harmonics else known)
         numbers["gauges"][name] |= set_up(gauges.time, reading, gauges.still[n], mean_period)
         if harmonics:
             numbers["gauges"][name]["harmonics"] = harmonic_numbers(harmonics[n])

@@ -111,6 +111,17 @@ class WaveGauges(unittest.TestCase):
         self.assertAlmostEqual(numbers["regular"]["H_there_m"], 0.05, delta=0.05 * 5e-3)
         self.assertNotIn("separation", numbers)
 
+    def test_a_short_window_takes_the_period_of_the_maker(self):
+        """Waves that are not regular yet: the window of 1.9 periods is shortened to one."""
+        run = self.run_with([(0.05, PERIOD, 1, 0.3), (0.04, 0.9, 1, 1.0)])
+        start = 20 - 1.9 * PERIOD
+        with self.assertRaisesRegex(DataError, rf"^gauge 'g1' between {start:.4g} and .* holds . waves; at least 3"):
+            waves.analyse(run, ["g1"], start=start)
+        effective = run.path / "case.effective.toml"
+        effective.write_text(effective.read_text() + f'[[wave_maker]]\nwaves = "regular"\nperiod = {PERIOD}\n')
+        gauge = waves.analyse(Run(run.path), ["g1"], start=start)[0]["gauges"]["g1"]
+        self.assertEqual(gauge["T_mean_s"], PERIOD)
+
     def test_harmonics_have_their_amplitudes_and_phases(self):
         """Stokes' bound second harmonic beside a free one of the same frequency: four gauges separate them."""
         k, free = (float(waves.wave_numbers(n / PERIOD, DEPTH, GRAVITY)) for n in (1, 2))
