@@ -44,6 +44,27 @@ Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const B
                       1.01 * least_draught * dx * per_draught, 0.99 * draught / least_draught})};
 }
 
+/// A warning for each key of a body that has an effect only on degrees of freedom that the body does not have.
+template <int Dim>
+Findings check_freedoms(const FloatingBody<Dim>& body) {
+  Findings findings;
+  const auto check_key = [&](std::string_view key, const Twist<Dim>& numbers) {
+    for (int entry = 0; entry < numbers.size(); ++entry) {
+      if (numbers[entry] == 0.0 || std::ranges::find(body.free, entry) != body.free.end()) continue;
+      const std::string_view name = freedom_names[entry < Dim ? entry : entry + 1];  // 2D has no z, 3D no "rotation"
+      findings.push_back(
+          Finding::warning({"{} has {:.4g} for {}, in which the body is not free to move: this number has no effect",
+                            CaseLabel("body", body.name).with_key(key), numbers[entry], name},
+                           {"add \"{}\" to `free`, or give 0", name}));
+    }
+  };
+  check_key("springs", body.springs);
+  check_key("damping", body.linear_damping);
+  check_key("quadratic_damping", body.quadratic_damping);
+  check_key("extra_mass", body.extra_mass);
+  return findings;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -53,6 +74,7 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const Box<Dim> box = box_of_body(body, boundary);
     if (box.isEmpty()) continue;
     append(findings, check_mass(spec, body, box));
+    append(findings, check_freedoms(body));
     const Vec<Dim>& centre = body.drawn.centre;
     const CaseLabel label("body", body.name);
     if (box.exteriorDistance(centre) > corner_tolerance * spec.particles.spacing) {

@@ -93,7 +93,7 @@ template <int Dim>
 Findings check_speeds(const CaseSpec& spec);
 
 /// Error: a body so light that it floats with a draught of a twentieth of dx. Warning: a centre of mass outside of the
-/// body, or an inertia that no mass within it has.
+/// body; an inertia that no mass within it has; a spring, a damper or extra mass for a motion that is not free.
 template <int Dim>
 Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
 

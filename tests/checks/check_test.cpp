@@ -622,6 +622,18 @@ TEST(Check, ABodyHasItsMassWhereItsWallsAre) {
                {"body 'boat' has its centre of mass at (0, 0.1), outside of its walls"});
 }
 
+TEST(Check, SpringsAndDampersOfFixedMotionsAreReported) {
+  CaseSpec spec = tank_with_boat();
+  spec.bodies[0].free = {"y"};
+  spec.bodies[0].springs = {0, 20, 0};
+  for (const Finding& found : check(spec)) EXPECT_EQ(found.message().find("springs"), std::string::npos);
+  spec.bodies[0].damping = {3, 0, 0};
+  expect_among(check(spec), Severity::warning, {"body 'boat': damping has 3 for x", "add \"x\" to `free`"});
+  spec.bodies[0].damping.clear();
+  spec.bodies[0].extra_mass = {0, 0, 2};
+  expect_among(check(spec), Severity::warning, {"body 'boat': extra_mass has 2 for rotation"});
+}
+
 TEST(Check, AMooringIsFastenedToItsBody) {
   CaseSpec spec = tank_with_boat();
   WallTable box = spec.walls.back();
