@@ -27,6 +27,7 @@ WIDTH = 900  # pixels of a picture
 # s; the moment that is shown, where it is not the end.
 MOMENTS = {"dam-break": 0.8, "dam-break-box": 0.6, "shore": 3.6, "pier": 0.6, "run-up": 3.4, "solitary-wave": 2.0,
            "sloshing": 4.5, "floating-box": 0.1}
+COLOURS = {"tank": "pressure"}  # instead of the speed, where nothing should move
 NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "seconds")
 HEAD = """\
 # Gallery
@@ -36,8 +37,8 @@ NAME my.toml` writes one; then
 
     tailwater check my.toml && tailwater run my.toml --out my_run --pictures 6
 
-checks and runs it. Colours show the speed. CPU times are of one core of a busy machine (`scripts/gallery.py`):
-{processor}.
+checks and runs it. Colours show the speed, that of the tank the pressure. CPU times are of one core of a busy machine
+(`scripts/gallery.py`): {processor}.
 """
 
 
@@ -86,7 +87,7 @@ def draw(name, run):
     with tempfile.TemporaryDirectory() as scratch:
         for picture in (run.path / "pictures").glob("*.png"):
             picture.unlink()
-        folder = pictures.draw(run, times=[MOMENTS.get(name, run.times[-1])])
+        folder = pictures.draw(run, times=[MOMENTS.get(name, run.times[-1])], by=COLOURS.get(name, "speed"))
         image = Image.open(next(folder.glob("*.png"))).convert("RGB")
         image.thumbnail((WIDTH, WIDTH))
         IMAGES.mkdir(parents=True, exist_ok=True)

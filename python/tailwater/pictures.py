@@ -62,8 +62,8 @@ def draw_3d(run, frames, chosen, folder, look_from, by):
 
 
 def draw(run, times=(), count=COUNT, look_from=plots.LOOK_FROM, by="speed"):
-    """Writes the files; returns the folder of the pictures. `by` is what colours the water: "speed", "spacing" or
-    "liquid". Throws DataError; IoError; ImportError for a run in 3D without VTK."""
+    """Writes the files; returns the folder of the pictures. `by` is what colours the water: "speed", "pressure",
+    "spacing" or "liquid". Throws DataError; IoError; ImportError for a run in 3D without VTK."""
     frames = list_frames(run.path)
     if not frames:
         raise DataError(f"{run.path}: the run wrote no field files")
@@ -86,7 +86,7 @@ def main(arguments):
     parser.add_argument("--from", type=number, nargs=3, dest="look_from", default=plots.LOOK_FROM, metavar=("X", "Y", "Z"),
                         help="3D: view direction, from the centre of the walls to the camera "
                              f"({' '.join(f'{value:g}' for value in plots.LOOK_FROM)})")
-    parser.add_argument("--colour", choices=("speed", "spacing", "liquid"), default="speed",
+    parser.add_argument("--colour", choices=("speed", "pressure", "spacing", "liquid"), default="speed",
                         help="what the colour of the water shows (speed): zones of refinement have several spacings")
     options = parser.parse_args(arguments)
     if options.count < 1:

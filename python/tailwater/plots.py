@@ -125,8 +125,8 @@ def with_spacing(run, frame):
 
 
 def colouring(run, frames, by):
-    """The colours of frames `by` "speed", "spacing" or "liquid"; None if nothing moves or there is no velocity. Throws
-    DataError if the particles of the run do not differ so."""
+    """The colours of frames `by` "speed", "pressure", "spacing" or "liquid"; None if nothing moves or there is no velocity.
+    Throws DataError if the particles of the run do not differ so, or have no pressure."""
     if by == "speed":
         def highest(frame):
             velocity = frame.fields.get("velocity")
@@ -135,9 +135,13 @@ def colouring(run, frames, by):
         speed = max(highest(frame) for frame in frames)
         return Colouring("velocity", "speed (m/s)", (0, speed), "max") if speed > 0 else None
     if not all(by in frame.fields for frame in frames):
-        why = ("it has no [[refinement]], so all particles have one spacing" if by == "spacing" else
-               "it has one liquid, or was made by an earlier version")
+        why = {"spacing": "it has no [[refinement]], so all particles have one spacing",
+               "pressure": "its output.fields have no pressure",
+               "liquid": "it has one liquid, or was made by an earlier version"}[by]
         raise DataError(f"{run.path}: the pictures cannot be coloured by {by}: {why}; remedy: --colour speed")
+    if by == "pressure":
+        highest = max(np.percentile(frame.fields["pressure"], COLOURED_SHARE) for frame in frames)
+        return Colouring("pressure", "pressure (Pa)", (0, max(highest, 1.0)), "max")
     if by == "liquid":
         names = {k: liquid["name"] for k, liquid in enumerate(run.case["liquid"])}
         return Colouring("liquid", "", (0, max(1, len(names) - 1)), ticks=names)

@@ -137,6 +137,16 @@ class Pictures(PicturesTest):
         self.assertEqual([path.name for path in (folder / "pictures").iterdir()], ["picture_00002.png"], "the last")
         self.assertFalse((folder / "fields/surface.pvd").exists())
 
+    def test_colour_of_the_pressure(self):
+        folder, file = self.run_of(2, frames=1), "fields/fields_00000.vtp"
+        synthetic_run.write_frame(folder / file, block(6, 4))
+        self.assertIn("have no pressure", self.command(folder, "--colour", "pressure")[2])
+        pressure = np.linspace(0, 500, 24)
+        synthetic_run.write_frame(folder / file, block(6, 4), pressure=pressure)
+        with unittest.mock.patch.object(plots, "draw_particles", wraps=plots.draw_particles) as drawn:
+            self.assertEqual(self.command(folder, "--colour", "pressure")[0], 0)
+        np.testing.assert_allclose(drawn.call_args.kwargs["array"], pressure, rtol=1e-6)
+
     def test_particles_have_their_own_size_and_the_colour_of_their_spacing(self):
         folder = self.run_of(2, frames=1)
         self.assertIn("no [[refinement]]", self.command(folder, "--colour", "spacing")[2])
