@@ -7,7 +7,7 @@ Usage: scripts/evidence.py           makes the file from docs/validation.json, t
 
 A page has tables between `<!-- evidence: WHAT -->` and `<!-- evidence: end -->`, where `WHAT` is `all`, names of studies, keys
 in quotes after `keys`, as in `keys "zhou1999.noise"`, `counts`, a sentence, or `work CASE`, the cost of errors beside other
-codes, or `readings`, those of laboratories within the scatter of the data. `short` before `WHAT` leaves only quantity, value, target, result and spacing. A figure in a sentence stands between
+codes, `beside CASE`, their cost, noise and arrival, or `readings`, those of laboratories within the scatter of the data. `short` before `WHAT` leaves only quantity, value, target, result and spacing. A figure in a sentence stands between
 `<!-- figure: KEY -->` and `<!-- figure: end -->`. docs/validation.json is what `tailwater validate` wrote.
 """
 import json
@@ -19,12 +19,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
 from tailwater_validation.evidence import NO_TARGET, NOT_RUN, evidence_of, read_targets  # noqa: E402
-from tailwater_validation.peers import work_table  # noqa: E402
+from tailwater_validation.peers import beside_table, work_table  # noqa: E402
 from tailwater_validation.scatter import read_scatter, readings_table  # noqa: E402
 
 SOURCE, KEPT = ROOT / "docs" / "validation.json", ROOT / "python" / "tailwater" / "evidence.json"
 TABLE = re.compile(r"<!-- evidence: (?!end -->)(?P<what>.+?) -->\n.*?<!-- evidence: end -->", re.DOTALL)
 FIGURE = re.compile(r"<!-- figure: (?!end -->)(?P<key>.+?) -->(?P<text>.*?)<!-- figure: end -->", re.DOTALL)
+PEERS = {"work": work_table, "beside": beside_table}  # tables of other codes
 HEAD = ("quantity", "compared with", "ours", "target", "result", "finest spacing, rows in the water's height", "integrator", "walls",
         "CPU s", "paper", "target since")
 SHORT = ("quantity", "ours", "target", "result", HEAD[5])  # columns of a short table
@@ -77,8 +78,8 @@ def table(evidence, what):
         return "\n".join([*lines, sentence(evidence), "<!-- evidence: end -->"])
     if what == "readings":
         return "\n".join([*lines, *readings_table(stored()["studies"], read_scatter()), "<!-- evidence: end -->"])
-    if what.split()[0] == "work":
-        return "\n".join([*lines, *work_table(*what.split()[1:]), "<!-- evidence: end -->"])
+    if what.split()[0] in PEERS:
+        return "\n".join([*lines, *PEERS[what.split()[0]](*what.split()[1:]), "<!-- evidence: end -->"])
     words = what.removeprefix("short ")
     columns = HEAD if words == what else SHORT
     lines += [origin(evidence, what == "all"), ""]

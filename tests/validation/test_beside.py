@@ -80,17 +80,26 @@ class Records(unittest.TestCase):
         self.assertEqual([found[name] for name in ("finished", "message", "chosen_by")], [False, "it blew up", "its authors"])
         self.assertNotIn("cpu_s", found)
 
+    def test_commands_of_stored_records_exist(self):
+        for file in (peers.FILE, *filter(Path.is_file, peers.WORK.values())):
+            told = json.loads(file.read_text(encoding="utf-8"))
+            codes = told.get("runs") or [code for case in told["cases"] for code in case["codes"]]
+            for word in (word for code in codes for word in code["command"].split() if word.startswith("benchmarks/")):
+                self.assertTrue((ROOT / word.rstrip(":,")).is_file(), f"{file.name}: {word}")
+
     def test_finished_codes_are_the_peers(self):
         case = beside.zhou(0.03, 1.0)
         done = beside.done_with_readings(10.0, 2.0, 800, 100, np.array([0.5, 0.9]), np.array([0.0, case.pressure]))
         code = beside.Code("defaults", "its authors", "run it", lambda: done)
-        cases = [{"case": "zhou", "codes": [beside.record(name, code, case, run, "") for name, run in (
+        cases = [{"case": "zhou", "spacing_m": 0.03, "end_s": 1.0, "codes": [beside.record(name, code, case, run, "") for name, run in (
             ("Tailwater", done), ("Other", done), ("Broken", None))]}]
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "beside.json"
-            file.write_text(json.dumps({"cases": cases}), encoding="utf-8")
+            file.write_text(json.dumps({"cases": cases, "date": "today", "processor": "some"}), encoding="utf-8")
             self.assertEqual(peers.peers_of("zhou", "cpu_s_per_simulated_s", file), (("Other", 5.0, 5.0),))
             figures = peers.figures_of_peers(file)
+            table = peers.beside_table("zhou", file)
+        self.assertIn("| Other | defaults (its authors) | 100 | 5 | 1 |", table[-1])
         self.assertEqual(figures["beside.zhou.Other.arrival_s"], "0.9 s")
         self.assertFalse([key for key in figures if "Broken" in key])
 

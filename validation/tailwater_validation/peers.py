@@ -52,3 +52,21 @@ def work_table(case="zhou", path=None):
         return lines
     between = [f"{told['between_readers'][name]:.3g}" if name in told["between_readers"] else "" for name in errors]
     return [*lines, f"| the laboratory, one reading beside the other | | | {' | '.join(between)} |"]
+
+
+def beside_table(case, path=FILE):
+    """The runs of a case of beside.py as a table in Markdown, below a line that says where they are from."""
+    told = json.loads(path.read_text(encoding="utf-8"))
+    codes = codes_of(case, path)
+    ours = next(code["cpu_s_per_simulated_s"] for code in codes if code["code"] == OURS)
+    one = next(one for one in told["cases"] if one["case"] == case)
+    lines = [f"`benchmarks/beside.py --case {case}`, dx = {one['spacing_m']:g} m, to {one['end_s']:g} s, {told['date']}, "
+             f"{told['processor']}.", "",
+             "| code | settings (chosen by) | steps | CPU s per simulated s | Tailwater over this code | noise, over rho g H | arrival, s |",
+             "|" + " --- |" * 7]
+    for code in codes:
+        cost = code["cpu_s_per_simulated_s"]
+        numbers = ("-" if code[name] is None else f"{code[name]:.3g}" for name in ("noise_over_rho_g_H", "arrival_s"))
+        lines.append(f"| {code['code']} | {code['settings']} ({code['chosen_by']}) | {code['steps']} | {cost:.3g} | "
+                     f"{ours / cost:.2g} | {' | '.join(numbers)} |")
+    return lines
