@@ -124,6 +124,7 @@ std::string case_reference_markdown() {
       "# The case file\n\n"
       "For users who look up a table or a key. `tailwater run --help-case=markdown > docs/reference/case-file.md` "
       "writes this page; change `src/case/spec.h` instead.\n\n"
+      "[examples.md](examples.md) shows each table in a case, with a picture and its output.\n\n"
       "A case file is [TOML](https://toml.io). Unknown keys are errors, and all problems of a file are reported at "
       "once.\n\n"
       "## Numbers\n\n"

@@ -95,6 +95,7 @@ std::string probe_reference_markdown() {
       "[case-file.md](case-file.md#probe) lists the keys of a probe. Units are SI. In 2D forces, volumes and energies "
       "are per\nmetre of width. `tailwater run --help-case=probes > docs/reference/probes.md` writes this page; "
       "change\n`src/case/probe_types.cpp` instead.\n\n"
+      "[examples.md](examples.md#types-of-probes) shows each type in a case.\n\n"
       "- *Columns* are those of `probes/NAME.csv`, after `time_s`. The last cell says whether a `[[measurement]]` can "
       "name the\n  column, without its unit: `force_x`. A measurement without `column` is compared with the default "
       "(the first of several\n  columns).\n"
