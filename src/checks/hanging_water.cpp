@@ -71,6 +71,12 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
   const auto water = cells_of<Dim>(space, fluid);
   for (const auto& c : water) is_wet[space.index(c)] = true;
   Findings findings;
+  if (spec.physics.tension > largest_tension) {
+    findings.push_back(Finding::warning(
+        {"{} = {:.3g} is more than the pressure of the atmosphere, {:.0e} Pa: real water boils before it hangs so high",
+         CaseLabel("physics").with_key("tension"), Amount{spec.physics.tension, "Pa"}, largest_tension},
+        {"give at most {:.0e} Pa", largest_tension}));
+  }
   for (const auto& c : water) {
     if (is_known[space.index(c)]) continue;
     const ConnectedWater connected =

@@ -259,6 +259,19 @@ TEST(Check, BodyThatIsTooLight) {
   EXPECT_TRUE(check_bodies<2>(spec, make_boundary<2>(spec)).empty());
 }
 
+TEST(Check, BodyThatTurnsTooEasily) {
+  CaseSpec spec = box_between_walls(0.5, 1.0);
+  spec.bodies[0].mass = 100.0;
+  spec.bodies[0].inertia = {1e-4};
+  expect_only(check_bodies<2>(spec, make_boundary<2>(spec)), Severity::error,
+              {"body 'b': inertia", "0.001 m from their centre", "0.05 spacings", "at least 0.000631 kg m^2"});
+  spec.bodies[0].inertia = {7e-4};
+  EXPECT_TRUE(check_bodies<2>(spec, make_boundary<2>(spec)).empty());
+  spec.bodies[0].inertia = {1e-4};
+  spec.bodies[0].free = {"x", "y"};
+  EXPECT_TRUE(check_bodies<2>(spec, make_boundary<2>(spec)).empty());
+}
+
 TEST(Check, WallThatCrossesItself) {
   CaseSpec spec = tank();
   spec.walls.push_back(polyline({{2, 0}, {3, 1}, {3, 0}, {2, 1}}));
@@ -337,6 +350,9 @@ TEST(Check, ASiphonThatWouldRunEmpty) {
     spec.fluid.push_back(inside);
   }
   expect_only(check(spec), Severity::warning, {"below wall 'hood'", "0.4 m above its own surface", "siphon"});
+  spec.physics.tension = 2e5;  // more than the atmosphere carries
+  expect_only(check(spec), Severity::warning, {"physics.tension = 2e+05 Pa", "boils", "at most 1e+05 Pa"});
+  spec.physics.tension = 0.0;
   spec.air.pockets = AirPockets::adiabatic;  // half of it comes down in 2 s
   expect_only(check(spec), Severity::warning, {"below wall 'hood'", "0.4 m above its own surface", "siphon"});
   spec.fluid = basins;
