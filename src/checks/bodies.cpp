@@ -77,13 +77,12 @@ Findings check_inertia(const CaseSpec& spec, const FloatingBody<Dim>& body) {
     const double radius = std::sqrt(inertia / body.mass);
     const double least = least_radius_of_inertia * spec.particles.spacing;
     if (radius >= least) continue;
-    return {Finding::error(
-        {"{} has an inertia of {:.4g}, as if its {:.4g} kg were {:.3g} m from their centre, less than {} spacings: its "
-         "rotation cannot be computed from the pressure of the particles",
-         CaseLabel("body", body.name).with_key("inertia"), Amount{inertia, "kg m^2"}, body.mass, radius,
-         least_radius_of_inertia},
-        {"give an inertia of at least {:.3g} kg m^2, or leave the rotation out of `free`",
-         1.01 * body.mass * least * least})};
+    return {Finding::error({"{} = {:.4g} puts its {:.4g} kg only {:.3g} m from their centre, less than {} spacings: "
+                            "its rotation cannot be computed from the pressure of the particles",
+                            CaseLabel("body", body.name).with_key("inertia"), Amount{inertia, "kg m^2"}, body.mass,
+                            radius, least_radius_of_inertia},
+                           {"give an inertia of at least {:.3g} kg m^2, or leave the rotation out of `free`",
+                            1.01 * body.mass * least * least})};
   }
   return {};
 }

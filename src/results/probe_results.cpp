@@ -36,7 +36,7 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
     case Statistic::max_mean: {
       const LargestMean& largest =
           declared.statistic == Statistic::max_rate ? column.largest_rate : column.largest_mean;
-      const double over = std::max(averaging_time(probe.averaging_time, spec.particles.spacing, speed), probe.interval);
+      const double over = std::max(averaging_time(probe.averaging_time, spec.particles.spacing, speed), largest.over());
       if (over == 0.0) return quantity(largest.value(), at(largest.time()));
       return quantity(largest.value(), fmt::format("{}, mean over {:.2g} s", at(largest.time()), over));
     }

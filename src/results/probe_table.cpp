@@ -69,6 +69,7 @@ void LargestMean::add(double time, double sum, double over) {
   if (!is_whole_ || mean > value_) {
     value_ = mean;
     time_ = time;
+    over_ = time - begin;
     const auto above = std::ranges::partition_point(means_, [&](const Line& one) { return one.value < low * mean; });
     rise_ = above == means_.begin() ? 0.0 : time - std::prev(above)->time;
   }

@@ -20,6 +20,9 @@ class LargestMean {
   /// Over the whole table if that is shorter.
   double value() const;
   double time() const { return time_; }  ///< s; end of the stretch
+  double over() const {
+    return over_;
+  }  ///< s; its length: longer than that of `add` between lines that are farther apart
   /// s; from the last line at which the mean is below a tenth of the largest to the largest; 0: there is none
   double rise() const { return rise_; }
 
@@ -35,6 +38,7 @@ class LargestMean {
   bool is_whole_ = false;    ///< whether a stretch was within the table
   double value_ = 0.0;
   double time_ = 0.0;
+  double over_ = 0.0;
   double rise_ = 0.0;
 };
 

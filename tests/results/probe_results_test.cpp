@@ -43,6 +43,9 @@ TEST(ProbeTable, LargestMeansAreOverTheTimeGiven) {
   EXPECT_NEAR(largest(0.05).value(), 2600.0, 1e-8);
   EXPECT_NEAR(largest(0.05).time(), 0.15, 1e-12);
   EXPECT_NEAR(largest(0.1).value(), 2300.0, 1e-8);
+  // Between two lines there is no shorter mean.
+  EXPECT_NEAR(largest(0.001).over(), 0.01, 1e-12);
+  EXPECT_NEAR(largest(0.05).over(), 0.05, 1e-12);
   EXPECT_NEAR(largest(1.0).value(), 230.0 / 0.2, 1e-8);  // longer than the table
   // A rate of its own, linear between lines: 1 from 1 s to 2 s.
   std::ofstream(path) << "time_s,pressure_Pa\n0,0\n1,1\n2,1\n3,0\n";
@@ -105,15 +108,17 @@ TEST_F(Results, AreToldInWords) {
       words("\"discharge\"\nfrom = [0, 0]\nto = [0, 1]",
             "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n1,0.06,0.01\n2,0.04,0.06\n", 2.0),
       "0.05000 m^3/s per m (mean of the second half), largest 0.06000 m^3/s per m (at 1 s, smoothed over 0.64 s)");
-  // From the impulse alone: the pressures at the times of the lines have no effect.
+  // From the impulse alone: the pressures at the times of the lines have no effect. Without a time for means they are
+  // those between two lines.
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]",
             "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,0,0\n1.5,99,50\n2,9000,6050\n3,7000,7050\n4,900,7950\n", 4.0, 3),
-      "950.0 Pa (mean of the second half), largest 12000 Pa (at 2 s), risen in 0.5000 s (from a tenth of it), "
+      "950.0 Pa (mean of the second half), largest 12000 Pa (at 2 s, mean over 0.5 s), risen in 0.5000 s (from a tenth "
+      "of it), "
       "impulse 7950 Pa s (at 4 s)");
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]", "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,12,12\n2,9,21\n", 2.0, 3),
-      "9.000 Pa (mean of the second half), largest 12.00 Pa (at 1 s), impulse 21.00 Pa s (at 2 s)");
+      "9.000 Pa (mean of the second half), largest 12.00 Pa (at 1 s, mean over 1 s), impulse 21.00 Pa s (at 2 s)");
   EXPECT_EQ(words("\"depth\"\nat = [0, 0]", "time_s,connected_m,highest_m,wet_m\n", 2.0), "");
 }
 
