@@ -247,8 +247,8 @@ double NarrowGaps<Dim>::share_beside(const Piece& piece) const {
   return std::clamp((resolved_gap - piece.nearest / piece.spacing) / (resolved_gap - open_gap), 0.0, 1.0);
 }
 
-/// Weight of a piece, or of a pair `beyond` [m] it, by the distance from the wall beside a narrow gap. Up to half a
-/// support there are pairs that the space of the wall lacks.
+/// Weight of a piece, or of a pair that acts `beyond` [m] it along the surface, by the distance from the wall beside a
+/// narrow gap. Up to half a support there are pairs that the space of the wall lacks.
 template <int Dim>
 double NarrowGaps<Dim>::share_at(const Piece& piece, double beyond) const {
   return std::clamp(2.0 - 2.0 * (piece.gap + beyond) / (widest_gap * piece.spacing), 0.0, 1.0);
@@ -275,7 +275,9 @@ void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int hull, std::vector<double
     const std::int32_t n = nearest_piece(hull, middle);
     if (n < 0) continue;
     const Piece& piece = pieces_[n];
-    const double share = share_beside(piece) * share_at(piece, piece.towards_hull.dot(middle - piece.x));
+    const Vec<Dim> normal = piece.surface.normalized();
+    const Vec<Dim> along = middle - piece.x - normal.dot(middle - piece.x) * normal;
+    const double share = share_beside(piece) * share_at(piece, piece.towards_hull.dot(along));
     if (share == 0.0) continue;
     const double both = inverse_reference(terms, i) + inverse_reference(terms, j);
     const double unit = both * share * particles.volume[i] * particles.volume[j];
