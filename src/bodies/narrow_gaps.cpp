@@ -209,7 +209,8 @@ template <int Dim>
 void NarrowGaps<Dim>::measure(std::span<const std::size_t> stagnant) {
   if (pieces_.empty()) return;
   is_stagnant_.assign(flow_.state.particles.size(), 0.0);
-  for (const std::size_t i : stagnant) is_stagnant_[i] = 1.0;
+  stagnant_.assign(stagnant.begin(), stagnant.end());
+  for (const std::size_t i : stagnant_) is_stagnant_[i] = 1.0;
   flow_.halo().exchange(is_stagnant_);
   look_at_water();
   find_shares();
@@ -255,6 +256,23 @@ double NarrowGaps<Dim>::share_at(const Piece& piece, double beyond) const {
 }
 
 template <int Dim>
+double NarrowGaps<Dim>::share_of_pair(const Piece& piece, const Vec<Dim>& middle) const {
+  const Vec<Dim> normal = piece.surface.normalized();
+  const Vec<Dim> along = middle - piece.x - normal.dot(middle - piece.x) * normal;
+  return share_beside(piece) * share_at(piece, piece.towards_hull.dot(along));
+}
+
+template <int Dim>
+double NarrowGaps<Dim>::share_replaced(std::size_t i, int hull, const Vec<Dim>& x) const {
+  const bool is_in_gap_of_hull =
+      std::ranges::any_of(water_, [&](const WaterInGap& water) { return water.i == i && water.hull == hull; });
+  if (is_in_gap_of_hull) return 1.0;
+  const Vec<Dim> middle = 0.5 * (x + flow_.state.particles.position[i]);
+  const std::int32_t n = nearest_piece(hull, middle);
+  return n < 0 ? 0.0 : share_of_pair(pieces_[n], middle);
+}
+
+template <int Dim>
 void NarrowGaps<Dim>::add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& force, std::vector<double>& sums) const {
   const Twist<Dim> both = twist_of<Dim>(force, moment_of<Dim>(x - pieces_[n].x, force));
   both.add_to(sums.data() + static_cast<std::size_t>(n) * twist_size);
@@ -274,10 +292,7 @@ void NarrowGaps<Dim>::subtract_pairs(std::size_t i, int hull, std::vector<double
     const Vec<Dim> middle = x - 0.5 * pairs.d(i, k);
     const std::int32_t n = nearest_piece(hull, middle);
     if (n < 0) continue;
-    const Piece& piece = pieces_[n];
-    const Vec<Dim> normal = piece.surface.normalized();
-    const Vec<Dim> along = middle - piece.x - normal.dot(middle - piece.x) * normal;
-    const double share = share_beside(piece) * share_at(piece, piece.towards_hull.dot(along));
+    const double share = share_of_pair(pieces_[n], middle);
     if (share == 0.0) continue;
     const double both = inverse_reference(terms, i) + inverse_reference(terms, j);
     const double unit = both * share * particles.volume[i] * particles.volume[j];

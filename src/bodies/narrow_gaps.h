@@ -66,17 +66,17 @@ class NarrowGaps {
     }
   }
 
-  /// Calls push(hull, x, force) for the pair forces of owned stagnant water on hulls, which the film replaces.
+  /// Calls push(hull, x, force) for the pair forces of owned stagnant water on hulls, as far as the film replaces them.
   template <class Push>
   void visit_pairs_in_films(const std::vector<double>& pressure, Push&& push) const {
-    const Particles<Dim>& particles = flow_.state.particles;
-    for (const WaterInGap& water : water_) {
-      if (is_stagnant_[water.i] == 0.0) continue;
-      visit_pair_forces(flow_, water.i, pressure, [&](std::size_t j, const Vec<Dim>& force) {
-        if (particles.is_fluid(j)) return;
-        const auto row = particles.wall_row[j];
-        if (hulls_.of_wall[flow_.walls.particles.wall[row]] != water.hull) return;
-        push(water.hull, flow_.walls.particles.position[row], force);
+    const WallParticles<Dim>& walls = flow_.walls.particles;
+    for (const std::size_t i : stagnant_) {
+      visit_pair_forces(flow_, i, pressure, [&](std::size_t j, const Vec<Dim>& force) {
+        if (flow_.state.particles.is_fluid(j)) return;
+        const auto row = flow_.state.particles.wall_row[j];
+        const int hull = hulls_.of_wall[walls.wall[row]];
+        const double share = hull < 0 ? 0.0 : share_replaced(i, hull, walls.position[row]);
+        if (share > 0.0) push(hull, walls.position[row], Vec<Dim>(share * force));
       });
     }
   }
@@ -170,6 +170,10 @@ class NarrowGaps {
   double width_at(int hull, const Vec<Dim>& x) const;
   double share_beside(const Piece& piece) const;
   double share_at(const Piece& piece, double beyond) const;
+  double share_of_pair(const Piece& piece, const Vec<Dim>& middle) const;
+  /// Fraction of the force of stagnant water on a wall particle of a hull that the film replaces: all in a gap of this
+  /// hull, in a gap between others as much as of other pairs.
+  double share_replaced(std::size_t i, int hull, const Vec<Dim>& x) const;
   /// Adds a force per pressure at x to the sums of piece n.
   void add(std::int32_t n, const Vec<Dim>& x, const Vec<Dim>& force, std::vector<double>& sums) const;
   void subtract_pairs(std::size_t i, int hull, std::vector<double>& sums) const;
@@ -194,7 +198,8 @@ class NarrowGaps {
   Eigen::MatrixXd shares_;                  ///< weight of each piece of the rim in the head of each film
   std::vector<WaterInGap> water_;
   std::int32_t gap_count_ = 0;
-  std::vector<double> is_stagnant_;  ///< of all particles, 1 or 0
+  std::vector<std::size_t> stagnant_;  ///< owned
+  std::vector<double> is_stagnant_;    ///< of all particles, 1 or 0
   static constexpr std::size_t twist_size = Dim + turns<Dim>;
   CellGrid<Dim> places_;  ///< of the pieces
   Box<Dim> around_;       ///< box around all places near pieces
