@@ -15,7 +15,7 @@ from tailwater.errors import DataError
 from tailwater.fields import list_frames, read_frame
 from tailwater.tables import read_table
 
-from . import flume, openings, shallow_water, thick_flows, two_liquids
+from . import beji_battjes, flume, openings, shallow_water, thick_flows, two_liquids
 from .profiles import rms
 
 REST = 5.0  # s from which a tank counts as at rest; at most half the run
@@ -428,5 +428,6 @@ def wedge_entry(run):
 
 FLOWS = {"tank": tank, "taylor-green": taylor_green, "standing-wave": standing_wave, "drop": drop,
          "poiseuille": poiseuille, "couette": couette, "uniform-flow": uniform_flow, "jet": jet, "slot": slot,
-         "water-wedge": water_wedge, "wedge-entry": wedge_entry, **shallow_water.FLOWS, **flume.FLOWS, **openings.FLOWS,
-         **thick_flows.FLOWS, **two_liquids.FLOWS}
+         "water-wedge": water_wedge, "wedge-entry": wedge_entry,
+         "beji-battjes": beji_battjes.beji_battjes, **shallow_water.FLOWS, **flume.FLOWS, **openings.FLOWS, **thick_flows.FLOWS,
+         **two_liquids.FLOWS}
