@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from .case import Case
+from .case_features import dimension_of
 from .case_text import toml_value
 from .command_line import Parser, complain
 from .errors import DataError, Error, InputError
@@ -232,6 +233,21 @@ def text_with(case, tables):
     return case.file.read_text(encoding="utf-8").rstrip("\n") + "\n\n" + "\n".join(tables)
 
 
+def require_zones(case):
+    """Throws InputError if the case has errors, or features that zones do not work with."""
+    call("check", *case.words(), "--no-preview")
+    # Outside of all walls: `check` rejects this zone, after the features.
+    beyond = [1e6] * dimension_of(tomllib.loads(case.file.read_text(encoding="utf-8")))
+    zone = Zone(np.array(beyond), 2 * np.array(beyond), ROWS)
+    try:
+        cost_of(case, [table_of(zone, names_for(case, 1)[0])])
+    except InputError as error:
+        features = [f"{case.file}: {before}{after}" for _, before, after in
+                    (line.partition("zones of refinement") for line in str(error).splitlines()) if before]
+        if features:
+            raise InputError("\n".join(features)) from None
+
+
 def accepted(case, zones):
     """(tables, lines on their cost, refused): the zones that `tailwater check` accepts beside each other. Throws
     InputError if the case itself has errors."""
@@ -261,6 +277,7 @@ def source_of(options):
     given = options.source
     if not given.is_dir():
         case = Case(given)
+        require_zones(case)
         return case, coarse_run(case, options.out or Path(f"{given.stem}_coarse")), {}
     if (given / "study.json").exists():
         study = Study.load(given)

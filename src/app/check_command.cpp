@@ -144,11 +144,13 @@ void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, const RunEsti
   const double finest = spec.particles.spacing * field.finest();
   const double of_one_spacing = estimate.water / power<Dim>(finest);
   const double cost = cost_in_zones / std::max(of_one_spacing, 1.0);
+  const double at_start = cost * estimate.particles.fluid;
+  const double largest = cost * std::min(most, of_one_spacing);
   fmt::print(
       "            the time step is that of {:.4g} m; with this spacing everywhere {:.0f} fluid particles\n"
-      "            cost over that of such a run: about {:.2g} at the start, at most {:.2g}\n"
+      "            cost over that of such a run: about {:.2g} at the start{}\n"
       "            calm water beside a border that lies deep keeps moving at 0.002 sqrt(g depth)\n",
-      finest, of_one_spacing, cost * estimate.particles.fluid, cost * std::min(most, of_one_spacing));
+      finest, of_one_spacing, at_start, largest > at_start ? fmt::format(", at most {:.2g}", largest) : "");
 }
 
 template <int Dim>

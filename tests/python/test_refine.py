@@ -90,6 +90,15 @@ class Refine(unittest.TestCase):
                 refine.main([str(self.case), *map(str, words)])
             self.assertEqual(end.exception.code, 2)
 
+    def test_a_case_without_room_for_zones_is_not_run(self):
+        thick = self.folder / "thick.toml"
+        thick.write_text(CASE.replace('[[fluid]]', '[[fluid]]\nliquid = "mud"') +
+                         '[[liquid]]\nname = "mud"\nviscosity = 1.0\n')
+        code, _, err = self.command(thick)
+        self.assertEqual(code, 2)
+        self.assertIn("thick.toml: zones of refinement do not work with other liquids than water; ", err)
+        self.assertFalse(Path("thick_coarse").exists())
+
     def test_water_that_is_thin_everywhere_needs_another_spacing(self):
         run = tw.Run(self.run_folder)
         with self.assertRaisesRegex(tw.DataError, "particles.spacing = 0.05"):
