@@ -50,7 +50,7 @@ void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   const NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
   std::vector<bool> faces_wall;
   for (std::size_t k = 0; k < hulls_.size(); ++k) faces_wall.push_back(gaps.wall_across(static_cast<int>(k)) >= 0);
-  has_films_ = gaps.has_films();
+  can_seal_ = gaps.can_seal();
   std::erase_if(patches_, [&](const WallPatch<Dim>& patch) {
     return !faces_wall[static_cast<std::size_t>(hull_of_wall_[boundary.faces[patch.face].wall])];
   });
@@ -69,7 +69,7 @@ void FixedHulls<Dim>::write_rows(Flow<Dim>& flow) {
 
 template <int Dim>
 int FixedHulls<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
-  if (!has_hulls() || !has_films_) return 0;
+  if (!has_hulls() || !can_seal_) return 0;
   NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
   gaps.measure({});
   sealed_ = gaps.find_sealed(flow.state.particles.pressure);

@@ -58,7 +58,7 @@ class FixedHulls final : public Part<Dim> {
   std::vector<ContactSurface<Dim>> surfaces_;
   std::vector<WallPatch<Dim>> patches_;
   bool has_probes_ = false;
-  bool has_films_ = true;    ///< whether a film can be in a gap of a hull
+  bool can_seal_ = true;     ///< whether a hull touches another wall, or a film can be between them
   SealedWater sealed_;       ///< in this step
   bool has_report_ = false;  ///< whether a hull is in the report of this step
 };

@@ -40,7 +40,10 @@ void NarrowGaps<Dim>::find_pieces(double time) {
     const OtherWall wall = other_wall(hull, x, hulls_.reach * dx);
     if (wall.distance >= hulls_.reach * dx) continue;
     const double measure = hulls_.can_stand ? wetted_measure(patch, wall, is_flat[hull] != 0) : patch.measure;
-    if (measure == 0.0) continue;
+    if (measure == 0.0) {
+      contacts_.push_back({hull, x, dx});
+      continue;
+    }
     const double gap = std::max(0.0, wall.distance);
     const double facing = -boundary.faces[patch.face].normal.dot(wall.normal);
     pieces_.push_back({.hull = hull,

@@ -63,21 +63,39 @@ void NarrowGaps<Dim>::visit_near(const Piece& piece, double reach, Visit&& visit
 
 template <int Dim>
 void NarrowGaps<Dim>::number_gaps() {
+  std::vector<Contact> all = contacts_;
+  for (const Piece& piece : pieces_) all.push_back({piece.hull, piece.x, piece.spacing});
+  std::vector<Vec<Dim>> places;
+  for (const Contact& one : all) places.push_back(one.x);
+  const CellGrid<Dim> grid(places, reach_of_pairs * flow_.setup.scale.spacing);
+  const auto are_neighbours = [](const Contact& a, const auto& b) {
+    return a.hull == b.hull && (a.x - b.x).norm() < reach_of_neighbours * b.spacing;
+  };
+  std::vector<std::int32_t> number(all.size(), -1);
   std::vector<std::size_t> next;
-  for (std::size_t n = 0; n < pieces_.size(); ++n) {
-    if (pieces_[n].gap_number >= 0) continue;
-    pieces_[n].gap_number = gap_count_;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    if (number[n] >= 0) continue;
+    number[n] = gap_count_;
     next.push_back(n);
     while (!next.empty()) {
-      const std::size_t k = next.back();
+      const Contact& one = all[next.back()];
       next.pop_back();
-      visit_near(pieces_[k], reach_of_neighbours, [&](std::size_t m) {
-        if (pieces_[m].gap_number >= 0) return;
-        pieces_[m].gap_number = gap_count_;
-        next.push_back(m);
+      grid.for_each_near(one.x, [&](std::int32_t m) {
+        const bool is_neighbour =
+            all[m].hull == one.hull && (all[m].x - one.x).norm() < reach_of_neighbours * one.spacing;
+        if (!is_neighbour || number[m] >= 0) return;
+        number[m] = gap_count_;
+        next.push_back(static_cast<std::size_t>(m));
       });
     }
     ++gap_count_;
+  }
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    Piece& piece = pieces_[n];
+    piece.gap_number = number[contacts_.size() + n];
+    grid.for_each_near(piece.x, [&](std::int32_t m) {
+      if (static_cast<std::size_t>(m) < contacts_.size() && are_neighbours(all[m], piece)) piece.is_at_contact = true;
+    });
   }
 }
 

@@ -48,9 +48,9 @@ class NarrowGaps {
 
   /// The sealed water at the present `pressure` [Pa], after `measure` (sealed_water.cpp). Collective.
   SealedWater find_sealed(const std::vector<double>& pressure) const;
-  /// Whether some piece faces another wall across a gap that a film can fill.
-  bool has_films() const {
-    return std::ranges::any_of(pieces_, [](const Piece& piece) { return piece.film > 0.0; });
+  /// Whether a hull touches another wall, or some piece faces one across a gap that a film can fill.
+  bool can_seal() const {
+    return !contacts_.empty() || std::ranges::any_of(pieces_, [](const Piece& piece) { return piece.film > 0.0; });
   }
 
   /// Calls push(hull, x, force, couple) for the force that pairs miss on each piece of a hull in `pressure` [Pa], which
@@ -125,9 +125,18 @@ class NarrowGaps {
     double wetness = 0.0;                  ///< 1 where water is beside the piece
     double nearest = 0.0;                  ///< m; the narrowest gap in reach of pairs from here
     std::int32_t gap_number = -1;          ///< common to all pieces of a gap
+    bool is_at_contact = false;            ///< whether a contact of the hull is beside it
     std::vector<std::size_t> water = {};   ///< owned particles beside the piece
     std::vector<Vec<Dim>> places = {};     ///< m; of these particles, or of their images
     std::vector<double> weights = {};      ///< w W of these particles at x
+  };
+
+  /// A place where a hull lies flat on a wall or is in it. Water seeps through contacts: they join the gaps beside
+  /// them.
+  struct Contact {
+    int hull;
+    Vec<Dim> x;
+    double spacing;  ///< m; dx here
   };
 
   /// The nearest wall that does not belong to the hull.
@@ -193,6 +202,7 @@ class NarrowGaps {
   Hulls<Dim> hulls_;
   std::vector<AffineMap<Dim>> placements_;  ///< of the surfaces
   std::vector<Piece> pieces_;               ///< identical on all ranks, except for the water
+  std::vector<Contact> contacts_;           ///< identical on all ranks
   std::vector<std::size_t> films_;          ///< pieces whose pressure is that of a film
   std::vector<std::size_t> rim_;            ///< pieces beside films
   Eigen::MatrixXd shares_;                  ///< weight of each piece of the rim in the head of each film

@@ -122,7 +122,7 @@ std::optional<double> NarrowGaps<Dim>::head_beyond(std::size_t e, std::span<cons
 template <int Dim>
 SealedWater NarrowGaps<Dim>::find_sealed(const std::vector<double>& pressure) const {
   SealedWater sealed;
-  if (films_.empty() || !flow_.setup.has_air()) return sealed;
+  if ((films_.empty() && contacts_.empty()) || !flow_.setup.has_air()) return sealed;
   // A space beside a hull that is thinly filled is full of water where it lies below the level of the water beyond.
   const Waters<Dim> waters(flow_, is_stagnant_, [&](const Vec<Dim>& x) {
     for (int hull = 0; hull < hulls_.count; ++hull) {
@@ -146,7 +146,11 @@ SealedWater NarrowGaps<Dim>::find_sealed(const std::vector<double>& pressure) co
   const std::vector<double> heads = heads_beside(pressure);
   std::vector<double> spaces;
   std::vector<double> target(flow_.state.particles.owned, -1.0);
-  for (const std::size_t e : rim_) {
+  std::vector<std::size_t> edges = rim_;  // of films and contacts
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    if (pieces_[n].is_at_contact && std::ranges::find(rim_, n) == rim_.end()) edges.push_back(n);
+  }
+  for (const std::size_t e : edges) {
     if (water[e] < 0.0) continue;
     const std::optional<double> head = head_beyond(e, water, heads);
     if (!head || *head <= -least[3 * e + 2]) continue;

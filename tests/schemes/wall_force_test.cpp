@@ -312,6 +312,23 @@ TEST(Buoyancy, OfAPipeInTheCorner) {
   EXPECT_NEAR(lift.across, 0.0, 0.05);
 }
 
+/// An octagon that lies flat on bed and side wall. Both contacts are dry, and the water between them has the head of
+/// the water around, which seeps through. Before, its pressure came and went: a lift of -0.4 to 8.
+TEST(Buoyancy, OfAnOctagonFlatInTheCorner) {
+  constexpr double dx = 1.0 / 30.0, depth = 20.0 * dx, radius = 5.0 * dx;
+  const double half_side = radius * std::tan(std::numbers::pi / 8.0);
+  std::vector<Coordinates> outline;
+  for (const auto& [x, y] : {std::pair{radius, half_side}, {half_side, radius}}) {
+    outline.insert(outline.end(), {{x, y}, {-x, y}, {-x, -y}, {x, -y}});
+  }
+  std::ranges::sort(outline, {}, [](const Coordinates& corner) { return std::atan2(corner[1], corner[0]); });
+  for (Coordinates& corner : outline) corner = {radius + corner[0], radius + corner[1]};
+  const double area = 8.0 * radius * half_side, dry = 2.0 * half_side;
+  const Lift lift = lift_of(outline, area, dx);
+  EXPECT_NEAR(lift.hull, 1.0 - depth * dry / area, 0.05);
+  EXPECT_NEAR(lift.across, -(depth - radius) * dry / area, 0.05);
+}
+
 /// A block 10 dx wide with a flat bottom above the bed. The pairs across the gap count with the piece of the bottom on
 /// which they act: they had less weight than the piece, and the lift was 12 % too large.
 TEST(Buoyancy, OfABlockAboveTheBed) {
