@@ -23,6 +23,8 @@ from .whole_file import write_whole_text
 
 __all__ = ["BAND", "Gauges", "analyse", "crest", "separate", "single_waves", "solitary", "wave_numbers"]
 
+# Readings that a period must have for its five harmonics.
+MIN_READINGS = 11
 # Waves that a window must hold for mean heights of waves of unknown period.
 MIN_WAVES = 3
 # Waves are regular if the rms of what their harmonics leave is below this fraction of the rms of the record.
@@ -290,7 +292,12 @@ def period_of_case(run):
 
 
 def regular_harmonics(gauges, period, is_given):
-    """Harmonics at each gauge if the waves are regular. A period (s) that the user gives is believed."""
+    """Harmonics at each gauge if the waves are regular. A period (s) that the user gives is believed. Throws DataError for
+    one with too few readings."""
+    readings = period / (gauges.time[1] - gauges.time[0])
+    if is_given and readings < MIN_READINGS:
+        raise DataError(f"gauges {', '.join(gauges.names)}: a period of {period:.4g} s has {readings:.2g} readings; its "
+                        f"harmonics need {MIN_READINGS}; remedy: give the period of the waves, or read the gauges more often")
     if not is_given:
         period = best_period(gauges.time, gauges.depth[0], period)
     harmonics = [fit_harmonics(gauges.time, depth, period) for depth in gauges.depth]

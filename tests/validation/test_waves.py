@@ -222,6 +222,8 @@ class WaveGauges(unittest.TestCase):
             waves.analyse(run, start=17.0)
         with self.assertRaisesRegex(DataError, "no times between"):
             waves.analyse(run, start=30.0)
+        with self.assertRaisesRegex(DataError, "a period of 0.01 s has .* readings; its harmonics need 11"):
+            waves.analyse(run, period=0.01)
         with self.assertRaisesRegex(DataError, "no motion or force probe 'box'; it has none"):
             waves.analyse(run, responses=["box"])
 
