@@ -23,7 +23,8 @@ export function filmType(): string {
 export async function record(app: App, plan: FilmPlan, tell: (share: number) => boolean): Promise<Blob | null> {
   const canvas = document.createElement("canvas");
   compose(app, canvas);
-  const stream = canvas.captureStream(plan.rate);
+  const stream = canvas.captureStream(0); // pictures on request: at a fixed rate a busy machine took none at times
+  const track = stream.getVideoTracks()[0] as CanvasCaptureMediaStreamTrack;
   const recorder = new MediaRecorder(stream, { mimeType: filmType(), videoBitsPerSecond: 8e6 });
   const chunks: Blob[] = [];
   recorder.ondataavailable = (event) => chunks.push(event.data);
@@ -40,6 +41,7 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
     await shown(app, plan.from + ((plan.to - plan.from) * i) / (n - 1));
     recorder.resume();
     compose(app, canvas);
+    track.requestFrame();
     await new Promise((resolve) => setTimeout(resolve, 1000 / plan.rate));
     whole = tell((i + 1) / n);
   }
