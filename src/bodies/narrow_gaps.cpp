@@ -63,14 +63,11 @@ void NarrowGaps<Dim>::visit_near(const Piece& piece, double reach, Visit&& visit
 
 template <int Dim>
 void NarrowGaps<Dim>::number_gaps() {
-  std::vector<Contact> all = contacts_;
+  std::vector<Contact> all = contacts_;  // then the pieces
   for (const Piece& piece : pieces_) all.push_back({piece.hull, piece.x, piece.spacing});
   std::vector<Vec<Dim>> places;
   for (const Contact& one : all) places.push_back(one.x);
   const CellGrid<Dim> grid(places, reach_of_pairs * flow_.setup.scale.spacing);
-  const auto are_neighbours = [](const Contact& a, const auto& b) {
-    return a.hull == b.hull && (a.x - b.x).norm() < reach_of_neighbours * b.spacing;
-  };
   std::vector<std::int32_t> number(all.size(), -1);
   std::vector<std::size_t> next;
   for (std::size_t n = 0; n < all.size(); ++n) {
@@ -78,25 +75,20 @@ void NarrowGaps<Dim>::number_gaps() {
     number[n] = gap_count_;
     next.push_back(n);
     while (!next.empty()) {
-      const Contact& one = all[next.back()];
+      const std::size_t k = next.back();
       next.pop_back();
-      grid.for_each_near(one.x, [&](std::int32_t m) {
-        const bool is_neighbour =
-            all[m].hull == one.hull && (all[m].x - one.x).norm() < reach_of_neighbours * one.spacing;
-        if (!is_neighbour || number[m] >= 0) return;
+      grid.for_each_near(all[k].x, [&](std::int32_t near) {
+        const auto m = static_cast<std::size_t>(near);
+        if (all[m].hull != all[k].hull || (all[m].x - all[k].x).norm() >= reach_of_neighbours * all[k].spacing) return;
+        if (k < contacts_.size() && m >= contacts_.size()) pieces_[m - contacts_.size()].is_at_contact = true;
+        if (number[m] >= 0) return;
         number[m] = gap_count_;
-        next.push_back(static_cast<std::size_t>(m));
+        next.push_back(m);
       });
     }
     ++gap_count_;
   }
-  for (std::size_t n = 0; n < pieces_.size(); ++n) {
-    Piece& piece = pieces_[n];
-    piece.gap_number = number[contacts_.size() + n];
-    grid.for_each_near(piece.x, [&](std::int32_t m) {
-      if (static_cast<std::size_t>(m) < contacts_.size() && are_neighbours(all[m], piece)) piece.is_at_contact = true;
-    });
-  }
+  for (std::size_t n = 0; n < pieces_.size(); ++n) pieces_[n].gap_number = number[contacts_.size() + n];
 }
 
 template <int Dim>

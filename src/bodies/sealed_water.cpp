@@ -1,13 +1,13 @@
-// Water that walls and films close off from all other water, such as that between a pipe and the corner of bed and side
-// wall. No surface fixes its pressure. The equation determines it up to a constant, and because the volume of so small
-// a space is no multiple of a particle's, the density source made that constant tens of kPa. Real water passes through
-// the films until the heads on both sides are equal. So sealed water does not expand on average, and its rows beside
-// films have the additional term
+// Water that walls, films and dry contacts close off from all other water, such as that between a pipe and the corner
+// of bed and side wall. No surface fixes its pressure. The equation determines it up to a constant, and because the
+// volume of so small a space is no multiple of a particle's, the density source made that constant tens of kPa. Real
+// water passes through films and contacts until the heads on both sides are equal. So sealed water does not expand on
+// average, and its rows beside films and contacts have the additional term
 //
 //   D_i (1/s - 1) (p_i - p_f),
 //
-// with the diagonal D_i and the pressure p_f of the water beyond the film at the place of the particle. The term keeps
-// the matrix symmetric and is 0 in water at rest.
+// with the diagonal D_i and the pressure p_f of the water beyond at the place of the particle. The term keeps the
+// matrix symmetric and is 0 in water at rest.
 #include "bodies/sealed_water.h"
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include <limits>
 #include <numeric>
 
-#include "base/for_each.h"
 #include "bodies/narrow_gaps.h"
 
 namespace tailwater {
@@ -146,12 +145,9 @@ SealedWater NarrowGaps<Dim>::find_sealed(const std::vector<double>& pressure) co
   const std::vector<double> heads = heads_beside(pressure);
   std::vector<double> spaces;
   std::vector<double> target(flow_.state.particles.owned, -1.0);
-  std::vector<std::size_t> edges = rim_;  // of films and contacts
-  for (std::size_t n = 0; n < pieces_.size(); ++n) {
-    if (pieces_[n].is_at_contact && std::ranges::find(rim_, n) == rim_.end()) edges.push_back(n);
-  }
-  for (const std::size_t e : edges) {
-    if (water[e] < 0.0) continue;
+  for (std::size_t e = 0; e < pieces_.size(); ++e) {
+    const bool is_beside_seal = pieces_[e].is_at_contact || std::ranges::binary_search(rim_, e);  // it is in order
+    if (!is_beside_seal || water[e] < 0.0) continue;
     const std::optional<double> head = head_beyond(e, water, heads);
     if (!head || *head <= -least[3 * e + 2]) continue;
     if (std::ranges::find(spaces, water[e]) == spaces.end()) spaces.push_back(water[e]);

@@ -1,4 +1,4 @@
-// Water that walls and films close off from all other water (sealed_water.cpp).
+// Water that walls, films and dry contacts close off from all other water (sealed_water.cpp).
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace tailwater {
 
-/// Water in spaces that walls and films close off.
+/// Water in spaces that walls, films and dry contacts close off.
 struct SealedWater {
-  /// An owned particle beside a film.
+  /// An owned particle beside a film or a contact.
   struct Rim {
     std::size_t i;
-    double pressure;  ///< Pa; at its place, with the head of the water beyond the film
+    double pressure;  ///< Pa; at its place, with the head of the water beyond
   };
   /// An owned particle of a space.
   struct Member {

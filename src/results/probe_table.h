@@ -20,9 +20,8 @@ class LargestMean {
   /// Over the whole table if that is shorter.
   double value() const;
   double time() const { return time_; }  ///< s; end of the stretch
-  double over() const {
-    return over_;
-  }  ///< s; its length: longer than that of `add` between lines that are farther apart
+  /// s; length of the stretch: longer than that of `add` between lines that are farther apart
+  double over() const { return over_; }
   /// s; from the last line at which the mean is below a tenth of the largest to the largest; 0: there is none
   double rise() const { return rise_; }
 
