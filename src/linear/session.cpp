@@ -1,5 +1,6 @@
 #include "linear/session.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -16,7 +17,7 @@
 #ifdef __SANITIZE_ADDRESS__
 /// Keeps MPI's plugins loaded. The leak checker identifies the memory to ignore by the name of the plugin
 /// (tests/support/leaks.supp), which it cannot determine after the plugin is unloaded.
-extern "C" int dlclose(void*) { return 0; }
+extern "C" int dlclose(void*) noexcept { return 0; }
 #endif
 
 namespace tailwater {
