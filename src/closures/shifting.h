@@ -1,12 +1,12 @@
 // Particle shifting: small displacements that keep particles evenly spread.
 //
-//   dr_i = -min(s u_max dt, dx) dx grad C_i,   grad C_i = sum w (1 + 0.2 (W/W(dx))^4) grad W,
+//   dr_i = -min(s u_max dt, dx) dx grad C_i,
 //
-// where grad C_i is the crowding of concentration.h. Its form and its constants are those of Lind et al. (2012). The
-// coefficient is that of Skillen et al. (2013), but with the largest speed of the flow instead of the particle's own.
-// At a stagnation point the particle's own speed is 0 while the strain aligns particles, which destroys a Taylor-Green
-// vortex (docs/theory/closures.md). The minimum keeps this explicit diffusion stable at the long steps of the implicit
-// integrator.
+// where grad C_i is the crowding of concentration.h: Fick's law after Lind et al. (2012), with another weight against
+// pairing. The coefficient is that of Skillen et al. (2013), but with the largest speed of the flow instead of the
+// particle's own. At a stagnation point the particle's own speed is 0 while the strain aligns particles, which destroys
+// a Taylor-Green vortex (docs/theory/closures.md). The minimum keeps this explicit diffusion stable at the long steps
+// of the implicit integrator.
 //
 // Particles keep only a fraction of the shift: 0 wherever the surface is within the support, according to `interior`
 // (free_surface.h) of the particle and its neighbours. There the gradient is that of the surface and would drive water

@@ -14,7 +14,7 @@ struct Scale {
       : spacing(dx),
         kernel(of_formulation),
         lattice(lattice_sums(kernel, spacing)),
-        kernel_values{kernel_value(kernel, 0.0), kernel_value(kernel, spacing)} {}
+        kernel_values(kernel_values_of(kernel, spacing)) {}
 
   double spacing;  ///< m; dx of the case
   Kernel<Dim> kernel;

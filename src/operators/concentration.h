@@ -1,12 +1,13 @@
 // Sums of the kernel and of its gradient over a particle's neighbours:
 //
 //   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j dW e_ij,    M_i = sum_j w_j r (-dW) e_ij e_ij
-//   crowding_i = sum_j w_j (1 + 0.2 (W_ij/W(dx))^4) dW e_ij
+//   crowding_i = sum_j w_j [1 + max(0, (W_ij^4 - W(0.7 dx)^4)/W(dx)^4)] dW e_ij
 //
 // C is the filled fraction of the space around the particle: 1 inside (up to quadrature, see lattice.h) and smaller at
 // a surface; -grad C points out of the fluid. M, the first moment, is the result of the kernel's gradient for the
 // linear field x: I on a full lattice, and with the eigenvalue 1/2 across a flat surface. The crowding is grad C with
-// the weight of Lind et al. (2012) against pairing: it points to where particles are too close together.
+// a weight against pairing: it points to where particles are too close together. The weight of Lind et al. (2012) is
+// 1 + 0.2 (W_ij/W(dx))^4. It reads the strain of a lattice too, and takes waves their energy (docs/theory/closures.md).
 #pragma once
 
 #include <cmath>
@@ -27,11 +28,18 @@ struct KernelSums {
 struct KernelValues {
   double W_0;        ///< W(0)
   double W_spacing;  ///< W(dx)
+  double W_close;    ///< W(0.7 dx): the weight against pairing acts between closer particles
 };
+
+template <int Dim>
+KernelValues kernel_values_of(const Kernel<Dim>& kernel, double spacing) {
+  return {kernel_value(kernel, 0.0), kernel_value(kernel, spacing), kernel_value(kernel, 0.7 * spacing)};
+}
 
 template <int Dim>
 KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const KernelValues& values) {
   const auto inverse_W = static_cast<float>(1.0 / values.W_spacing);
+  const auto close = static_cast<float>(std::pow(values.W_close / values.W_spacing, 4));
   Lanes concentration{};
   VecLanes<Dim> gradient{};
   VecLanes<Dim> crowding{};
@@ -42,7 +50,7 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const Kernel
     const Lanes W = batch.kernel_at(place.d);
     const Lanes ratio = batch.kernel_over_spacing(W) * inverse_W;
     const Lanes squared_ratio = ratio * ratio;
-    const Lanes pairing = 1.0F + 0.2F * (squared_ratio * squared_ratio);
+    const Lanes pairing = 1.0F + max_of(squared_ratio * squared_ratio - close, Lanes{});
     const VecLanes<Dim> weights = place.volume() * batch.F(place.d) * place.d;
     concentration += place.volume() * W;
     gradient -= weights;

@@ -37,8 +37,7 @@ struct Shifted {
         shift(set.size(), Vec<Dim>::Ones()) {
     Surroundings<Dim> surroundings;
     surroundings.interior = interior;
-    const KernelValues values{kernel_value(set.neighbourhood.kernel(), 0.0),
-                              kernel_value(set.neighbourhood.kernel(), dx)};
+    const KernelValues values = kernel_values_of(set.neighbourhood.kernel(), dx);
     for (std::size_t i = 0; i < set.size(); ++i) {
       surroundings.mean_interior.push_back(mean_over_fluid<Dim>(set.pairs(), i, interior, 0.0));
       surroundings.crowding.push_back(kernel_sums<Dim>(set.pairs(), i, values).crowding);

@@ -73,7 +73,7 @@ TYPED_TEST(GradedSumsTest, ConcentrationIsOneAcrossABorder) {
   const ParticleSet<Dim> set = graded_block<Dim>(field);
   const Kernel<Dim>& kernel = set.neighbourhood.kernel();
   const GradedSums<Dim> reference(kernel, dx, field);
-  const KernelValues values{kernel_value(kernel, 0.0), kernel_value(kernel, dx)};
+  const KernelValues values = kernel_values_of(kernel, dx);
   double largest = 0.0;
   double largest_of_lattice = 0.0;
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -113,7 +113,7 @@ TYPED_TEST(GradedSumsTest, TheTableIsTheQuadrature) {
 template <int Dim>
 std::vector<double> filled_shares(const ParticleSet<Dim>& set, const GradedSums<Dim>& sums, SupportTerms<Dim>& terms) {
   const Kernel<Dim>& kernel = set.neighbourhood.kernel();
-  const KernelValues values{kernel_value(kernel, 0.0), kernel_value(kernel, dx)};
+  const KernelValues values = kernel_values_of(kernel, dx);
   const std::vector<std::uint8_t> takes_part(set.size(), 1);
   find_references<Dim>(set.pairs(), sums, set.particles.volume, takes_part, 1.0, terms);
   std::vector<double> shares(set.size());
