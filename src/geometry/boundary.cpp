@@ -168,7 +168,7 @@ NearestWall<Dim> Boundary<Dim>::nearest_to_water(const Vec<Dim>& x, double searc
 template <int Dim>
 bool Boundary<Dim>::is_free_end(int face, const Vec<Dim>& x) const {
   return std::ranges::any_of(ends, [&](const WallEnd& end) {
-    if (!end.is_free || end.face != face) return false;
+    if (!(end.is_free || end.is_at_plate) || end.face != face) return false;
     const auto& corners = faces[face].corners;
     return (x - corners[end.corner]).norm() <= 1e-9 * (corners[1] - corners[0]).norm();
   });

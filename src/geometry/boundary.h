@@ -58,11 +58,12 @@ struct WallMesh {
   }
 };
 
-/// An end of a wall in 2D that is not a plate: no wall of the same body continues or closes it.
+/// An end of a wall in 2D that is not a plate: no wall of the same body but plates continues or closes it.
 struct WallEnd {
-  int face = 0;          ///< index into Boundary::faces
-  int corner = 0;        ///< of the face
-  bool is_free = false;  ///< whether no other body closes it at present, so that it is in the water
+  int face = 0;              ///< index into Boundary::faces
+  int corner = 0;            ///< of the face
+  bool is_at_plate = false;  ///< a plate ends there: the wall has no screens, and no place is behind it
+  bool is_free = false;      ///< whether no other body closes it at present, so that it is in the water
 };
 
 /// A wall without thickness. Every piece of it, a segment (2D) or a triangle (3D), has two faces back to back. The

@@ -299,6 +299,7 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
   for (const WallPlate& plate : plates) append(screens, screens_of(*this, plate, lengths));
   if constexpr (Dim == 2) {
     for (WallEnd& end : ends) {
+      if (end.is_at_plate) continue;
       const WallFace<2>& face = faces[end.face];
       const Vec<2>& x = face.corners[end.corner];
       const Vec<2> out = (x - face.corners[1 - end.corner]).normalized();

@@ -11,6 +11,29 @@ namespace {
 /// Cosine of the angle between the normal of a wall and the direction in which an edge points at the wall.
 constexpr double faces_edge = -0.5;
 
+template <int Dim>
+bool is_near(const WallFace<Dim>& face, const Vec<Dim>& x, double distance) {
+  return (closest_point(face, x) - x).norm() <= distance;
+}
+
+/// Whether an opening or a periodic plane is at `x`.
+template <int Dim>
+bool is_at_opening(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Lengths& lengths) {
+  return std::ranges::any_of(boundary.continued, [&](const auto& face) { return is_near(face, x, lengths.gap()); });
+}
+
+/// Whether another plate, or another piece of plate `own` than `piece`, is at an end of wall `own`.
+template <int Dim>
+bool is_at_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths) {
+  for (const WallPlate& plate : boundary.plates) {
+    for (int f = plate.first_face; f < plate.first_face + plate.pieces; ++f) {
+      if (plate.wall == own && (piece < 0 || f == piece)) continue;
+      if (is_near(boundary.faces[f], x, plate.wall == own ? lengths.tolerance() : lengths.gap())) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -23,19 +46,7 @@ WallBesidePlate closing_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, c
 
 template <int Dim>
 bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths) {
-  const auto is_near = [&](const WallFace<Dim>& face, double distance) {
-    return (closest_point(face, x) - x).norm() <= distance;
-  };
-  if (std::ranges::any_of(boundary.continued, [&](const auto& face) { return is_near(face, lengths.gap()); })) {
-    return true;
-  }
-  for (const WallPlate& plate : boundary.plates) {
-    for (int f = plate.first_face; f < plate.first_face + plate.pieces; ++f) {
-      if (plate.wall == own && (piece < 0 || f == piece)) continue;
-      if (is_near(boundary.faces[f], plate.wall == own ? lengths.tolerance() : lengths.gap())) return true;
-    }
-  }
-  return false;
+  return is_at_opening(boundary, x, lengths) || is_at_plate(boundary, x, own, piece, lengths);
 }
 
 RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
@@ -72,12 +83,12 @@ std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengt
         return boundary.walls[boundary.faces[g].wall].body == boundary.walls[face.wall].body;
       };
       const WallBesidePlate beside = closing_wall(boundary, x, out, lengths.gap(), face.wall);
-      bool is_end = !is_continued(boundary, x, face.wall, -1, lengths) && (beside.face < 0 || !is_alike(beside.face));
+      bool is_end = !is_at_opening(boundary, x, lengths) && (beside.face < 0 || !is_alike(beside.face));
       for (int g = 0; g < static_cast<int>(boundary.faces.size()) && is_end; ++g) {
-        const bool touches = (closest_point(boundary.faces[g], x) - x).norm() <= lengths.tolerance();
-        is_end = g == f || !touches || !is_alike(g);
+        const bool is_plate = boundary.walls[boundary.faces[g].wall].is_plate;
+        is_end = g == f || is_plate || !is_near(boundary.faces[g], x, lengths.tolerance()) || !is_alike(g);
       }
-      if (is_end) ends.push_back({f, corner, false});
+      if (is_end) ends.push_back({f, corner, is_at_plate(boundary, x, face.wall, -1, lengths)});
     }
   }
   return ends;

@@ -43,7 +43,7 @@ bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int
 RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
                  const Lengths& lengths);
 
-/// The ends of walls that are no plates, unless a wall of the same body closes or continues them.
+/// The ends of walls that are no plates, unless a wall of the same body, other than a plate, closes or continues them.
 std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengths);
 
 /// Finds the free edges of the rim of a mesh.

@@ -274,6 +274,12 @@ TEST(FreeEnds, HaveNothingBehindThem) {
   // Water near the end has come around it; water farther away must have passed through the wall.
   EXPECT_NEAR(alone.nearest_to_water({-0.3, -0.04}, 1.0).signed_distance, 0.04, 1e-12);
   EXPECT_NEAR(alone.nearest_to_water({-0.5, -0.04}, 1.0).signed_distance, -0.04, 1e-12);
+  // A plate that ends there has no sides, and the wall no place behind it beyond the end.
+  WallTable plate = polyline({{0.0, 0.0}, {0.0, 1.0}});
+  plate.shape = WallShape::plate;
+  spec.walls = {floor, plate};
+  EXPECT_NEAR(make_boundary<2>(spec).nearest({0.03, -0.04}, 1.0).signed_distance, 0.05, 1e-12);
+  EXPECT_NEAR(make_boundary<2>(spec).nearest({-0.3, -0.04}, 1.0).signed_distance, -0.04, 1e-12);
   // A wall within half a spacing leaves no opening until it moves away.
   spec.walls = {floor, polyline({{0.04, -1.0}, {0.04, 1.0}})};
   spec.walls[1].displacement = {"t", 0.0};
