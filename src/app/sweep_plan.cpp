@@ -16,6 +16,7 @@
 #include "base/json.h"
 #include "case/overrides.h"
 #include "case/reader.h"
+#include "case/toml_text.h"
 #include "geometry/from_spec.h"
 #include "io/write_file.h"
 #include "probes/probe_set.h"
@@ -36,43 +37,12 @@ constexpr int sweep_record_format = 1;
 constexpr std::string_view sweep_usage =
     "write --sweep table.key=value,value, as in --sweep particles.spacing=0.02,0.01";
 
-std::string_view without_spaces(std::string_view text) {
-  const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
-  text.remove_prefix(begin);
-  return text.substr(0, text.find_last_not_of(" \t") + 1);
-}
-
-/// The parts between commas that stand outside brackets and quotes.
-std::vector<std::string> split_values(std::string_view text) {
-  std::vector<std::string> values(1);
-  int depth = 0;
-  char quote = '\0';
-  for (const char c : text) {
-    if (quote != '\0') {
-      if (c == quote) quote = '\0';
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '[' || c == '{' || c == '(') {
-      ++depth;
-    } else if (c == ']' || c == '}' || c == ')') {
-      --depth;
-    }
-    if (c == ',' && depth <= 0 && quote == '\0') {
-      values.emplace_back();
-    } else {
-      values.back() += c;
-    }
-  }
-  for (std::string& value : values) value = without_spaces(value);
-  return values;
-}
-
 SweepKey parse_sweep_key(const std::string& option) {
   const std::size_t equals = option.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw InputError("--sweep {}: a key or its values are missing; {}", option, sweep_usage);
   }
-  SweepKey key{std::string(without_spaces(option.substr(0, equals))), split_values(option.substr(equals + 1))};
+  SweepKey key{std::string(without_spaces(option.substr(0, equals))), split_at_commas(option.substr(equals + 1))};
   std::set<std::string> seen;
   for (const std::string& value : key.values) {
     if (value.empty()) throw InputError("--sweep {}: a value is missing; {}", option, sweep_usage);

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <optional>
+#include <utility>
 #include <variant>
 
 #include "case/nearest_name.h"
@@ -68,16 +70,31 @@ std::vector<Step> parse_path(std::string_view path) {
   }
 }
 
-/// The tree `value = ...`; a text that is not TOML becomes a string.
-toml::table parse_value(std::string_view text, std::string_view origin) {
-  if (line_of_deep_key(text)) throw Misplaced{fmt::format("the value is nested too deeply; {}", usage)};
+/// The tree `value = ...`; empty if the text is not one TOML value.
+std::optional<toml::table> as_toml(std::string_view text, std::string_view origin) {
   try {
     toml::table table = toml::parse(fmt::format("value = {}", text), origin);
     if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
-    // A word or an expression without quotes.
   }
-  return toml::parse(fmt::format("value = {}", toml_string(text)), origin);
+  return std::nullopt;
+}
+
+/// A list whose words and expressions have no quotes, such as [-a*t, 0], with quotes.
+std::string quoted_elements(std::string_view list) {
+  std::vector<std::string> elements = split_at_commas(list.substr(1, list.size() - 2));
+  for (std::string& element : elements) {
+    if (!as_toml(element, "")) element = toml_string(element);
+  }
+  return fmt::format("[{}]", fmt::join(elements, ", "));
+}
+
+/// The tree `value = ...`; words and expressions that are not TOML become strings.
+toml::table parse_value(std::string_view text, std::string_view origin) {
+  if (line_of_deep_key(text)) throw Misplaced{fmt::format("the value is nested too deeply; {}", usage)};
+  if (auto table = as_toml(text, origin)) return std::move(*table);  // copies lose their source
+  const bool is_list = text.size() > 2 && text.front() == '[' && text.back() == ']';
+  return toml::parse(fmt::format("value = {}", is_list ? quoted_elements(text) : toml_string(text)), origin);
 }
 
 /// The element of a list of tables that has, or by default gets, this name.

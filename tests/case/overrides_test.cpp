@@ -32,6 +32,7 @@ TEST(Overrides, TakeWhatIsNotTomlAsText) {
   EXPECT_EQ(read_text(two_blocks, {"case.title=a wave, and another"}).general.title, "a wave, and another");
   EXPECT_EQ(read_text(two_blocks, {"case.title=\"in quotes\""}).general.title, "in quotes");
   EXPECT_EQ(read_text(two_blocks, {"case.title=x=y"}).general.title, "x=y");
+  EXPECT_EQ(read_text(two_blocks, {"fluid[1].max=[6*min(1, 2), 7]"}).fluid[1].max, (Coordinates{6.0, 7.0}));
 }
 
 TEST(Overrides, FindEntriesOfListsByNumber) {
