@@ -71,7 +71,7 @@ double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec) {
   }
   const bool lies_flat = upright < 1e-3 * widest;
   const double celerity = std::sqrt(lies_flat ? widest : upright);
-  return celerity > 0.0 ? smoothing_over_spacing * spec.particles.spacing / celerity : spec.time.end;
+  return celerity > 0.0 ? smoothing_over_spacing * spec.particles.spacing / celerity : 0.0;
 }
 
 template <int Dim>

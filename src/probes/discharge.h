@@ -13,7 +13,7 @@
 
 namespace tailwater {
 
-/// The time T [s] over which the discharge of a probe is smoothed; without gravity the length of the run. Throws
+/// The time T [s] over which the discharge of a probe is smoothed; without gravity 0, no smoothing. Throws
 /// InputError as make_section does.
 template <int Dim>
 double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec);
