@@ -161,7 +161,7 @@ std::string study_reference_markdown() {
       "For researchers who measure the effect of one term of the method. `tailwater run --help-case=study > "
       "docs/reference/study-keys.md` writes this page; change `src/case/spec.h` instead.\n\n"
       "The keys of [study] change parts of the robust formulations, so that a study can show the effect of each "
-      "([devices.md](../theory/devices.md)). Only waves that run far need one of them, `shifting`. The "
+      "([devices.md](../theory/devices.md)). No user needs them. The "
       "[reference](case-file.md) does not list them, and the published formulations have none of them. [limits] sets "
       "the errors of energy and volume at which a run "
       "warns or stops; [parallel] is for measurements of runs on several ranks.\n");

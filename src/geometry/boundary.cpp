@@ -70,16 +70,16 @@ class WallSearch {
   }
 
  private:
-  static bool is_at_free_edge(const WallMesh& mesh, const SurfacePlace& place) {
-    return !mesh.free_edges.empty() &&
-           std::ranges::any_of(place.triangles, [&](int t) { return mesh.free_edges[t] != 0; });
+  static bool is_at_ended_edge(const WallMesh& mesh, const SurfacePlace& place) {
+    return !mesh.ended_edges.empty() &&
+           std::ranges::any_of(place.triangles, [&](int t) { return mesh.ended_edges[t] != 0; });
   }
 
   void visit_mesh(const WallMesh& mesh) {
     const Vec<Dim> moved = boundary_.displacement_of(mesh);
     SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
     if (place.triangle < 0) return;
-    if (place.is_on_rim && is_at_free_edge(mesh, place)) place.signed_distance = std::abs(place.signed_distance);
+    if (place.is_on_rim && is_at_ended_edge(mesh, place)) place.signed_distance = std::abs(place.signed_distance);
     const double distance = std::abs(place.signed_distance);
     const int face = mesh.first_face + place.triangle;
     const double plane_distance = place.is_on_rim ? std::abs(boundary_.faces[face].height(x_)) : 0.0;

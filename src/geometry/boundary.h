@@ -50,7 +50,8 @@ struct WallMesh {
   std::shared_ptr<const MeshSurface> surface;  ///< as drawn
   int first_face = 0;
   int wall = 0;
-  std::vector<std::uint8_t> free_edges = {};  ///< for each triangle, one bit per edge that is a free rim; empty: none
+  std::vector<std::uint8_t> free_edges = {};   ///< for each triangle, one bit per edge that is a free rim; empty: none
+  std::vector<std::uint8_t> ended_edges = {};  ///< likewise: edges of the rim beyond which no place is behind the mesh
 
   int end_face() const;
   bool has_free_edge(int triangle, int edge) const {

@@ -103,9 +103,16 @@ void find_free_edges(const Boundary<3>& boundary, const Lengths& lengths, WallMe
       const Vec<3>& from = triangles.corner(t, e);
       const Vec<3>& to = triangles.corner(t, (e + 1) % 3);
       const Vec<3> out = (to - from).cross(triangles.area_normal(t)).normalized();
-      if (end_along(boundary, from, to, out, mesh.wall, lengths) != RimEnd::free) continue;
-      mesh.free_edges.resize(triangles.triangles.size(), 0);
-      mesh.free_edges[t] |= static_cast<std::uint8_t>(1U << e);
+      const bool is_free = end_along(boundary, from, to, out, mesh.wall, lengths) == RimEnd::free;
+      const auto bit = static_cast<std::uint8_t>(1U << e);
+      if (is_free) {
+        mesh.free_edges.resize(triangles.triangles.size(), 0);
+        mesh.free_edges[t] |= bit;
+      }
+      if (is_free || is_at_plate(boundary, Vec<3>(0.5 * (from + to)), mesh.wall, -1, lengths)) {
+        mesh.ended_edges.resize(triangles.triangles.size(), 0);
+        mesh.ended_edges[t] |= bit;
+      }
     }
   }
 }

@@ -46,7 +46,7 @@ RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& 
 /// The ends of walls that are no plates, unless a wall of the same body, other than a plate, closes or continues them.
 std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengths);
 
-/// Finds the free edges of the rim of a mesh.
+/// Finds the free edges of the rim of a mesh, and those at which a plate ends.
 void find_free_edges(const Boundary<3>& boundary, const Lengths& lengths, WallMesh& mesh);
 
 }  // namespace tailwater

@@ -20,9 +20,19 @@ constexpr double least_behind = 0.7;
 
 constexpr double least_cell_share = 0.01;  // of a cell; less than that behind the wall gets no particle
 
-bool is_beyond_rim(const TriangleMesh& mesh, const Vec<3>& x, const SurfacePlace& place) {
+/// Whether a plate ends at the rim of the mesh there: what is beyond is on the other side of the plate.
+bool ends_at_plate(const WallMesh& mesh, const SurfacePlace& place) {
+  return !mesh.ended_edges.empty() && std::ranges::any_of(place.triangles, [&](int t) {
+    const int free = mesh.free_edges.empty() ? 0 : mesh.free_edges[t];
+    return (mesh.ended_edges[t] & ~free) != 0;
+  });
+}
+
+bool is_beyond_rim(const WallMesh& mesh, const Vec<3>& x, const SurfacePlace& place) {
   if (!place.is_on_rim) return false;
-  return mesh.area_normal(place.triangle).normalized().dot(x - place.point) > least_behind * place.signed_distance;
+  if (ends_at_plate(mesh, place)) return true;
+  const Vec<3> normal = mesh.surface->mesh().area_normal(place.triangle).normalized();
+  return normal.dot(x - place.point) > least_behind * place.signed_distance;
 }
 
 /// The part of a cell that is behind a surface.
@@ -31,11 +41,12 @@ struct Behind {
   Vec<3> offset = Vec<3>::Zero();  ///< m; of its centre from the cell's
 };
 
-Behind part_behind(const MeshSurface& surface, const Vec<3>& centre, const Vec<3>& edge) {
+Behind part_behind(const WallMesh& mesh, const Vec<3>& centre, const Vec<3>& edge) {
+  const MeshSurface& surface = *mesh.surface;
   Behind behind;
   for_each_part<3>(centre, edge, [&](const Vec<3>& x, const Vec<3>& part) {
     const SurfacePlace place = surface.nearest(x, 2.0 * edge.norm());
-    if (place.triangle < 0 || is_beyond_rim(surface.mesh(), x, place)) return;
+    if (place.triangle < 0 || is_beyond_rim(mesh, x, place)) return;
     const bool is_on_surface = std::abs(place.signed_distance) < corner_tolerance * part.norm();
     const Vec<3> n = is_on_surface ? surface.mesh().area_normal(place.triangle).normalized()
                                    : Vec<3>((x - place.point) / place.signed_distance);
@@ -96,9 +107,9 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
       Vec<3> edge;
       for (int axis = 0; axis < 3; ++axis) edge[axis] = lattice[axis].width(lattice[axis].cell_at(x[axis]));
       const double half_diagonal = 0.5 * edge.norm();
-      if (place.signed_distance >= half_diagonal || is_beyond_rim(surface.mesh(), x, place)) return;
+      if (place.signed_distance >= half_diagonal || is_beyond_rim(mesh, x, place)) return;
       Behind behind{.share = 1.0};
-      if (place.signed_distance > -half_diagonal) behind = part_behind(surface, x, edge);
+      if (place.signed_distance > -half_diagonal) behind = part_behind(mesh, x, edge);
       if (behind.share < least_cell_share) return;
       const SurfacePlace near = surface.nearest(x + behind.offset, layers.count * layers.spacing + edge.norm());
       proposals.push_back({{.position = x,

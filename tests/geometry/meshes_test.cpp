@@ -298,5 +298,19 @@ TEST(MeshWall, TouchingABoxIsBehindEither) {
   EXPECT_NEAR(boundary.nearest({0.1, 0.5, 0.6}, infinite).signed_distance, -0.1, 1e-12);
 }
 
+TEST(MeshWall, HasNothingBehindItBeyondARimAtWhichAPlateEnds) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  TriangleMesh upright = sheet_mesh(4, [](double, double) { return 0.0; });
+  for (Vec<3>& point : upright.points) point = {1.0, point[1], point[0]};
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.file = folder.write("plate.stl", binary_stl(upright));
+  spec.walls = {folder.wall(sheet_mesh(4, [](double, double) { return 0.0; }), FluidSide::above), plate};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  EXPECT_NEAR(boundary.nearest({1.03, 0.5, -0.04}, infinite).signed_distance, 0.05, 1e-12);
+  EXPECT_NEAR(boundary.nearest({0.7, 0.5, -0.04}, infinite).signed_distance, -0.04, 1e-12);
+}
+
 }  // namespace
 }  // namespace tailwater
