@@ -16,9 +16,9 @@
 namespace tailwater {
 namespace {
 
-/// A solve ends when it has reduced the error of its guess, the velocity of the last step, to this fraction in the
-/// energy norm. An end at a fraction of the velocity instead would stop slow changes before a flow is steady. With
-/// 0.01, error in motions that dissipate little made a liquid of 3e5 Pa s at rest explode.
+/// A solve ends when it has reduced the error of its guess to this fraction in the energy norm. An end at a fraction of
+/// the velocity instead would stop slow changes before a flow is steady. With 0.01, error in motions that dissipate
+/// little made a liquid of 3e5 Pa s at rest explode.
 constexpr double reduction = 1e-4;
 constexpr int max_iterations = 500;
 
@@ -26,6 +26,12 @@ constexpr int max_iterations = 500;
 /// leaves: the next pass has other viscosities.
 constexpr int max_passes = 3;
 constexpr double reduction_of_pass = 0.03;
+/// A pass that changes less than this fraction of the change of the step is the last one.
+constexpr double change_of_last_pass = 0.2;
+
+/// The guess of a step repeats the change of the last one if this differed by less than this fraction of itself from
+/// the change before. Near rest changes are noise, and repeating them would add to it.
+constexpr double largest_uneven_change = 0.5;
 
 /// Error over the velocity, both in the energy norm, below which rounding dominates: products are in single precision.
 constexpr double least_error = 1e-5;
@@ -61,6 +67,47 @@ double ThickLiquid<Dim>::find_yielded_fraction(const Flow<Dim>& flow) const {
   return all > 0.0 ? yielded / all : 0.0;
 }
 
+/// Guesses v: the present velocity and, again, the change of the last step, a part of which the projection reversed.
+template <int Dim>
+void ThickLiquid<Dim>::guess(const Flow<Dim>& flow) {
+  velocity_ = flow.state.particles.velocity;
+  if (flow.setup.ranks.any(!changes_evenly_)) return;
+  for_each(change_.size(), [&](std::size_t i) {
+    if (flow.role[i] == Role::water) velocity_[i] += change_[i];
+  });
+  flow.halo().exchange(velocity_);
+}
+
+/// Collective.
+template <int Dim>
+void ThickLiquid<Dim>::remember_change(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const std::vector<Vec<Dim>> last = std::move(change_);
+  const auto last_of = [&](std::size_t i) { return i < last.size() ? last[i] : Vec<Dim>(Vec<Dim>::Zero()); };
+  change_.resize(particles.owned);
+  for_each(particles.owned, [&](std::size_t i) { change_[i] = velocity_[i] - particles.velocity[i]; });
+  double uneven = sum_over(particles.owned, 0.0, [&](auto i) { return (change_[i] - last_of(i)).squaredNorm(); });
+  double all = sum_over(particles.owned, 0.0, [&](std::size_t i) { return change_[i].squaredNorm(); });
+  flow.setup.ranks.sum_each(uneven, all);
+  changes_evenly_ = uneven < largest_uneven_change * largest_uneven_change * all;
+}
+
+template <int Dim>
+void ThickLiquid<Dim>::reordered(Reordering /*how*/) {
+  change_.clear();
+  changes_evenly_ = false;
+}
+
+/// Whether a pass that began at a velocity has hardly changed it, compared with the whole step. Collective.
+template <int Dim>
+bool ThickLiquid<Dim>::is_last_pass(const Flow<Dim>& flow, std::span<const Vec<Dim>> before) const {
+  const std::vector<Vec<Dim>>& start = flow.state.particles.velocity;
+  double of_pass = sum_over(before.size(), 0.0, [&](auto i) { return (velocity_[i] - before[i]).squaredNorm(); });
+  double of_step = sum_over(before.size(), 0.0, [&](auto i) { return (velocity_[i] - start[i]).squaredNorm(); });
+  flow.setup.ranks.sum_each(of_pass, of_step);
+  return of_pass <= change_of_last_pass * change_of_last_pass * of_step;
+}
+
 /// Finds v. `force` [m/s^2] is that of gravity and the last pressure.
 template <int Dim>
 void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt,
@@ -73,12 +120,14 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
     inertia[i] = flow.density_of(i) * particles.volume[i] / dt;
     impulse[i] = inertia[i] * (predicted[i] + dt * force[i]);
   });
-  velocity_ = particles.velocity;
+  guess(flow);
   iterations_ = 0;
   const bool varies = std::ranges::any_of(liquids_, varies_with_shear);
   const int passes = varies ? max_passes : 1;
   std::vector<Vec<Dim>> rhs(particles.owned);
+  std::vector<Vec<Dim>> before;
   for (int pass = 0; pass < passes; ++pass) {
+    before.assign(velocity_.begin(), velocity_.begin() + static_cast<std::ptrdiff_t>(particles.owned));
     find_viscosity(flow, velocity_);
     for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
     const double power =
@@ -88,8 +137,9 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
     const ShellReport report = solve_viscous_step<Dim>(flow, forces_, inertia, rhs, goal, velocity_);
     iterations_ += report.iterations;
     has_converged_ = report.has_converged;
-    if (report.iterations == 0) return;
+    if (report.iterations == 0 || is_last_pass(flow, before)) break;
   }
+  remember_change(flow);
 }
 
 /// The spin is the mean of the step.

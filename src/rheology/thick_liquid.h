@@ -34,6 +34,7 @@ class ThickLiquid final : public Part<Dim> {
   double viscosity(std::size_t i) const { return i < forces_.viscosity().size() ? forces_.viscosity()[i] : 0.0; }
 
   std::string_view name() const override { return "thick_liquid"; }
+  void reordered(Reordering how) override;
   void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
                          std::span<Vec<Dim>> predicted) override;
   int pose(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt) override;
@@ -45,6 +46,9 @@ class ThickLiquid final : public Part<Dim> {
 
  private:
   void solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt, std::span<const Vec<Dim>> predicted);
+  void guess(const Flow<Dim>& flow);
+  void remember_change(const Flow<Dim>& flow);
+  bool is_last_pass(const Flow<Dim>& flow, std::span<const Vec<Dim>> before) const;
   void find_wall_rates(const Flow<Dim>& flow, double dt);
   const LiquidTable& liquid_of(const Flow<Dim>& flow, std::size_t i) const {
     return liquids_[flow.setup.liquids.of(flow.state.particles.id[i])];
@@ -58,6 +62,10 @@ class ThickLiquid final : public Part<Dim> {
   double yielded_fraction_ = 0.0;  ///< of the volume of the fluid, on all ranks, in the last step
   bool has_converged_ = true;
   bool has_warned_ = false;
+
+  // The last step, until particles are reordered.
+  std::vector<Vec<Dim>> change_;  ///< m/s; v less the velocity before it, of owned particles
+  bool changes_evenly_ = false;   ///< whether the change hardly differed from that of the step before
 
   // The present step; owned particles, but the velocity of ghosts too.
   WallRates<Dim> walls_;            ///< at the end of the step

@@ -26,14 +26,6 @@ double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, d
   return 2.0 * walls.friction[row] * (1.0 + depth / distance) * F;
 }
 
-/// The numbers of a neighbour that its forces depend on.
-template <int Dim>
-struct alignas(Dim == 2 ? 32 : 64) StressEnd {
-  std::array<float, Dim> velocity;          ///< m/s
-  float viscosity;                          ///< Pa s
-  std::array<float, Dim * Dim> transposed;  ///< Pa; Q, column by column
-};
-
 }  // namespace
 
 /// The kernel costs more than all the rest of a product.
@@ -139,33 +131,32 @@ void ViscousOperator<Dim>::set_viscosity(const Flow<Dim>& flow, std::span<const 
 
 template <int Dim>
 void ViscousOperator<Dim>::find_forces(const Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity,
-                                       std::span<Vec<Dim>> force) const {
+                                       std::span<Vec<Dim>> force) {
   const Particles<Dim>& particles = flow.state.particles;
   flow.halo().exchange(velocity);
   const std::vector<Float4> in_single = as_float4<Dim>(std::span<const Vec<Dim>>(velocity));
-  std::vector<Mat<Dim>> Q(particles.owned, Mat<Dim>::Zero());
+  using End = StressEnd<Dim>;
+  ends_.resize(particles.size());
   for_each(particles.owned, [&](std::size_t i) {
+    End& end = ends_[i];
+    for (int a = 0; a < Dim; ++a) end.velocity[a] = in_single[i].at[a];
+    end.viscosity = static_cast<float>(shared_viscosity_[i]);
+    end.transposed.fill(0.0F);
     if (shared_viscosity_[i] == 0.0) return;
     const Mat<Dim> G = gradient(flow, in_single, i);
-    Q[i] = shared_viscosity_[i] * (fluid_share_[i] * (G + G.transpose()) * inverse_moment_[i] - G);
+    const Mat<Dim> Q = shared_viscosity_[i] * (fluid_share_[i] * (G + G.transpose()) * inverse_moment_[i] - G);
+    for (int n = 0; n < Dim * Dim; ++n) end.transposed[n] = static_cast<float>(Q.data()[n]);
   });
-  flow.halo().exchange(Q);
-  using End = StressEnd<Dim>;
-  std::vector<End> ends(particles.size());
-  for_each(ends.size(), [&](std::size_t i) {
-    for (int a = 0; a < Dim; ++a) ends[i].velocity[a] = in_single[i].at[a];
-    ends[i].viscosity = static_cast<float>(shared_viscosity_[i]);
-    for (int n = 0; n < Dim * Dim; ++n) ends[i].transposed[n] = static_cast<float>(Q[i].data()[n]);
-  });
+  flow.halo().exchange(ends_);
   const auto number = [](std::size_t offset) { return offset / sizeof(float); };
   for_each(particles.owned, [&](std::size_t i) {
     force[i].setZero();
     if (!particles.is_fluid(i)) return;
-    const End& own = ends[i];
+    const End& own = ends_[i];
     const Lanes volume = in_all_lanes(particles.volume[i]);
     VecSum<Dim> sum;
     for_each_pair(flow.pairs(), i, [&](const auto& batch) {
-      const auto other = batch.j.numbers(ends.data());
+      const auto other = batch.j.numbers(ends_.data());
       const Lanes weight = volume * batch.range.load(fluid_weight_.data());
       const Lanes viscosity = own.viscosity + other[number(offsetof(End, viscosity))];
       MatLanes<Dim> transposed;

@@ -26,6 +26,7 @@
 // docs/theory/rheology.md.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,14 @@ struct WallRates {
   }
 };
 
+/// The numbers of a particle that the forces on its neighbours depend on.
+template <int Dim>
+struct alignas(Dim == 2 ? 32 : 64) StressEnd {
+  std::array<float, Dim> velocity;          ///< m/s
+  float viscosity;                          ///< Pa s
+  std::array<float, Dim * Dim> transposed;  ///< Pa; Q, column by column
+};
+
 template <int Dim>
 class ViscousOperator {
  public:
@@ -64,7 +73,7 @@ class ViscousOperator {
 
   /// The forces [N] of fluid at `velocity` on owned particles, and of walls as if these were at rest. Gets the ghosts
   /// of `velocity`. Collective.
-  void find_forces(const Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity, std::span<Vec<Dim>> force) const;
+  void find_forces(const Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity, std::span<Vec<Dim>> force);
 
   /// The part of the force on owned particle i that comes from the motion of the walls [N].
   Vec<Dim> drag_of_walls(const Flow<Dim>& flow, std::size_t i) const {
@@ -94,6 +103,7 @@ class ViscousOperator {
   std::vector<Vec<Dim>> wall_velocity_;   ///< m/s; mean of V_w with these weights
   std::vector<double> viscosity_;         ///< Pa s
   std::vector<double> shared_viscosity_;  ///< Pa s; times `share_`, ghosts too
+  std::vector<StressEnd<Dim>> ends_;      ///< of the last product; kept for its memory
 };
 
 }  // namespace tailwater

@@ -24,7 +24,7 @@ auto as_numbers(std::span<Vector> vectors) {
 template <int Dim>
 class ViscousSystem final : public ShellSystem {
  public:
-  ViscousSystem(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces, std::span<const double> inertia)
+  ViscousSystem(const Flow<Dim>& flow, ViscousOperator<Dim>& forces, std::span<const double> inertia)
       : flow_(flow),
         forces_(forces),
         inertia_(inertia),
@@ -46,7 +46,7 @@ class ViscousSystem final : public ShellSystem {
 
  private:
   const Flow<Dim>& flow_;
-  const ViscousOperator<Dim>& forces_;
+  ViscousOperator<Dim>& forces_;
   std::span<const double> inertia_;
   ViscousPreconditioner<Dim> preconditioner_;
   std::vector<Vec<Dim>> with_ghosts_;
@@ -55,9 +55,8 @@ class ViscousSystem final : public ShellSystem {
 }  // namespace
 
 template <int Dim>
-ShellReport solve_viscous_step(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces,
-                               std::span<const double> inertia, std::span<const Vec<Dim>> rhs, const ShellGoal& goal,
-                               std::vector<Vec<Dim>>& velocity) {
+ShellReport solve_viscous_step(const Flow<Dim>& flow, ViscousOperator<Dim>& forces, std::span<const double> inertia,
+                               std::span<const Vec<Dim>> rhs, const ShellGoal& goal, std::vector<Vec<Dim>>& velocity) {
   ViscousSystem<Dim> system(flow, forces, inertia);
   const std::span<Vec<Dim>> owned = std::span(velocity).first(rhs.size());
   std::vector<Vec<Dim>> with_claimed(rhs.begin(), rhs.end());
@@ -70,8 +69,8 @@ ShellReport solve_viscous_step(const Flow<Dim>& flow, const ViscousOperator<Dim>
   return report;
 }
 
-#define TAILWATER_INSTANTIATE(Dim)                                                                                \
-  template ShellReport solve_viscous_step(const Flow<Dim>&, const ViscousOperator<Dim>&, std::span<const double>, \
+#define TAILWATER_INSTANTIATE(Dim)                                                                          \
+  template ShellReport solve_viscous_step(const Flow<Dim>&, ViscousOperator<Dim>&, std::span<const double>, \
                                           std::span<const Vec<Dim>>, const ShellGoal&, std::vector<Vec<Dim>>&);
 TAILWATER_INSTANTIATE(2)
 TAILWATER_INSTANTIATE(3)

@@ -15,8 +15,7 @@ namespace tailwater {
 /// `inertia` [kg/s] and `rhs` [N] are of owned particles; `velocity` [m/s] has the guess, and gets ghosts. The residual
 /// of the goal is in sqrt(W). Collective.
 template <int Dim>
-ShellReport solve_viscous_step(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces,
-                               std::span<const double> inertia, std::span<const Vec<Dim>> rhs, const ShellGoal& goal,
-                               std::vector<Vec<Dim>>& velocity);
+ShellReport solve_viscous_step(const Flow<Dim>& flow, ViscousOperator<Dim>& forces, std::span<const double> inertia,
+                               std::span<const Vec<Dim>> rhs, const ShellGoal& goal, std::vector<Vec<Dim>>& velocity);
 
 }  // namespace tailwater

@@ -49,7 +49,7 @@ struct Block {
     }
     return velocity;
   }
-  std::vector<Vec<Dim>> forces_at(std::vector<Vec<Dim>> velocity) const {
+  std::vector<Vec<Dim>> forces_at(std::vector<Vec<Dim>> velocity) {
     std::vector<Vec<Dim>> force(flow.state.particles.owned);
     forces.find_forces(flow, velocity, force);
     return force;
