@@ -100,7 +100,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityConservesMomentumAndNeverAddsEnergy) {
   for (Mat<Dim>& entry : gradient) {
     for (int a = 0; a < Dim; ++a) entry.put_column(a, 20.0 * noise.vector<Dim>());
   }
-  for (const double layer_viscosity : {0.0, 1.0}) {
+  for (const double layer_viscosity : {0.0, 1.0, 1.0}) {
     std::ranges::fill(set.particles.layer_viscosity, layer_viscosity);
     std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());
     add_noise_viscosity<Dim>(set, velocity, gradient, acceleration);
@@ -202,7 +202,7 @@ TYPED_TEST(ViscosityTest, NoiseViscosityLeavesALinearVelocityAlone) {
   const std::vector<Float4> in_single = as_float4<Dim>(velocity);
   std::vector<Mat<Dim>> gradient(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, {0.0, 1.0});
+    const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, {0.0, 1.0, 1.0});
     gradient[i] = corrected_gradient<Dim>(set.pairs(), i, sums.first_moment, in_single);
   }
   std::vector<Vec<Dim>> acceleration(set.size(), Vec<Dim>::Zero());

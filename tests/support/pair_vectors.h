@@ -35,7 +35,7 @@ CorrectedPairVectors<Dim> corrected_pair_vectors_and_faces(const ParticleSet<Dim
   const Halo<Dim>& halo = set.neighbourhood.halo();
   std::vector<Packed<Dim>> moment(set.size());
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
-    moment[i] = packed<Dim>(kernel_sums<Dim>(pairs, i, {0.0, 1.0}).first_moment);
+    moment[i] = packed<Dim>(kernel_sums<Dim>(pairs, i, {0.0, 1.0, 1.0}).first_moment);
   }
   halo.exchange(moment);
   CorrectedPairVectors<Dim> found;

@@ -42,7 +42,7 @@ struct KernelSumsOfSet {
     concentration.resize(set.size());
     gradient.resize(set.size());
     for (std::size_t i = 0; i < set.pairs().owned(); ++i) {
-      const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, {W_0, 1.0});
+      const KernelSums<Dim> sums = kernel_sums<Dim>(set.pairs(), i, {W_0, 1.0, 1.0});
       concentration[i] = sums.concentration / C_0;
       gradient[i] = sums.gradient;
     }
