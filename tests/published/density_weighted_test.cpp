@@ -114,7 +114,7 @@ TYPED_TEST(DensityWeightedTest, LatticeHasFullDensityAndGivesLinearFieldsNoLapla
   for (std::size_t i = 0; i < pairs.owned(); ++i) {
     if (!is_interior(set, i)) continue;
     ++tested;
-    EXPECT_NEAR(kernel_sums<Dim>(pairs, i, {kernel_value(kernel, 0.0), 1.0}).concentration / lattice.concentration, 1.0,
+    EXPECT_NEAR(kernel_sums<Dim>(pairs, i, kernel_values_of(kernel, dx)).concentration / lattice.concentration, 1.0,
                 10.0 * single_eps);
     double sum = 0.0;
     double linear = 0.0;
