@@ -75,7 +75,7 @@ class PluggedChannel : public testing::TestWithParam<Integrator> {};
 
 // Steady flow: 1 m/s^2 over 1 m is the head g (a v + b v^2) that 0.5 m of the plug take. At 1 cm/s the dynamic head of
 // the water is 1e-4 of that, so nothing but the law counts. One projection leaves a divergence at the surfaces of the
-// plug, before the density source sees it: 1 % of the flow. A quarter of the resistance is in these surfaces (2 x 0.06
+// plug, before the density source sees it: 1.2 % of the flow (0.8 % with the shifts before 2026-11-29). A quarter of the resistance is in these surfaces (2 x 0.06
 // m of 0.5 m), and the sum of the resistance is the force, so the flow in the plug is off by a quarter of 1 %.
 TEST_P(PluggedChannel, TakesTheHeadOfItsLaw) {
   struct Law {
@@ -91,7 +91,7 @@ TEST_P(PluggedChannel, TakesTheHeadOfItsLaw) {
                               ? head / linear
                               : (std::sqrt(linear * linear + 4.0 * quadratic * head) - linear) / (2.0 * quadratic);
     EXPECT_NEAR(filter_velocity(flow, 0.35, 0.65) / steady, 1.0, 3e-3) << linear << ' ' << quadratic;
-    EXPECT_NEAR(filter_velocity(flow, 0.0, 1.0) / steady, 1.0, 0.01) << linear << ' ' << quadratic;
+    EXPECT_NEAR(filter_velocity(flow, 0.0, 1.0) / steady, 1.0, 0.013) << linear << ' ' << quadratic;
   }
 }
 
