@@ -20,7 +20,7 @@ constexpr double least_behind = 0.7;
 
 constexpr double least_cell_share = 0.01;  // of a cell; less than that behind the wall gets no particle
 
-/// Whether a plate ends at the rim of the mesh there: what is beyond is on the other side of the plate.
+/// Whether a plate ends at the rim of the mesh there: places beyond are on the other side of the plate.
 bool ends_at_plate(const WallMesh& mesh, const SurfacePlace& place) {
   return !mesh.ended_edges.empty() && std::ranges::any_of(place.triangles, [&](int t) {
     const int free = mesh.free_edges.empty() ? 0 : mesh.free_edges[t];
