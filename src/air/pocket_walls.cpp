@@ -159,7 +159,6 @@ void find_inflow(const Flow<Dim>& flow, EnclosedAir<Dim>& air, double dt) {
   std::vector<double> growth(air.state.pockets.size(), 0.0);
   air.step.inflow = growth;
   air.step.inflow_of_pairs = growth;
-  if (flow.template part<OpenEnds<Dim>>().ends().empty()) return;
   const std::vector<std::size_t> driven =
       indices_where(particles.owned, [&](std::size_t i) { return flow.role[i] == Role::following; });
   std::vector<double> is_water(particles.size(), 0.0);
