@@ -1,5 +1,6 @@
 #include "base/for_each.h"
 #include "bench.h"
+#include "case/spec.h"
 #include "io/vtp_writer.h"
 #include "operators/concentration.h"
 #include "operators/pair_vectors.h"

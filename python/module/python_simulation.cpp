@@ -7,8 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/wall_label.h"
 #include "io/messages.h"
 #include "linear/session.h"
+#include "motion/wall_motion.h"
 #include "open_ends/open_ends.h"
 #include "parts/script_loads.h"
 #include "run/estimate.h"
@@ -176,7 +178,7 @@ void PythonSimulation<Dim>::set_discharge(const std::string& inlet, double disch
 template <int Dim>
 void PythonSimulation<Dim>::steer(const std::string& name, std::function<std::vector<double>(double)> path) {
   Flow<Dim>& flow = simulation().flow();
-  WallMotion<Dim>& motion = flow.setup.wall_motion;
+  WallMotion<Dim>& motion = *flow.setup.wall_motion;
   const auto wall = std::ranges::find_if(motion.moving(), [&](const auto& moving) {
     return moving.body < 0 && spec_.walls[static_cast<std::size_t>(moving.wall)].name == name;
   });

@@ -12,6 +12,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "io/messages.h"
+#include "motion/wall_motion.h"
 
 namespace tailwater {
 
@@ -36,7 +37,7 @@ Box<Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup, const Boundar
   Box<Dim> box = box_around(boundary.faces);
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
   const MotionState<Dim> start = initial_motion<Dim>(spec);
-  for (const auto& moving : setup.wall_motion.moving()) {
+  for (const auto& moving : setup.wall_motion->moving()) {
     if (moving.body >= 0) continue;  // it stays where water is
     for (int k = 0; k <= looks_at_moving_walls; ++k) {
       const AffineMap<Dim> placement = moving.at(spec.time.end * k / looks_at_moving_walls, start);
@@ -141,7 +142,7 @@ std::vector<Vec<Dim>> EnclosedAir<Dim>::places_of_vents(const Flow<Dim>& flow) c
   std::vector<Vec<Dim>> places;
   for (const VentPlace<Dim>& vent : vents_) {
     places.push_back(vent.at);
-    for (const auto& moving : flow.setup.wall_motion.moving()) {
+    for (const auto& moving : flow.setup.wall_motion->moving()) {
       if (moving.wall == vent.wall) places.back() = moving.at(flow.state.time, flow.state.motion)(vent.at);
     }
   }
@@ -206,7 +207,7 @@ void EnclosedAir<Dim>::correct(Flow<Dim>& flow, double dt) {
 template <int Dim>
 void EnclosedAir<Dim>::count_displacement(const Flow<Dim>& flow, double dt) {
   const double time = flow.state.time;
-  const double walls = flow.setup.wall_motion.largest_displacement(time, time + dt, flow.state.motion);
+  const double walls = flow.setup.wall_motion->largest_displacement(time, time + dt, flow.state.motion);
   const double anywhere = std::max(dt * flow.setup.time_step_rule.limiting_speed(largest_speed(flow)), walls);
   double beside = 0.0;
   if (!state.pockets.empty()) {

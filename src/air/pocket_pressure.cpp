@@ -7,6 +7,7 @@
 #include "air/pocket_response.h"
 #include "air/vent.h"
 #include "base/for_each.h"
+#include "motion/wall_motion.h"
 
 namespace tailwater {
 namespace {
@@ -132,7 +133,7 @@ PocketStep<Dim> pose_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<c
   PocketStep<Dim> step;
   const std::size_t pockets = air.state.pockets.size();
   if (pockets == 0) return step;
-  const bool walls_move = !flow.setup.wall_motion.moving().empty();
+  const bool walls_move = !flow.setup.wall_motion->moving().empty();
   step.water = find_sides(flow, air);
   if (walls_move) {
     step.walls = air.watch.walls_beside(flow.walls.boundary);

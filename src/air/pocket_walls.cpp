@@ -3,6 +3,7 @@
 // fractions. The second is that of the pairs of water and wall, in which the pressure is relative to that of the air.
 #include "air/pocket_pressure.h"
 #include "base/for_each.h"
+#include "motion/wall_motion.h"
 #include "open_ends/open_ends.h"
 #include "pressure/operators.h"
 
@@ -57,7 +58,7 @@ std::vector<PocketPairs<Dim>> find_wall_pair_forces(
     std::vector<double> field = air.watch.response(air.state.pockets[k].number).pressure;
     subtract_fractions<Dim>(flow, air_fractions, unit, field);
     const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, moving, field);
-    for (const auto& each : flow.setup.wall_motion.moving()) {
+    for (const auto& each : flow.setup.wall_motion->moving()) {
       PocketPairs<Dim> sum{each.wall, static_cast<int>(k), Vec<Dim>::Zero(), Mat<Dim>::Zero()};
       for (std::size_t n = 0; n < moving.size(); ++n) {  // in order: all add to the same sum
         const std::size_t i = moving[n];
@@ -89,7 +90,7 @@ void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
   const double time = flow.state.time;
   MotionState<Dim> state = flow.state.motion;
   for (BodyState<Dim>& body : state.bodies.each) body.velocity -= 0.5 * dt * body.acceleration;
-  for (const auto& moving : flow.setup.wall_motion.moving()) {
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
     const AffineMap<Dim> now = moving.at(time, state);
     const AffineMap<Dim> drawn = moving.mean_velocity(time, time + dt, state);
     const Mat<Dim> forward = drawn.linear * now.linear.transpose();  // by the present place

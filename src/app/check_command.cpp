@@ -27,6 +27,7 @@
 #include "io/messages.h"
 #include "io/write_file.h"
 #include "linear/session.h"
+#include "operators/graded_sums.h"
 #include "probes/probe_set.h"
 #include "published/make_flow.h"
 #include "refinement/zone_words.h"

@@ -8,6 +8,7 @@
 
 #include "app/python_package.h"
 #include "app/temporary_folder.h"
+#include "base/error.h"
 #include "io/messages.h"
 #include "io/vtp_writer.h"
 #include "io/write_file.h"

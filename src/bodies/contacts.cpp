@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/wall_motion.h"
+
 namespace tailwater {
 namespace {
 
@@ -16,7 +18,7 @@ struct SurfaceMotion {
 /// The path of a surface that moves as prescribed.
 template <int Dim>
 const typename WallMotion<Dim>::MovingWall& path_of(const Flow<Dim>& flow, const ContactSurface<Dim>& surface) {
-  return *std::ranges::find(flow.setup.wall_motion.moving(), surface.wall, &WallMotion<Dim>::MovingWall::wall);
+  return *std::ranges::find(flow.setup.wall_motion->moving(), surface.wall, &WallMotion<Dim>::MovingWall::wall);
 }
 
 template <int Dim>

@@ -16,6 +16,7 @@
 #include "pressure/solve_rows.h"
 #include "pressure/stages.h"
 #include "pressure/tension.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "air/enclosed_air.h"
 #include "case/formulation.h"
+#include "flow/drawing.h"
 
 namespace tailwater {
 namespace {

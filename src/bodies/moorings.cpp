@@ -1,5 +1,7 @@
 #include "bodies/moorings.h"
 
+#include "motion/floating_body.h"
+
 namespace tailwater {
 
 template <int Dim>

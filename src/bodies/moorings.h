@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bodies/one_sided_force.h"
+#include "motion/floating_body.h"
 
 namespace tailwater {
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "flow/flow.h"
+#include "motion/floating_body.h"
 
 namespace tailwater {
 

@@ -3,6 +3,7 @@
 #include "base/box.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 

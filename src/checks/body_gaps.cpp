@@ -4,6 +4,7 @@
 
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "motion/body_contact.h"
 
 namespace tailwater {

@@ -12,6 +12,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
+#include "geometry/wall_label.h"
 #include "refinement/spacing_field.h"
 
 namespace tailwater {

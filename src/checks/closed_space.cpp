@@ -5,6 +5,7 @@
 #include "checks/cell_space.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "motion/channel_end.h"
 
 namespace tailwater {

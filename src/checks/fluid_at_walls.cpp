@@ -9,6 +9,7 @@
 #include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "parallel/at_start.h"
 #include "refinement/spacing_field.h"
 #include "sampling/wall_particles.h"

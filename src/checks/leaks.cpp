@@ -7,6 +7,7 @@
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "geometry/wall_label.h"
 #include "motion/channel_end.h"
 
 namespace tailwater {

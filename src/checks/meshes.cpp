@@ -6,6 +6,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/point_grid.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 namespace {

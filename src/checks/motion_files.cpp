@@ -3,6 +3,7 @@
 
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 
 namespace tailwater {

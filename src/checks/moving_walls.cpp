@@ -1,6 +1,7 @@
 #include "base/fp_traps.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 
 namespace tailwater {

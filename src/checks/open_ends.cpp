@@ -6,6 +6,7 @@
 #include "checks/checks.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "motion/channel_end.h"
 #include "parallel/at_start.h"
 

@@ -10,6 +10,7 @@
 #include "checks/room_for_water.h"
 #include "geometry/from_spec.h"
 #include "geometry/largest_speed.h"
+#include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 
 namespace tailwater {

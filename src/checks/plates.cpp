@@ -1,5 +1,6 @@
 #include "case/formulation.h"
 #include "checks/checks.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 

@@ -7,6 +7,7 @@
 #include "checks/swept_box.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 
 namespace tailwater {

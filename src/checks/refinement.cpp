@@ -6,6 +6,7 @@
 #include "checks/swept_box.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "geometry/wall_label.h"
 #include "refinement/zone_depth.h"
 
 namespace tailwater {

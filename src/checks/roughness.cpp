@@ -2,6 +2,7 @@
 
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 namespace {

@@ -1,5 +1,6 @@
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 

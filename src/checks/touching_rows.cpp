@@ -3,6 +3,7 @@
 #include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "sampling/wall_particles.h"
 
 namespace tailwater {

@@ -11,6 +11,7 @@
 #include "checks/face_samples.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 namespace {

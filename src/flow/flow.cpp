@@ -7,9 +7,18 @@
 #include "base/assert.h"
 #include "base/box.h"
 #include "base/for_each.h"
+#include "case/spec.h"
+#include "flow/drawing.h"
 #include "flow/stages.h"
 #include "flow/wall_particle.h"
 #include "geometry/opening.h"
+#include "linear/solver_choice.h"
+#include "motion/wall_motion.h"
+#include "neighbours/decomposition.h"
+#include "operators/graded_sums.h"
+#include "walls/near_walls.h"
+#include "walls/shared_rows.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 namespace {
@@ -73,24 +82,23 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
                 const Communicator& ranks, Drawing<Dim> drawing)
     : setup(spec, formulation, ranks, drawing),
       parts(make_parts(spec, setup, drawing.walls.boundary, makers)),
-      decomposition(ranks, spec.parallel),
+      decomposition(std::make_unique<Decomposition<Dim>>(ranks, spec.parallel)),
       neighbourhood(setup.scale.kernel, setup.scale.spacing, skin_over_spacing * setup.scale.spacing,
                     setup.formulation.walls->traits().pairs, setup.domain, ranks, drawing.spacing_field),
-      pair_workspace(std::make_shared<PairWorkspace>()),
-      pressure_rows(ranks, pair_workspace),
+      pressure_rows(ranks),
       pressure_solver(spec.pressure_solver, {.rows_deep = largest_depth(spec, drawing.fluid) / setup.scale.spacing,
                                              .dimension = Dim,
                                              .solves = keeps_matrix() ? 3 : 2}),
       walls(std::move(drawing.walls)),
-      shared_rows(std::move(drawing.shared_rows)),
-      near_walls(ranks, walls, setup.domain, reach_of_walls(setup)) {
+      shared_rows(std::make_unique<SharedRows<Dim>>(std::move(drawing.shared_rows))),
+      near_walls(std::make_unique<NearWalls<Dim>>(ranks, walls, setup.domain, reach_of_walls(setup))) {
   Particles<Dim>& particles = state.particles;
   particles = make_particles(setup, drawing.fluid, walls);
   drawing.fluid = {};
-  decomposition.repartition(particles, neighbourhood.work(particles));
+  decomposition->repartition(particles, neighbourhood.work(particles));
   state.wall_velocity.assign(walls.moving, Vec<Dim>::Zero());
   state.motion = initial_motion<Dim>(spec);
-  setup.wall_motion.get_velocity(0.0, state.motion, state.wall_velocity);
+  setup.wall_motion->get_velocity(0.0, state.motion, state.wall_velocity);
   pressure_rows.set_constant_is_free(setup.is_closed);
   wall_forces.pressure_is_requested = has_force_probe(spec);
   wall_forces.are_requested =
@@ -99,6 +107,9 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   assign_roles(*this);
   for (const auto& part : parts) part->begin(*this);
 }
+
+template <int Dim>
+Flow<Dim>::~Flow() = default;
 
 template <int Dim>
 void Flow<Dim>::save(SavedFlow<Dim>& saved) const {
@@ -121,11 +132,11 @@ bool Flow<Dim>::restore(SavedFlow<Dim> saved) {
   state = std::move(saved.state);
   neighbourhood.forget(state.particles);
   surroundings = {};
-  [[maybe_unused]] const bool are_found = shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
+  [[maybe_unused]] const bool are_found = shared_rows->find_rows(walls, state.particles, 0, setup.first_wall_id);
   TAILWATER_ASSERT(are_found, "the state is of this case");
   // Same state as after a repartition, so that a resumed run requests the same rows as an uninterrupted one.
-  shared_rows.drop_halo_rows(walls, state.particles);
-  near_walls.restore(walls, state.particles);
+  shared_rows->drop_halo_rows(walls, state.particles);
+  near_walls->restore(walls, state.particles);
   assign_roles(*this);
   place_walls(*this, state.time);
   return true;
@@ -139,6 +150,14 @@ std::vector<Vec<Dim>> Flow<Dim>::filter_velocity() const {
     if (particles.is_fluid(i)) velocity[i] *= pores->at(particles.position[i]).fraction;
   });
   return velocity;
+}
+
+template <int Dim>
+LatticeSums Flow<Dim>::lattice_of(std::size_t i) const {
+  if (setup.graded != nullptr) {
+    return setup.graded->lattice(pairs().relative_spacing_of(i), state.particles.volume[i]);
+  }
+  return pores == nullptr ? setup.scale.lattice : pores->lattice_of(state.particles.volume[i]);
 }
 
 template <int Dim>

@@ -20,12 +20,18 @@
 #include "flow/state.h"
 #include "linear/linear_solver.h"
 #include "linear/linear_system.h"
-#include "neighbours/decomposition.h"
 #include "neighbours/neighbourhood.h"
 #include "particles/wall_forces.h"
-#include "walls/near_walls.h"
+#include "walls/walls.h"
 
 namespace tailwater {
+
+template <int Dim>
+class Decomposition;
+template <int Dim>
+class NearWalls;
+template <int Dim>
+class SharedRows;
 
 template <int Dim>
 struct Flow {
@@ -41,27 +47,27 @@ struct Flow {
   const Pores<Dim>* pores = nullptr;              ///< belongs to one of the parts; null: water can fill all of space
 
   // Tools.
-  Decomposition<Dim> decomposition;
+  std::unique_ptr<Decomposition<Dim>> decomposition;
   Neighbourhood<Dim> neighbourhood;
-  std::shared_ptr<PairWorkspace> pair_workspace;  ///< of the pair vectors, then of the weights of `pressure_rows`
-  LinearSystem pressure_rows;
+  LinearSystem pressure_rows;  ///< whose workspace the pair vectors use first
   LinearSolver pressure_solver;
 
   // Data of the present positions.
-  Walls<Dim> walls;                ///< at their present positions
-  SharedRows<Dim> shared_rows;     ///< locates other rows, if there are other ranks
-  NearWalls<Dim> near_walls;       ///< the rows that have particles
-  Surroundings<Dim> surroundings;  ///< as computed by `locate`
-  bool is_located = false;         ///< whether no particle has moved since `locate`
-  bool has_matrix = false;         ///< whether a second projection has left the matrix of these positions
-  WallForces<Dim> wall_forces;     ///< of the last step; empty if neither a probe nor a part needs them
-  std::vector<Role> role;          ///< of owned particles in this step
+  Walls<Dim> walls;                              ///< at their present positions
+  std::unique_ptr<SharedRows<Dim>> shared_rows;  ///< locates other rows, if there are other ranks
+  std::unique_ptr<NearWalls<Dim>> near_walls;    ///< the rows that have particles
+  Surroundings<Dim> surroundings;                ///< as computed by `locate`
+  bool is_located = false;                       ///< whether no particle has moved since `locate`
+  bool has_matrix = false;                       ///< whether a second projection has left the matrix of these positions
+  WallForces<Dim> wall_forces;                   ///< of the last step; empty if neither a probe nor a part needs them
+  std::vector<Role> role;                        ///< of owned particles in this step
   std::vector<Vec<Dim>>
       wall_turn_acceleration;  ///< m/s^2; of water along walls that turn, for owned particles; or empty
 
   /// Builds a case whose walls and water have already been made.
   Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
        const Communicator& ranks, Drawing<Dim> drawing);
+  ~Flow();
 
   /// The part of type P; an empty one if the case has none.
   template <class P>
@@ -123,12 +129,7 @@ struct Flow {
   /// m/s; of all particles: discharge over area, which equals the velocity where water can fill all of space.
   std::vector<Vec<Dim>> filter_velocity() const;
   /// Sums over a full lattice of particles like particle i.
-  LatticeSums lattice_of(std::size_t i) const {
-    if (setup.graded != nullptr) {
-      return setup.graded->lattice(pairs().relative_spacing_of(i), state.particles.volume[i]);
-    }
-    return pores == nullptr ? setup.scale.lattice : pores->lattice_of(state.particles.volume[i]);
-  }
+  LatticeSums lattice_of(std::size_t i) const;
   double kinetic_energy_of(std::size_t i) const {
     const double energy = 0.5 * density_of(i) * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
     if (pores == nullptr) return energy;
@@ -140,7 +141,7 @@ struct Flow {
   Box<Dim> box() const;
   /// J; relative to the origin; periodic directions do not contribute.
   double potential_energy_of(std::size_t i) const {
-    return -density_of(i) * water_volume_of(i) * setup.gravity_across.dot(state.particles.position[i]);
+    return -density_of(i) * water_volume_of(i) * setup.gravity_across().dot(state.particles.position[i]);
   }
 };
 

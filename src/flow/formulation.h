@@ -12,12 +12,13 @@
 #include "base/vec.h"
 #include "flow/step.h"
 #include "kernel/kernel.h"
-#include "walls/wall_model.h"
 
 namespace tailwater {
 
 template <int Dim>
 struct Flow;
+template <int Dim>
+class WallModel;
 
 /// Sources of the owned rows of the pressure equation [Pa/m^2], in two summands.
 struct PressureSource {

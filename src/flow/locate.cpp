@@ -3,6 +3,7 @@
 #include "operators/concentration.h"
 #include "operators/support_operators.h"
 #include "walls/hidden_pairs.h"
+#include "walls/shared_rows.h"
 #include "walls/wet_walls.h"
 
 namespace tailwater {
@@ -46,7 +47,7 @@ void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   for (const auto& part : flow.parts) part->arrive(flow);
   const bool ghosts_are_new = flow.neighbourhood.update(flow.state.particles);
   if (ghosts_are_new && !setup.ranks.is_alone()) {
-    flow.shared_rows.find_rows(flow.walls, flow.state.particles, flow.state.particles.owned, setup.first_wall_id);
+    flow.shared_rows->find_rows(flow.walls, flow.state.particles, flow.state.particles.owned, setup.first_wall_id);
   }
   hide_pairs_behind_screens(flow.walls, flow.state.particles, flow.neighbourhood);
   const Particles<Dim>& particles = flow.state.particles;

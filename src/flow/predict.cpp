@@ -3,6 +3,7 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
 #include "operators/gradient_corrected.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 namespace {

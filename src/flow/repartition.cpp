@@ -1,4 +1,6 @@
 #include "flow/stages.h"
+#include "neighbours/decomposition.h"
+#include "walls/shared_rows.h"
 
 namespace tailwater {
 
@@ -13,8 +15,8 @@ template <int Dim>
 Repartition repartition(Flow<Dim>& flow) {
   flow.neighbourhood.wrap(flow.state.particles);
   const Repartition repartition =
-      flow.decomposition.repartition(flow.state.particles, flow.neighbourhood.work(flow.state.particles));
-  if (repartition.moved > 0) flow.shared_rows.find_rows(flow.walls, flow.state.particles, 0, flow.setup.first_wall_id);
+      flow.decomposition->repartition(flow.state.particles, flow.neighbourhood.work(flow.state.particles));
+  if (repartition.moved > 0) flow.shared_rows->find_rows(flow.walls, flow.state.particles, 0, flow.setup.first_wall_id);
   regather_walls(flow);
   sort_particles(flow);
   return repartition;

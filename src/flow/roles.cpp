@@ -1,5 +1,6 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 

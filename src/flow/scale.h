@@ -3,7 +3,6 @@
 #pragma once
 
 #include "kernel/kernel.h"
-#include "operators/concentration.h"
 #include "operators/lattice.h"
 
 namespace tailwater {

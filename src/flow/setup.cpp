@@ -7,15 +7,19 @@
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "case/rheology.h"
+#include "flow/drawing.h"
 #include "flow/ids_of_inflow.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "motion/channel_end.h"
+#include "operators/graded_sums.h"
 #include "sampling/duct_water.h"
+#include "sampling/wall_particles.h"
 #include "sampling/water_lattice.h"
 #include "walls/facing_walls.h"
 #include "walls/turning_walls.h"
 #include "walls/wall_contact.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 namespace {
@@ -91,15 +95,6 @@ FluidParticles<Dim> make_fluid(const CaseSpec& spec, const Walls<Dim>& walls, Bo
   if (!ranks.is_alone()) fluid = make_fluid_particles(spec, drawn, ranks, others);
   append_water(in_ducts, others, fluid);
   return fluid;
-}
-
-/// The components of `v` in directions that are not periodic.
-template <int Dim>
-Vec<Dim> across(const PeriodicDomain<Dim>& domain, Vec<Dim> v) {
-  for (int d = 0; d < Dim; ++d) {
-    if (domain[d]) v[d] = 0.0;
-  }
-  return v;
 }
 
 /// Whether water fills a domain that is periodic in every direction, according to the number of its particles. A domain
@@ -214,9 +209,8 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
       gravity(gravity_of<Dim>(spec)),
       length(formulation.length > 0.0 ? formulation.length : largest_depth(spec, drawing.fluid)),
       domain(periodic_domain<Dim>(spec.domain)),
-      gravity_across(across<Dim>(domain, gravity)),
       is_closed(fills_domain<Dim>(domain, drawing.fluid, spec.particles.spacing)),
-      wall_motion(std::move(drawing.wall_motion)),
+      wall_motion(std::make_unique<WallMotion<Dim>>(std::move(drawing.wall_motion))),
       friction_law{.viscosity = spec.physics.viscosity,
                    .spacing = scale.spacing,
                    .exchange_length = 1.0 / scale.lattice.across_plane,
@@ -235,6 +229,19 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
   if (thick == nullptr) return;
   liquid.density = thick->density;
   liquid.viscosity.molecular = friction_law.viscosity = has_implicit_viscosity ? 0.0 : kinematic_viscosity(*thick);
+}
+
+template <int Dim>
+Setup<Dim>::~Setup() = default;
+
+template <int Dim>
+double Setup<Dim>::relative_spacing(const Vec<Dim>& x) const {
+  return graded == nullptr ? 1.0 : graded->field().at(x);
+}
+
+template <int Dim>
+double Setup<Dim>::finest_spacing() const {
+  return graded == nullptr ? 1.0 : graded->field().finest();
 }
 
 TAILWATER_IN_2D_AND_3D(largest_depth);

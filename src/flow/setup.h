@@ -8,45 +8,26 @@
 #include "flow/formulation.h"
 #include "flow/liquid.h"
 #include "flow/scale.h"
-#include "motion/wall_motion.h"
 #include "neighbours/halo.h"
-#include "operators/graded_sums.h"
 #include "parallel/communicator.h"
 #include "particles/liquids.h"
-#include "sampling/fluid_particles.h"
-#include "walls/shared_rows.h"
-#include "walls/wall_friction.h"
-#include "walls/wall_model.h"
+#include "walls/friction_law.h"
 
 namespace tailwater {
 
-/// The initial geometry of a case: the faces of all walls on every rank, and this rank's part of the rows of walls and
-/// of the water.
+struct CaseSpec;
 template <int Dim>
-struct Drawing {
-  /// Throws InputError for an impossible geometry. Collective.
-  Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks);
-
-  SpacingField<Dim> spacing_field;
-  Walls<Dim> walls;
-  SharedRows<Dim> shared_rows;
-  WallMotion<Dim> wall_motion;
-  FluidParticles<Dim> fluid;
-
- private:
-  Drawing(const CaseSpec& spec, const WallModel<Dim>& model, const Communicator& ranks, Boundary<Dim> drawn);
-};
-
-/// Largest possible depth of the water [m]: the initial depth or that of open ends. Collective.
+struct Drawing;
 template <int Dim>
-double largest_depth(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
-
-bool has_force_probe(const CaseSpec& spec);
+class GradedSums;
+template <int Dim>
+class WallMotion;
 
 template <int Dim>
 struct Setup {
   /// Moves the motion of the walls out of `drawing`.
   Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, const Communicator& all_ranks, Drawing<Dim>& drawing);
+  ~Setup();
 
   Communicator ranks;
   FlowFormulation<Dim> formulation;
@@ -58,9 +39,8 @@ struct Setup {
   Vec<Dim> gravity;                               ///< m/s^2
   double length;  ///< m; L of (F41): from the case, or the fluid's height along gravity at the start or at open ends
   PeriodicDomain<Dim> domain;
-  Vec<Dim> gravity_across;  ///< m/s^2; without the periodic directions, along which water falls without end
-  bool is_closed;           ///< water fills a domain periodic in every direction: no surface, pressure up to a constant
-  WallMotion<Dim> wall_motion;
+  bool is_closed;  ///< water fills a domain periodic in every direction: no surface, pressure up to a constant
+  std::unique_ptr<WallMotion<Dim>> wall_motion;
   FrictionLaw friction_law;
   TimeStepRule time_step_rule;
   /// Whether a part solves for the viscous forces and the friction of walls (rheology/thick_liquid.h): the viscosities
@@ -69,10 +49,18 @@ struct Setup {
 
   /// Whether missing neighbours count as air, so that there is no tension near the surface.
   bool has_air() const { return formulation.surface_is_air && !is_closed; }
+  /// m/s^2; gravity without the periodic directions, along which water falls without end.
+  Vec<Dim> gravity_across() const {
+    Vec<Dim> across = gravity;
+    for (int d = 0; d < Dim; ++d) {
+      if (domain[d]) across[d] = 0.0;
+    }
+    return across;
+  }
   /// Local spacing of particles relative to that of the case.
-  double relative_spacing(const Vec<Dim>& x) const { return graded == nullptr ? 1.0 : graded->field().at(x); }
+  double relative_spacing(const Vec<Dim>& x) const;
   /// The least relative spacing.
-  double finest_spacing() const { return graded == nullptr ? 1.0 : graded->field().finest(); }
+  double finest_spacing() const;
   /// Weight of a particle of this volume [m^Dim] in statistics of the water: 1 if all particles have one spacing.
   double weight_in_statistics(double volume) const {
     return graded == nullptr ? 1.0 : volume / power<Dim>(scale.spacing);

@@ -13,6 +13,8 @@
 
 namespace tailwater {
 
+struct Repartition;
+
 /// Computes neighbours, ghosts, kernel sums and `flow.surroundings` at the present positions.
 template <int Dim>
 void locate(Flow<Dim>& flow, SurfaceMarks marks = SurfaceMarks::found);

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.h"
-#include "motion/wall_motion.h"
+#include "motion/motion_state.h"
 #include "particles/particles.h"
 
 namespace tailwater {

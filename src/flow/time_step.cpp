@@ -5,6 +5,7 @@
 #include "base/for_each.h"
 #include "flow/buoyancy.h"
 #include "flow/stages.h"
+#include "motion/wall_motion.h"
 #include "neighbours/pair_lanes.h"
 
 namespace tailwater {
@@ -39,7 +40,7 @@ double largest_displacement_within(const Flow<Dim>& flow, double dt) {
   double farthest = 0.0;
   for (int k = 1; k <= looks; ++k) {
     const double to = k == looks ? time + dt : time + k * dt / looks;
-    farthest = std::max(farthest, flow.setup.wall_motion.largest_displacement(time, to, flow.state.motion));
+    farthest = std::max(farthest, flow.setup.wall_motion->largest_displacement(time, to, flow.state.motion));
   }
   return farthest;
 }
@@ -96,7 +97,7 @@ double next_time_step(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   const StepLimits limits = step_limits(flow);
   double dt = std::min(step_of_water(flow, limits), limits.step);
-  if (setup.wall_motion.moving().empty()) return dt;
+  if (setup.wall_motion->moving().empty()) return dt;
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
   // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
   // because a gate may start within the step.

@@ -3,6 +3,7 @@
 
 #include "flow/setup.h"
 #include "particles/particles.h"
+#include "sampling/wall_table.h"
 
 namespace tailwater {
 

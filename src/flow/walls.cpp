@@ -1,6 +1,8 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
+#include "motion/wall_motion.h"
 #include "walls/turning_walls.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 namespace {
@@ -24,20 +26,20 @@ WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& f
   if (flow.setup.formulation.moves_with_mean_velocity) return drive_walls_to_end(flow, from, dt);
   std::vector<Vec<Dim>> velocity = from;
   const double time = flow.state.time;
-  flow.setup.wall_motion.get_mean_velocity(time, time + dt, flow.state.motion, velocity);
+  flow.setup.wall_motion->get_mean_velocity(time, time + dt, flow.state.motion, velocity);
   return drive_to(flow, from, std::move(velocity), dt);
 }
 
 template <int Dim>
 WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, double dt) {
   std::vector<Vec<Dim>> velocity = from;
-  flow.setup.wall_motion.get_velocity(flow.state.time + dt, flow.state.motion, velocity);
+  flow.setup.wall_motion->get_velocity(flow.state.time + dt, flow.state.motion, velocity);
   return drive_to(flow, from, std::move(velocity), dt);
 }
 
 template <int Dim>
 void place_walls(Flow<Dim>& flow, double time) {
-  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  const WallMotion<Dim>& motion = *flow.setup.wall_motion;
   if (motion.moving().empty()) return;
   motion.place(time, flow.state.motion, flow.walls.boundary, flow.walls.particles);
   Particles<Dim>& particles = flow.state.particles;
@@ -51,7 +53,7 @@ void place_walls(Flow<Dim>& flow, double time) {
 
 template <int Dim>
 WallDisplacements<Dim> displacements_of_walls(const Flow<Dim>& flow, double dt) {
-  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  const WallMotion<Dim>& motion = *flow.setup.wall_motion;
   WallDisplacements<Dim> displacements;
   if (motion.moving().empty()) return displacements;
   displacements.dt = dt;
@@ -73,7 +75,7 @@ void set_wall_velocities(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std
 template <int Dim>
 void set_wall_velocities_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
                                      std::vector<Vec<Dim>>& velocity) {
-  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  const WallMotion<Dim>& motion = *flow.setup.wall_motion;
   const bool may_turn = flow.walls.is_curved || !motion.moving().empty();
   if (!flow.setup.formulation.is_divergence_free_midway || !may_turn) return;
   WallTurns<Dim> turns{

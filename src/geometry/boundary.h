@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "base/box.h"
-#include "base/finding.h"
 #include "base/vec.h"
-#include "case/spec.h"
 #include "geometry/face.h"
 #include "geometry/face_grid.h"
 #include "geometry/opening.h"
 #include "geometry/screen.h"
 
 namespace tailwater {
+
+struct CaseSpec;
 
 /// Index of the body to which all resting walls belong.
 inline constexpr int resting_body = 0;
@@ -177,12 +177,6 @@ struct Boundary {
   FaceGrid<Dim> resting_;    ///< without meshes; reach 0: nothing is stored
   std::vector<int> moving_;  ///< faces that do not belong to a mesh, once others are stored
 };
-
-/// Label for messages, such as "wall 'bed'" or "gate 'lock'".
-template <int Dim>
-CaseLabel wall_label(const Boundary<Dim>& boundary, int wall) {
-  return CaseLabel(boundary.walls[wall].kind, boundary.walls[wall].name);
-}
 
 /// The walls of a case file, without ducts. Left and right of a polygon are seen in the direction of its points. A box
 /// is traversed counter-clockwise, so its left is its inside. Throws CaseError for a wall without extent or normal,

@@ -8,6 +8,7 @@
 #include "geometry/mesh_surface.h"
 #include "geometry/mesh_walls.h"
 #include "geometry/opening.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 namespace {

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "base/finding.h"
 #include "base/vec.h"
-#include "case/spec.h"
 #include "geometry/face.h"
 #include "geometry/polygon.h"
 
 namespace tailwater {
+
+struct CaseLabel;
+struct CaseSpec;
+struct ProbeTable;
 
 enum class OpeningKind { inlet, outlet, section };
 

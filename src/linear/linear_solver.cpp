@@ -10,6 +10,7 @@
 #include "base/assert.h"
 #include "base/error.h"
 #include "base/fp_traps.h"
+#include "case/spec.h"
 #include "linear/bicgstab.h"
 #include "linear/dot.h"
 #include "linear/kept_multigrid.h"
@@ -17,6 +18,7 @@
 #include "linear/orthomin.h"
 #include "linear/petsc_method.h"
 #include "linear/petsc_options.h"
+#include "linear/solver_choice.h"
 
 namespace tailwater {
 namespace {
@@ -132,43 +134,56 @@ SolverError no_convergence(const LinearSystem& system, const Solve& solve, const
 
 }  // namespace
 
+/// The methods with the data that they keep for a pattern, and what chooses among them.
 struct LinearSolver::Methods {
-  Methods(const PressureSolverTable& settings, const SystemTraits& water) : petsc(settings, water, multigrid) {}
+  Methods(const PressureSolverTable& of_case, const SystemTraits& of_all) : settings(of_case), water(of_all) {
+    take_petsc_options(settings);
+  }
 
-  KeptMultigrid multigrid;
-  Bicgstab bicgstab;
-  Orthomin orthomin{multigrid};
-  PetscMethod petsc;
+  void forget() { kept = std::make_unique<Kept>(settings, water); }
+
+  /// Our own methods serve the choices of the rule. PETSc solves if there are options, for a free constant and for
+  /// SSOR.
+  Method& method_for(const LinearSystem& system) {
+    if (!settings.petsc_options.empty()) return kept->petsc;
+    const SolverChoice choice = choose_solver(settings, traits_of(system, water));
+    if (choice.preconditioner == PreconditionerName::cell_multigrid) {
+      const bool is_free = settings.method == KrylovMethod::automatic;
+      if (is_free && system.has_cells()) return kept->orthomin;
+      return kept->petsc;
+    }
+    const bool is_swept = choice.method == KrylovMethod::bicgstab && choice.preconditioner == PreconditionerName::ssor;
+    if (is_swept && !system.constant_is_free()) return kept->bicgstab;
+    return kept->petsc;
+  }
+
+  struct Kept {
+    Kept(const PressureSolverTable& settings, const SystemTraits& water) : petsc(settings, water, multigrid) {}
+
+    KeptMultigrid multigrid;
+    Bicgstab bicgstab;
+    Orthomin orthomin{multigrid};
+    PetscMethod petsc;
+  };
+
+  PressureSolverTable settings;
+  SystemTraits water;
+  std::unique_ptr<Kept> kept = std::make_unique<Kept>(settings, water);
 };
 
 LinearSolver::LinearSolver(const PressureSolverTable& settings, const SystemTraits& water)
-    : settings_(settings), water_(water) {
-  take_petsc_options(settings_);
-  forget();
-}
+    : methods_(std::make_unique<Methods>(settings, water)) {}
 
 LinearSolver::~LinearSolver() = default;
 
-void LinearSolver::forget() { methods_ = std::make_unique<Methods>(settings_, water_); }
+void LinearSolver::forget() { methods_->forget(); }
+
+double LinearSolver::tolerance() const { return methods_->settings.tolerance; }
 
 bool LinearSolver::needs_cells() const {
-  SystemTraits system = water_;
+  SystemTraits system = methods_->water;
   system.has_cells = true;
-  return choose_solver(settings_, system).preconditioner == PreconditionerName::cell_multigrid;
-}
-
-/// Our own methods serve the choices of the rule. PETSc solves if there are options, for a free constant and for SSOR.
-Method& LinearSolver::method_for(const LinearSystem& system) {
-  if (!settings_.petsc_options.empty()) return methods_->petsc;
-  const SolverChoice choice = choose_solver(settings_, traits_of(system, water_));
-  if (choice.preconditioner == PreconditionerName::cell_multigrid) {
-    const bool is_free = settings_.method == KrylovMethod::automatic;
-    if (is_free && system.has_cells()) return methods_->orthomin;
-    return methods_->petsc;
-  }
-  const bool is_swept = choice.method == KrylovMethod::bicgstab && choice.preconditioner == PreconditionerName::ssor;
-  if (is_swept && !system.constant_is_free()) return methods_->bicgstab;
-  return methods_->petsc;
+  return choose_solver(methods_->settings, system).preconditioner == PreconditionerName::cell_multigrid;
 }
 
 SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution, double tolerance) {
@@ -181,11 +196,11 @@ SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution
     return {};
   }
   solve.begin_at_guess();
-  Method* method = &method_for(system);
+  Method* method = &methods_->method_for(system);
   method->begin(system, solve.report().residual);
   if (solve.is_done()) return solve.report();
 
-  int left = settings_.max_iterations;
+  int left = methods_->settings.max_iterations;
   for (int attempt = 1; !solve.is_done(); ++attempt) {
     const double residual_before = solve.report().residual;
     const MethodOutcome outcome = solve.improve(*method, left);
@@ -195,9 +210,9 @@ SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution
       solve.ask_for_more();  // PETSc measures the preconditioned residual, and ours may contain rounding errors
     } else if (outcome.end == MethodOutcome::End::broke_down && solve.report().restarts == 0) {
       solve.restart();
-      methods_->petsc.change_to_gmres(system);
-      method = &methods_->petsc;
-      left = settings_.max_iterations;
+      methods_->kept->petsc.change_to_gmres(system);
+      method = &methods_->kept->petsc;
+      left = methods_->settings.max_iterations;
     } else {
       throw no_convergence(system, solve, outcome, residual_before);
     }

@@ -1,16 +1,15 @@
 // Solves a LinearSystem by the method that the case or the rule (solver_choice.h) chooses.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
-#include "case/spec.h"
-#include "linear/linear_system.h"
-#include "linear/solver_choice.h"
-
 namespace tailwater {
 
-class Method;
+class LinearSystem;
+struct PressureSolverTable;
+struct SystemTraits;
 
 struct SolveReport {
   int iterations = 0;
@@ -22,7 +21,7 @@ class LinearSolver {
  public:
   /// `water` has the known properties of all systems, by which `auto` chooses. Throws InputError for petsc_options that
   /// do not exist in PETSc, or that would change the criterion by which a solve ends.
-  explicit LinearSolver(const PressureSolverTable& settings, const SystemTraits& water = {});
+  LinearSolver(const PressureSolverTable& settings, const SystemTraits& water);
   ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
@@ -40,16 +39,12 @@ class LinearSolver {
   bool needs_cells() const;
 
   /// Relative residual at which a solve ends, from the case.
-  double tolerance() const { return settings_.tolerance; }
+  double tolerance() const;
 
  private:
   struct Methods;
 
-  Method& method_for(const LinearSystem& system);
-
-  PressureSolverTable settings_;
-  SystemTraits water_;
-  std::unique_ptr<Methods> methods_;  ///< with the data that they keep for a pattern
+  std::unique_ptr<Methods> methods_;
 };
 
 }  // namespace tailwater

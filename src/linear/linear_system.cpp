@@ -22,7 +22,7 @@ void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span
 void LinearSystem::set_pattern(std::span<const std::size_t> row_begin, std::span<const std::int32_t> columns,
                                const ExchangePlan& halo) {
   TAILWATER_ASSERT(columns.size() <= std::numeric_limits<std::uint32_t>::max(), "a rank's entries can be counted");
-  weights_ = workspace_->take(columns.size(), columns.size());
+  weights_ = workspace_.take(columns.size(), columns.size());
   const std::size_t rows = row_begin.size() - 1;
   const auto count = static_cast<std::int64_t>(rows);
   first_number_ = ranks_.sum_before(count);

@@ -76,9 +76,7 @@ class LinearSystem {
     }
   };
 
-  explicit LinearSystem(Communicator ranks = {},
-                        std::shared_ptr<PairWorkspace> workspace = std::make_shared<PairWorkspace>())
-      : ranks_(std::move(ranks)), workspace_(std::move(workspace)) {}
+  explicit LinearSystem(Communicator ranks = {}) : ranks_(std::move(ranks)) {}
   LinearSystem(LinearSystem&&) = default;
   LinearSystem& operator=(LinearSystem&&) = default;
 
@@ -95,6 +93,9 @@ class LinearSystem {
     columns_ = {};
     weights_ = {};
   }
+
+  /// The memory of the weights, for other use while there are none.
+  PairWorkspace& workspace() { return workspace_; }
 
   /// Sets the cell of each unknown, for a multigrid. A new pattern discards the cells.
   void set_cells(Cells cells) { cells_ = std::move(cells); }
@@ -192,7 +193,7 @@ class LinearSystem {
   Cells cells_;
   std::vector<std::uint32_t> row_begin_;  ///< rows + 1
   std::span<const std::int32_t> columns_;
-  std::shared_ptr<PairWorkspace> workspace_;
+  PairWorkspace workspace_;
   std::span<float> weights_;                ///< in the workspace
   std::vector<std::int64_t> ghost_number_;  ///< number over all ranks, of each ghost's column
   std::vector<double> rhs_;

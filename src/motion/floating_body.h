@@ -1,4 +1,4 @@
-// Rigid bodies that float: their properties, positions and velocities.
+// Rigid bodies that float: their properties.
 #pragma once
 
 #include <cmath>
@@ -6,23 +6,14 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "case/spec.h"
 #include "geometry/rotation.h"
 #include "motion/affine_map.h"
+#include "motion/motion_state.h"
 
 namespace tailwater {
 
-/// Axes about which a body can turn: one in 2D.
-template <int Dim>
-inline constexpr int turns = Dim == 2 ? 1 : 3;
-
-template <int Dim>
-using Turn = Vec<turns<Dim>>;
-
-/// Motion or load of a rigid body: first the entries along the axes, then those about the axes. A velocity [m/s,
-/// rad/s], an acceleration, or a force with its moment [N, N m].
-template <int Dim>
-using Twist = Vec<Dim + turns<Dim>>;
+struct BodyTable;
+struct CaseSpec;
 
 template <int Dim>
 Twist<Dim> twist_of(const Vec<Dim>& along, const Turn<Dim>& about) {
@@ -39,16 +30,6 @@ Turn<Dim> moment_of(const Vec<Dim>& arm, const Vec<Dim>& force) {
     return Turn<2>(arm[0] * force[1] - arm[1] * force[0]);
   } else {
     return arm.cross(force);
-  }
-}
-
-/// omega x arm
-template <int Dim>
-Vec<Dim> velocity_about(const Turn<Dim>& omega, const Vec<Dim>& arm) {
-  if constexpr (Dim == 2) {
-    return {-omega[0] * arm[1], omega[0] * arm[0]};
-  } else {
-    return omega.cross(arm);
   }
 }
 
@@ -83,37 +64,6 @@ struct Mooring {
   double stiffness;
   double length;  ///< m
   double damping;
-};
-
-/// Position and velocity of a body. The velocity is constant from `time` on, until the step ends.
-template <int Dim>
-struct BodyState {
-  double time = 0.0;                   ///< s
-  AffineMap<Dim> placement;            ///< from the drawn position to that at `time`
-  Vec<Dim> centre = Vec<Dim>::Zero();  ///< m; of mass, at `time`
-  Twist<Dim> velocity = Twist<Dim>::Zero();
-  Twist<Dim> acceleration = Twist<Dim>::Zero();  ///< in the last step
-  Twist<Dim> carried_over = Twist<Dim>::Zero();  ///< N s, N m s; impulse that has reached the body but not yet moved it
-
-  Vec<Dim> linear_velocity() const { return velocity.template head<Dim>(); }
-  Turn<Dim> angular_velocity() const { return velocity.template tail<turns<Dim>>(); }
-  Vec<Dim> velocity_at(const Vec<Dim>& x) const {
-    return linear_velocity() + velocity_about<Dim>(angular_velocity(), x - centre);
-  }
-
-  Vec<Dim> centre_at(double t) const { return centre + (t - time) * linear_velocity(); }
-  AffineMap<Dim> at(double t) const;
-  /// Advances the body to time t.
-  void go_on(double t);
-};
-
-/// All bodies of a case.
-template <int Dim>
-struct BodyStates {
-  std::vector<BodyState<Dim>> each;
-  /// Matrix, row by row: the additional force on each degree of freedom of all bodies per acceleration of each, with
-  /// the added mass of the water [kg, kg m, kg m^2]. Empty: not known.
-  std::vector<double> inertia = {};
 };
 
 template <int Dim>

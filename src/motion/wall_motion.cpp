@@ -8,6 +8,7 @@
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
 #include "geometry/rotation.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 namespace {

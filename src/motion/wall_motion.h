@@ -17,6 +17,7 @@
 #include "motion/affine_map.h"
 #include "motion/floating_body.h"
 #include "motion/gate_law.h"
+#include "motion/motion_state.h"
 #include "motion/spline.h"
 #include "motion/wave_maker.h"
 #include "sampling/wall_particles.h"
@@ -122,13 +123,6 @@ class WallPath {
   Motion motion_;
   Vec<Dim> pivot_;
   Vec<3> axis_ = Vec<3>::UnitZ();  ///< 3D; axis of the wall's rotation
-};
-
-/// State on which the motion of walls depends besides time, in the order of the tables.
-template <int Dim>
-struct MotionState {
-  std::vector<MakerState> wave_makers;
-  BodyStates<Dim> bodies;
 };
 
 /// The state at the start: no wave maker has absorbed waves yet, and the bodies are where they are drawn.

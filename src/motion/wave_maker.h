@@ -7,6 +7,7 @@
 
 #include "base/vec.h"
 #include "case/spec.h"
+#include "motion/motion_state.h"
 #include "motion/second_order.h"
 
 namespace tailwater {
@@ -87,15 +88,6 @@ class MakerLaw {
   double gain_;
   double forgetting_;
   std::variant<std::monostate, LongWave, PeriodicWaves> waves_;
-};
-
-/// How far an absorbing plate has given way, and how fast it does.
-struct MakerState {
-  double correction = 0.0;  ///< m; at `time`
-  double rate = 0.0;        ///< m/s
-  double time = 0.0;        ///< s
-
-  double at(double t) const { return correction + rate * (t - time); }
 };
 
 /// The plate of a table.

@@ -2,6 +2,7 @@
 
 #include "base/assert.h"
 #include "base/for_each.h"
+#include "case/spec.h"
 #include "parallel/exchange_plan.h"
 
 namespace tailwater {

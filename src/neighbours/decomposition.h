@@ -4,12 +4,13 @@
 
 #include <span>
 
-#include "case/spec.h"
 #include "parallel/communicator.h"
 #include "parallel/space_cuts.h"
 #include "particles/particles.h"
 
 namespace tailwater {
+
+struct ParallelTable;
 
 /// The result of a repartition.
 struct Repartition {

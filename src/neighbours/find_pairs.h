@@ -8,9 +8,6 @@
 
 namespace tailwater {
 
-/// Which pairs the rows of wall particles hold: only those with fluid (for dummies), or all.
-enum class WallRows { fluid_only, all };
-
 /// Finds pairs.place of all particles at their present positions. `radius` [m] is that of the support.
 template <int Dim>
 void find_places(const Particles<Dim>& particles, const PeriodicDomain<Dim>& domain, double radius, Pairs<Dim>& pairs);

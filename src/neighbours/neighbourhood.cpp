@@ -5,6 +5,7 @@
 
 #include "base/for_each.h"
 #include "base/z_curve.h"
+#include "neighbours/find_pairs.h"
 
 namespace tailwater {
 namespace {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "neighbours/cell_grid.h"
-#include "neighbours/find_pairs.h"
 #include "neighbours/halo.h"
 #include "neighbours/pairs.h"
 #include "particles/particles.h"

@@ -18,6 +18,9 @@
 
 namespace tailwater {
 
+/// Which pairs the rows of wall particles hold: only those with fluid (for dummies), or all.
+enum class WallRows { fluid_only, all };
+
 /// Place and volume of a particle: the data of a neighbour that loops over pairs read.
 template <int Dim>
 struct alignas(16) Place {

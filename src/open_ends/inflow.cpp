@@ -7,6 +7,7 @@
 #include "base/for_each.h"
 #include "flow/flow.h"
 #include "flow/ids_of_inflow.h"
+#include "neighbours/decomposition.h"
 #include "open_ends/open_ends.h"
 
 namespace tailwater {
@@ -208,7 +209,7 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, IdOf&
   Particles<Dim>& particles = flow.state.particles;
   flow.neighbourhood.forget(particles);
   const std::vector<std::size_t> own = indices_where(entrants.size(), [&](std::size_t n) {
-    return ranks.is_alone() || flow.decomposition.cuts().part_of(entrants[n].position) == ranks.rank();
+    return ranks.is_alone() || flow.decomposition->cuts().part_of(entrants[n].position) == ranks.rank();
   });
   particles.add(own.size(), [&](std::size_t n) -> NewParticle<Dim> {
     const Entrant<Dim>& entrant = entrants[own[n]];

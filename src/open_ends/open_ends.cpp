@@ -12,6 +12,7 @@
 #include "closures/fluid_pairs.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
+#include "operators/graded_sums.h"
 #include "operators/support_operators.h"
 
 namespace tailwater {

@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "neighbours/pair_lanes.h"
+#include "operators/lattice.h"
 
 namespace tailwater {
 
@@ -23,18 +24,6 @@ struct KernelSums {
   Mat<Dim> first_moment;  ///< M_i
   Vec<Dim> crowding;      ///< 1/m
 };
-
-/// Values of the kernel [1/m^Dim] for particles with the case's spacing.
-struct KernelValues {
-  double W_0;        ///< W(0)
-  double W_spacing;  ///< W(dx)
-  double W_close;    ///< W(0.7 dx): the weight against pairing acts between closer particles
-};
-
-template <int Dim>
-KernelValues kernel_values_of(const Kernel<Dim>& kernel, double spacing) {
-  return {kernel_value(kernel, 0.0), kernel_value(kernel, spacing), kernel_value(kernel, 0.7 * spacing)};
-}
 
 template <int Dim>
 KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const KernelValues& values) {

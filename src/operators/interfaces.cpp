@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/for_each.h"
+#include "neighbours/halo.h"
 
 namespace tailwater {
 namespace {

@@ -13,12 +13,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "neighbours/halo.h"
 #include "neighbours/pair_lanes.h"
 #include "particles/liquids.h"
 #include "particles/particles.h"
 
 namespace tailwater {
+
+template <int Dim>
+struct Halo;
 
 /// Empty if the case has one liquid.
 struct Interfaces {

@@ -12,6 +12,18 @@ struct LatticeSums {
   double across_plane = 0.0;   ///< 1/m; dx times the Morris weights from a column on one side of a plane to the other
 };
 
+/// Values of the kernel [1/m^Dim] for particles with the case's spacing.
+struct KernelValues {
+  double W_0;        ///< W(0)
+  double W_spacing;  ///< W(dx)
+  double W_close;    ///< W(0.7 dx): the weight against pairing acts between closer particles
+};
+
+template <int Dim>
+KernelValues kernel_values_of(const Kernel<Dim>& kernel, double spacing) {
+  return {kernel_value(kernel, 0.0), kernel_value(kernel, spacing), kernel_value(kernel, 0.7 * spacing)};
+}
+
 template <int Dim>
 LatticeSums lattice_sums(const Kernel<Dim>& kernel, double spacing);
 

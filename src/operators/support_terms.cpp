@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
+#include "operators/continuum_table.h"
 
 namespace tailwater {
 namespace {
@@ -38,12 +39,13 @@ void find_references(const Pairs<Dim>& pairs, const GradedSums<Dim>& sums, std::
   for_each(size, [&](std::size_t i) {
     if (counts(i)) terms.reference[i] = sums.lattice_concentration(pairs.relative_spacing_of(i), volume[i]);
   });
+  if (terms.continuum == nullptr) terms.continuum = std::make_shared<ContinuumTable<Dim>>();
   for (std::size_t i = 0; i < size; ++i) {  // in order: fills the table
     if (!counts(i)) continue;
     const Vec<Dim>& x = pairs.position[i];
     const auto border = sums.field().nearest_border(x);
     if (border.distance >= radius) continue;
-    const auto continuum = terms.continuum.at(sums, x);
+    const auto continuum = terms.continuum->at(sums, x);
     terms.border[i] = border.zone;
     terms.reference[i] *= continuum.sums.concentration;
     terms.first_moment[i] = continuum.sums.first_moment;

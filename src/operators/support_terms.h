@@ -20,11 +20,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "operators/continuum_table.h"
+#include "base/vec.h"
+#include "operators/symmetric.h"
 
 namespace tailwater {
+
+template <int Dim>
+class ContinuumTable;
 
 /// The contribution of a particle to these terms, in one piece, so that a neighbour is read in one place.
 struct alignas(16) SupportEnd {
@@ -44,7 +49,7 @@ struct SupportTerms {
   std::vector<Vec<Dim>> crowding;         ///< 1/m; of owned particles: gradient of C in a continuum
   std::vector<Vec<Dim>> delta;            ///< 1/m; of owned particles
   std::vector<Vec<Dim>> faces;            ///< 1/m; of owned particles: these terms in half of the gradient of p = 1
-  ContinuumTable<Dim> continuum;          ///< kept for speed
+  std::shared_ptr<ContinuumTable<Dim>> continuum;  ///< kept for speed
 
   bool is_empty() const { return ends.empty(); }
   /// Whether supports vary within that of particle i.

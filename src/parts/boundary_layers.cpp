@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
+#include "case/spec.h"
 #include "closures/spalart_allmaras.h"
 #include "flow/flow.h"
 #include "walls/wall_friction.h"

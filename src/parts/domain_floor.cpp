@@ -5,6 +5,7 @@
 
 #include "base/box.h"
 #include "base/for_each.h"
+#include "case/spec.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
 

@@ -8,8 +8,11 @@
 #include <numbers>
 
 #include "base/for_each.h"
+#include "case/spec.h"
 #include "flow/flow.h"
+#include "operators/graded_sums.h"
 #include "operators/gradient_corrected.h"
+#include "sampling/fluid_particles.h"
 
 namespace tailwater {
 namespace {

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/for_each.h"
+#include "case/choices.h"
+#include "case/spec.h"
 #include "flow/flow.h"
 #include "neighbours/halo.h"
 

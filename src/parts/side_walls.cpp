@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/finding.h"
 #include "base/for_each.h"
+#include "case/spec.h"
 #include "closures/wall_law.h"
 #include "flow/flow.h"
 

@@ -4,6 +4,7 @@
 
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
+#include "motion/wall_motion.h"
 #include "pressure/operators.h"
 #include "pressure/stages.h"
 
@@ -70,7 +71,7 @@ double wall_work(const Flow<Dim>& flow, const std::vector<double>& pressure, dou
 /// Work [J] of gravity along periodic directions on this rank's water since `start`.
 template <int Dim>
 double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
-  const Vec<Dim> along = flow.setup.gravity - flow.setup.gravity_across;
+  const Vec<Dim> along = flow.setup.gravity - flow.setup.gravity_across();
   if (along.isZero(0.0)) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   return sum_over(particles.owned, 0.0, [&](std::size_t i) {
@@ -85,7 +86,7 @@ template <int Dim>
 Works work_of_boundaries(const Flow<Dim>& flow, double dt) {
   Works works;
   std::vector<double> on_walls;
-  if (!flow.setup.wall_motion.moving().empty()) {
+  if (!flow.setup.wall_motion->moving().empty()) {
     on_walls = flow.state.particles.pressure;
     for (const auto& part : flow.parts) part->subtract_from_walls(flow, on_walls);
     works.walls = wall_work(flow, on_walls, dt);

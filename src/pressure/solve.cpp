@@ -7,6 +7,7 @@
 #include "pressure/stages.h"
 #include "pressure/tension.h"
 #include "pressure/tolerance.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 namespace {

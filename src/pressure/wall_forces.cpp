@@ -1,4 +1,5 @@
 #include "base/for_each.h"
+#include "motion/wall_motion.h"
 #include "pressure/operators.h"
 #include "pressure/stages.h"
 #include "walls/facing_walls.h"
@@ -10,7 +11,7 @@ namespace {
 template <int Dim>
 std::vector<double> shares_of_water(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  const bool rests = flow.setup.wall_motion.moving().empty();
+  const bool rests = flow.setup.wall_motion->moving().empty();
   std::vector<double> share(particles.size(), 0.0);
   for_each(particles.size(), [&](std::size_t i) {
     if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) return;

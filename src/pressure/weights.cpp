@@ -3,6 +3,7 @@
 #include "base/for_each.h"
 #include "linear/find_cells.h"
 #include "pressure/stages.h"
+#include "walls/wall_model.h"
 
 namespace tailwater {
 template <int Dim>

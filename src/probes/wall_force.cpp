@@ -13,6 +13,7 @@
 #include "geometry/face.h"
 #include "geometry/facing.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
 #include "probes/force_shares.h"

@@ -7,6 +7,7 @@
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "geometry/rotation.h"
+#include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 #include "probes/places.h"
 #include "probes/water_share.h"

@@ -7,6 +7,7 @@
 #include "base/for_each.h"
 #include "base/number_range.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "probes/places.h"
 #include "probes/water_share.h"
 #include "probes/wave_record.h"

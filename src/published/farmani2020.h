@@ -8,6 +8,8 @@
 
 namespace tailwater {
 
+struct CaseSpec;
+
 template <int Dim>
 FlowFormulation<Dim> published_farmani(const CaseSpec& spec);
 

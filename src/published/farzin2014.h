@@ -9,6 +9,8 @@
 
 namespace tailwater {
 
+struct CaseSpec;
+
 /// The order of a step is that of the case: explicit (F14-F17) or repeated (F20-F27).
 template <int Dim>
 FlowFormulation<Dim> published_farzin(const CaseSpec& spec);

@@ -3,6 +3,8 @@
 #include "base/for_each.h"
 #include "published/gradient_consistent.h"
 #include "published/on_wall.h"
+#include "sampling/space_share.h"
+#include "sampling/wall_particles.h"
 
 namespace tailwater {
 namespace {

@@ -14,10 +14,12 @@
 
 #include "base/box.h"
 #include "base/vec.h"
-#include "case/spec.h"
-#include "geometry/boundary.h"
 
 namespace tailwater {
+
+struct CaseSpec;
+template <int Dim>
+struct Boundary;
 
 /// Width of a border over dx of the case, per level.
 inline constexpr double border_per_level = 4.0;

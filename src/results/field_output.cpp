@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/for_each.h"
+#include "closures/spalart_allmaras.h"
 #include "rheology/thick_liquid.h"
 
 namespace tailwater {

@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "geometry/boundary.h"
+#include "motion/wall_motion.h"
 #include "parallel/together.h"
 #include "view/scene.h"
 
@@ -22,7 +23,7 @@ template <int Dim>
 std::vector<AffineMap<Dim>> poses_of(const Flow<Dim>& flow) {
   const std::vector<int> pose_of_wall = pose_of_walls(flow.walls.boundary);
   std::vector<AffineMap<Dim>> poses;
-  for (const auto& moving : flow.setup.wall_motion.moving()) {
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
     const auto pose = static_cast<std::size_t>(pose_of_wall[moving.wall]);
     if (pose >= poses.size()) poses.resize(pose + 1);
     poses[pose] = moving.at(flow.state.time, flow.state.motion);

@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "neighbours/decomposition.h"
 #include "parallel/together.h"
 
 namespace tailwater {

@@ -13,6 +13,7 @@
 #include "flow/measure.h"
 #include "flow/step.h"
 #include "io/csv_writer.h"
+#include "neighbours/decomposition.h"
 
 namespace tailwater {
 

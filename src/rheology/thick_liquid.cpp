@@ -10,6 +10,7 @@
 #include "flow/flow.h"
 #include "flow/stages.h"
 #include "io/messages.h"
+#include "motion/wall_motion.h"
 #include "rheology/liquid_balances.h"
 #include "rheology/viscous_solve.h"
 
@@ -145,7 +146,7 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
 /// The spin is the mean of the step.
 template <int Dim>
 void ThickLiquid<Dim>::find_wall_rates(const Flow<Dim>& flow, double dt) {
-  const WallMotion<Dim>& motion = flow.setup.wall_motion;
+  const WallMotion<Dim>& motion = *flow.setup.wall_motion;
   const State<Dim>& state = flow.state;
   walls_.velocity = state.wall_velocity;
   motion.get_velocity(state.time + dt, state.motion, walls_.velocity);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "case/spec.h"
+#include "closures/spalart_allmaras.h"
 #include "flow/flow.h"
 #include "rheology/viscous_operator.h"
 

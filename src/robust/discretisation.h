@@ -12,6 +12,7 @@
 // equations of the flow.
 #pragma once
 
+#include "case/choices.h"
 #include "closures/air.h"
 #include "closures/shifting.h"
 #include "flow/flow.h"

@@ -5,6 +5,8 @@
 
 namespace tailwater {
 
+struct CaseSpec;
+
 /// The order of a step is the explicit projection, its implicit form with a second projection, or the two-step scheme
 /// (docs/theory/schemes.md, two-step.md).
 template <int Dim>

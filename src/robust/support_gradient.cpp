@@ -1,6 +1,7 @@
 #include "robust/support_gradient.h"
 
 #include "base/for_each.h"
+#include "operators/graded_sums.h"
 #include "operators/support_operators.h"
 
 namespace tailwater {

@@ -115,8 +115,8 @@ void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
       flow.pairs(), flow.halo(),
       {kernel_radius(flow.setup.scale.kernel), particles.volume, particles.kind, surroundings.interior,
        surroundings.first_moment, support.is_empty() ? nullptr : &support},
-      reach, closing_sweeps(reach), flow.pair_workspace->take(pairs, pairs + pairs / 4), surroundings.pair_vectors,
-      surroundings.open_faces, surroundings.mean_interior);
+      reach, closing_sweeps(reach), flow.pressure_rows.workspace().take(pairs, pairs + pairs / 4),
+      surroundings.pair_vectors, surroundings.open_faces, surroundings.mean_interior);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                 \

@@ -4,6 +4,7 @@
 #include "base/for_each.h"
 #include "flow/buoyancy.h"
 #include "flow/measure.h"
+#include "motion/wall_motion.h"
 #include "robust/discretisation.h"
 
 namespace tailwater {
@@ -30,7 +31,7 @@ std::vector<float> densities_of_thin_liquids(const Flow<Dim>& flow) {
 template <int Dim>
 std::vector<float> noise_factors_beside_hulls(const Flow<Dim>& flow) {
   std::vector<std::uint8_t> is_hull(flow.walls.boundary.walls.size(), 0);
-  for (const auto& moving : flow.setup.wall_motion.moving()) is_hull[moving.wall] = moving.body >= 0 ? 1 : 0;
+  for (const auto& moving : flow.setup.wall_motion->moving()) is_hull[moving.wall] = moving.body >= 0 ? 1 : 0;
   if (std::ranges::find(is_hull, 1) == is_hull.end()) return {};
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();

@@ -14,6 +14,7 @@
 #include "case/formulation.h"
 #include "flow/stages.h"
 #include "geometry/mesh_surface.h"
+#include "geometry/wall_label.h"
 #include "published/make_flow.h"
 #include "run/inflow_estimate.h"
 #include "schemes/advance.h"

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "neighbours/decomposition.h"
 #include "run/checkpoint.h"
 #include "run/checkpoint_keeper.h"
 #include "run/run_output.h"

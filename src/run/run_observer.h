@@ -4,6 +4,7 @@
 #include "flow/flow.h"
 #include "flow/measure.h"
 #include "flow/step.h"
+#include "neighbours/decomposition.h"
 
 namespace tailwater {
 

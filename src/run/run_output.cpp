@@ -11,7 +11,10 @@
 #include "case/writer.h"
 #include "io/messages.h"
 #include "io/write_file.h"
+#include "motion/wall_motion.h"
+#include "neighbours/decomposition.h"
 #include "open_ends/open_ends.h"
+#include "operators/graded_sums.h"
 #include "parallel/together.h"
 #include "parts/section_counters.h"
 #include "results/field_output.h"
@@ -195,7 +198,7 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
   series_.write(flow.state.time, fields.view(), ranks_);
   // Walls at rest are written once, in 3D: a picture needs them, and the case has no chain of points for a mesh.
   const bool is_first = Dim == 3 && series_.size() == 1;
-  if (is_first || !flow.setup.wall_motion.moving().empty()) {
+  if (is_first || !flow.setup.wall_motion->moving().empty()) {
     do_on_root(ranks_, [&] { wall_series_.write(flow.state.time, WallFields<Dim>(flow.walls.boundary).view()); });
   }
 }

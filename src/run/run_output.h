@@ -14,6 +14,7 @@
 #include "flow/flow.h"
 #include "io/pvd_series.h"
 #include "io/run_folder.h"
+#include "neighbours/decomposition.h"
 #include "probes/probe_set.h"
 #include "results/frame_output.h"
 #include "results/measurements.h"

@@ -10,6 +10,8 @@
 #include "flow/buoyancy.h"
 #include "flow/stages.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
+#include "motion/wall_motion.h"
 #include "run/failure.h"
 
 namespace tailwater {
@@ -36,7 +38,7 @@ std::string fastest_wall(const Flow<Dim>& flow, double dt) {
   const double time = flow.state.time;
   double farthest = -1.0;
   int wall = 0;
-  for (const auto& moving : flow.setup.wall_motion.moving()) {
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
     const AffineMap<Dim> velocity = moving.mean_velocity(time, time + dt, flow.state.motion);
     for (const WallFace<Dim>& face : boundary.faces) {
       if (face.wall != moving.wall) continue;
@@ -78,7 +80,7 @@ void StepGuard<Dim>::require_sound_step(double dt) {
     // Without gravity a speed can only be judged by comparison with the start.
     const double speed = setup.time_step_rule.reference_speed > 0.0 ? 0.0 : largest_speed(flow_);
     reference_step_ = setup.time_step_rule.largest(speed, setup.liquid.viscosity.at_speed(speed));
-    if (!setup.wall_motion.moving().empty()) reference_step_ = std::min(reference_step_, dt);  // walls limit it too
+    if (!setup.wall_motion->moving().empty()) reference_step_ = std::min(reference_step_, dt);  // walls limit it too
   }
   if (!std::isfinite(reference_step_) || dt >= smallest_share * reference_step_) return;
   const std::string reason =

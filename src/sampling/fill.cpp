@@ -9,6 +9,7 @@
 #include "base/box.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "geometry/wall_label.h"
 
 namespace tailwater {
 namespace {

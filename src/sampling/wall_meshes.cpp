@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
+#include "geometry/wall_label.h"
 #include "sampling/cut_cells.h"
 #include "sampling/nodes_near.h"
 #include "sampling/wall_layers.h"

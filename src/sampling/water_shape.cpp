@@ -7,6 +7,7 @@
 
 #include "base/box.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "sampling/fill.h"
 
 namespace tailwater {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/for_each.h"
+#include "sampling/space_share.h"
+#include "sampling/wall_particles.h"
 #include "walls/wet_walls.h"
 
 namespace tailwater {

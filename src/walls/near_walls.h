@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "neighbours/halo.h"
-#include "walls/wall_model.h"
+#include "walls/walls.h"
 
 namespace tailwater {
 

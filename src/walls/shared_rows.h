@@ -8,7 +8,7 @@
 
 #include "parallel/communicator.h"
 #include "particles/particles.h"
-#include "walls/wall_model.h"
+#include "walls/walls.h"
 
 namespace tailwater {
 

@@ -4,6 +4,8 @@
 
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
+#include "closures/spalart_allmaras.h"
+#include "closures/wall_law.h"
 #include "operators/laplacian_morris.h"
 
 namespace tailwater {

@@ -5,22 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "closures/spalart_allmaras.h"
-#include "walls/wall_model.h"
+#include "base/vec.h"
+#include "walls/friction_law.h"
+#include "walls/walls.h"
 
 namespace tailwater {
 
 /// [dx]; least distance from a wall with friction: nearer water counts as this far away, because particles keep no
 /// nearer.
 inline constexpr double least_friction_distance = 0.25;
-
-struct FrictionLaw {
-  double viscosity = 0.0;  ///< m^2/s; molecular
-  double spacing = 0.0;    ///< m; dx of the case
-  double exchange_length =
-      0.0;  ///< m; at that spacing: water with slip velocity u gets the stress k u/exchange_length from k_i
-  bool knows_layers = false;  ///< whether particles carry the eddy viscosity of their layer
-};
 
 /// Properties of the walls with friction in reach of a fluid particle: weighted means over their particles.
 template <int Dim>

@@ -8,49 +8,14 @@
 #include <vector>
 
 #include "closures/surroundings.h"
-#include "geometry/boundary.h"
 #include "linear/linear_system.h"
-#include "neighbours/neighbourhood.h"
-#include "particles/particles.h"
-#include "sampling/wall_particles.h"
+#include "neighbours/pairs.h"
+#include "sampling/lattice_axis.h"
+#include "walls/walls.h"
 
 namespace tailwater {
 
-/// The walls of a case at their present positions. The table begins with the rows of walls that move, on all ranks.
-/// Then come the rows of walls at rest that this rank keeps, and the halo rows (shared_rows.h). The first two groups
-/// are in order of their numbers.
-template <int Dim>
-struct Walls {
-  Boundary<Dim> boundary;              ///< faces
-  WallParticles<Dim> particles;        ///< the table that Particles::wall_row points into
-  std::vector<double> friction;        ///< lambda of each row of the table: 0 free slip, 1 no slip
-  std::vector<double> roughness;       ///< m; k_s of each row
-  std::vector<double> depth;           ///< m; distance of each row behind its wall, where it has friction
-  std::vector<Mat<Dim>> curvature;     ///< 1/m; curvature of each row's wall as drawn (turning_walls.h); empty if flat
-  std::vector<double> share_of_water;  ///< of the force of a pair; for a force probe, as drawn (facing_walls.h)
-  bool is_curved = false;              ///< whether any wall is curved; the same on all ranks
-  std::size_t moving = 0;              ///< rows of walls that move
-  std::size_t kept = 0;                ///< rows without halo rows
-  std::int64_t all = 0;                ///< rows of the case on all ranks
-
-  /// Calls body with references to all fields of the rows.
-  template <class Body>
-  void apply_to_rows(Body&& body) {
-    particles.apply_to_fields([&](auto&... field) {
-      if (is_curved) {
-        body(field..., friction, roughness, depth, curvature, share_of_water);
-      } else {
-        body(field..., friction, roughness, depth, share_of_water);
-      }
-    });
-  }
-};
-
-/// Entry of a row of the table in a field of the rows of moving walls; 0 for other rows.
-template <int Dim>
-Vec<Dim> entry_of(std::span<const Vec<Dim>> field, std::int32_t row) {
-  return static_cast<std::size_t>(row) < field.size() ? field[row] : Vec<Dim>(Vec<Dim>::Zero());
-}
+struct SpaceShare;
 
 /// Properties of a model that the rest of the step needs.
 struct WallTraits {
@@ -58,37 +23,6 @@ struct WallTraits {
 
   /// The rows of particles on the wall itself are the fluid's pressure equation.
   bool solves_on_wall = false;
-};
-
-/// The water and the walls at the present positions.
-template <int Dim>
-struct WallScene {
-  const Pairs<Dim>& pairs;
-  const Particles<Dim>& particles;
-  const Walls<Dim>& walls;
-  const Surroundings<Dim>& surroundings;
-};
-
-/// The body force in the walls' own frame.
-template <int Dim>
-struct WallForce {
-  double density;                          ///< kg/m^3
-  Vec<Dim> gravity;                        ///< m/s^2
-  std::span<const Vec<Dim>> acceleration;  ///< m/s^2; of each moving row, along the directions that the wall blocks
-
-  std::span<const Vec<Dim>> turning = {};  ///< m/s^2; of the water at each owned wall particle (turning_walls.h)
-
-  /// g - a at a row of the table.
-  Vec<Dim> felt(std::int32_t row) const { return gravity - entry_of<Dim>(acceleration, row); }
-
-  /// Excess of the pressure at wall particle i over that at a place from which the particle is d [m] away: rho (g - a)
-  /// . d, the hydrostatic difference in the wall's frame. With it the wall row prescribes grad p . n = rho (g - a) . n
-  /// (F37).
-  double hydrostatic_difference(const Particles<Dim>& particles, std::size_t i, const Vec<Dim>& d) const {
-    Vec<Dim> force = felt(particles.wall_row[i]);
-    if (i < turning.size()) force -= turning[i];
-    return density * force.dot(d);
-  }
 };
 
 template <int Dim>

@@ -6,6 +6,7 @@
 
 #include "closures/fluid_pairs.h"
 #include "operators/concentration.h"
+#include "operators/lattice.h"
 #include "published/shifting.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"

@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include "case/spec.h"
+#include "geometry/boundary.h"
 #include "operators/concentration.h"
+#include "operators/continuum_table.h"
 #include "operators/divergence.h"
 #include "operators/graded_sums.h"
 #include "operators/gradient_conservative.h"

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <random>
 
+#include "base/finding.h"
+#include "case/choices.h"
+#include "case/spec.h"
+#include "geometry/boundary.h"
 #include "refinement/spacing_field.h"
 
 namespace tailwater {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "case/choices.h"
 #include "support/dimensions.h"
 #include "support/pond.h"
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "case/choices.h"
+#include "case/spec.h"
 #include "support/pond.h"
 
 namespace tailwater {

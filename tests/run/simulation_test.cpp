@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/temporary_folder.h"
+#include "neighbours/decomposition.h"
 #include "parts/script_loads.h"
 #include "support/dimensions.h"
 #include "support/pond.h"

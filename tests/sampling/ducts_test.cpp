@@ -8,6 +8,7 @@
 
 #include "geometry/cases.h"
 #include "geometry/meshes.h"
+#include "geometry/wall_label.h"
 #include "sampling/duct_water.h"
 #include "sampling/wall_particles.h"
 

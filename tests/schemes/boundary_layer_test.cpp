@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include "case/choices.h"
+#include "case/spec.h"
 #include "cases.h"
+#include "closures/wall_law.h"
 #include "parts/boundary_layers.h"
 #include "published/make_flow.h"
 #include "support/dimensions.h"

@@ -18,6 +18,7 @@
 
 #include "air/pocket_pressure.h"
 #include "bodies/floating_bodies.h"
+#include "neighbours/decomposition.h"
 #include "parts/refinement.h"
 #include "schemes/force_reader.h"
 #include "schemes/open_ends.h"

@@ -1,6 +1,7 @@
 // Still water, four by two particles (by two in 3D), without walls: the smallest flow there is.
 #pragma once
 
+#include "case/spec.h"
 #include "flow/flow.h"
 #include "published/make_flow.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/cases.h"
+#include "sampling/wall_particles.h"
 #include "support/dimensions.h"
 #include "support/particle_set.h"
 #include "support/rounding.h"
