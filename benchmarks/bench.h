@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "neighbours/decomposition.h"
 #include "pressure/stages.h"
 #include "published/make_flow.h"
 #include "schemes/advance.h"

@@ -1,6 +1,7 @@
 // Tanks and channels with open ends, and how a run goes on with them.
 #pragma once
 
+#include "neighbours/decomposition.h"
 #include "open_ends/open_ends.h"
 #include "schemes/cases.h"
 
