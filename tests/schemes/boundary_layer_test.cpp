@@ -6,6 +6,7 @@
 #include "case/choices.h"
 #include "case/spec.h"
 #include "cases.h"
+#include "closures/spalart_allmaras.h"
 #include "closures/wall_law.h"
 #include "parts/boundary_layers.h"
 #include "published/make_flow.h"
