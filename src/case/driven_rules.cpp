@@ -160,13 +160,11 @@ void check(const DampingTable& damping, TableReader& reader) {
 }
 
 void check(const RefinementTable& zone, TableReader& reader) {
-  const int dimension = zone.shape == ZoneShape::polygon ? 2 : 0;
-  check_shape_dimension(name_of(zone.shape), dimension, "\"box\", \"walls\" or \"surface\"", reader);
   check_box(zone.min, zone.max, reader);
   check_corner_count(zone.points, 3, reader);
   if (zone.shape == ZoneShape::walls && zone.walls.empty() && reader.given("walls") != nullptr &&
       !reader.is_wrong("walls")) {
-    reader.wrong("walls", "names no wall; give the names of walls at rest, as in [\"pier\"]");
+    reader.wrong("walls", "names no wall; give the names of walls, as in [\"pier\"]");
   }
 }
 

@@ -653,14 +653,15 @@ struct RefinementTable {
   static void describe(Self& self, Visitor& v) {
     v.text("name", self.name, "Name in messages");
     v.choice("shape", self.shape,
-             "Shape of the zone: an axis-parallel box, a polygon (2D), all places near the named walls, or all places "
-             "above a depth below the initial surface");
+             "Shape of the zone: an axis-parallel box, a polygon (in 3D in plan, at all heights), all places near the "
+             "named walls, or all places above a depth below the initial surface");
     v.coordinates("min", self.min, "m",
                   "Lowest corner of a box; the spacing falls from the edge of a box or polygon inwards, over 4 dx per "
                   "level, except where the zone reaches to the outermost walls");
     v.coordinates("max", self.max, "m", "Highest corner of a box");
-    v.points("points", self.points, "m", "Corners of a polygon, in order; the last is joined to the first");
-    v.texts("walls", self.walls, {}, "Names of walls at rest");
+    v.points("points", self.points, "m", "Corners (x, y) of a polygon, in order; the last is joined to the first");
+    v.texts("walls", self.walls, {},
+            "Names of walls; the zone moves with walls that move as one, such as a gate or a floating body");
     v.number("distance", self.distance, "m", Range::above(0.0),
              "Distance from the walls, or depth below the highest water at the start, up to which the spacing is the "
              "finest; beyond, it grows over 4 dx per level");

@@ -93,12 +93,21 @@ void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const Pr
 }  // namespace
 
 template <int Dim>
-Box<Dim> swept_box(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
-  Box<Dim> box;
+std::vector<AffineMap<Dim>> path_of_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
+  std::vector<AffineMap<Dim>> maps;
   const WallPath<Dim> path(spec, spec.walls[wall], wall_label(drawn, wall));
   for (int k = 0; k <= looks_at_walls; ++k) {
     const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_walls);
-    if (!map.linear.allFinite() || !map.constant.allFinite()) continue;  // check_paths reports this
+    const bool is_finite = map.linear.allFinite() && map.constant.allFinite();  // check_paths reports others
+    if (is_finite) maps.push_back(map);
+  }
+  return maps;
+}
+
+template <int Dim>
+Box<Dim> swept_box(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
+  Box<Dim> box;
+  for (const AffineMap<Dim>& map : path_of_wall(spec, drawn, wall)) {
     for (const WallFace<Dim>& face : drawn.faces) {
       if (face.wall == wall) box.extend(moved(map, face).box());
     }
@@ -140,6 +149,7 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
   return findings;
 }
 
+TAILWATER_IN_2D_AND_3D(path_of_wall);
 TAILWATER_IN_2D_AND_3D(swept_box);
 TAILWATER_IN_2D_AND_3D(check_damping);
 TAILWATER_IN_2D_AND_3D(check_probes);

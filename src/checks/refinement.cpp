@@ -56,10 +56,9 @@ Findings check_period(const CaseSpec& spec, const typename SpacingField<Dim>::Zo
   return findings;
 }
 
-/// Calls visit(depth) with depths in a zone at places all over a box, at most a spacing apart if it is not large.
+/// Calls visit(x) for places all over a box, at most a spacing apart if it is not large.
 template <int Dim, class Visit>
-void visit_depths(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box,
-                  Visit&& visit) {
+void visit_places(const CaseSpec& spec, const Box<Dim>& box, Visit&& visit) {
   constexpr double most = Dim == 2 ? 100.0 : 40.0;  // along each edge
   std::array<int, Dim> counts;
   double all = 1.0;
@@ -72,8 +71,15 @@ void visit_depths(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& 
     for (int axis = 0, rest = n; axis < Dim; rest /= counts[axis++]) {
       x[axis] += box.sizes()[axis] * (rest % counts[axis]) / std::max(counts[axis] - 1, 1);
     }
-    visit(zone.depth->depth(x));
+    visit(x);
   }
+}
+
+/// Calls visit(depth) with the depths of these places in a zone.
+template <int Dim, class Visit>
+void visit_depths(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box,
+                  Visit&& visit) {
+  visit_places<Dim>(spec, box, [&](const Vec<Dim>& x) { visit(zone.depth->depth(x)); });
 }
 
 /// A polygon that nowhere is as deep as its border is wide.
@@ -90,15 +96,31 @@ Findings check_depth(const CaseSpec& spec, const Box<Dim>& all, const typename S
       {"make the polygon wider, let it reach beyond the outermost walls, or use a lower level"})};
 }
 
-/// Walls around which a zone lies and that do not rest.
+/// A zone that is carried by walls, where it cannot be.
 template <int Dim>
-Findings check_walls_at_rest(const Boundary<Dim>& boundary, const RefinementTable& table, const CaseLabel& owner) {
+Findings check_carried(const CaseSpec& spec, const Boundary<Dim>& boundary, int carrier, const RefinementTable& table,
+                       const CaseLabel& owner) {
   Findings findings;
-  for (std::size_t w = 0; w < boundary.walls.size(); ++w) {
-    const int wall = static_cast<int>(w);
-    if (!boundary.walls[w].moves() || std::ranges::count(table.walls, boundary.walls[w].name) == 0) continue;
-    findings.push_back(Finding::error({"{} lies around {}, which moves: zones rest", owner, wall_label(boundary, wall)},
+  const CaseLabel by = wall_label(boundary, carrier);
+  for (const WallProperties& wall : boundary.walls) {
+    if (wall.body == boundary.walls[carrier].body || std::ranges::count(table.walls, wall.name) == 0) continue;
+    findings.push_back(Finding::error({"{} moves with {}, and '{}' does not move with that wall", owner, by, wall.name},
+                                      {"name walls of one body only, or give shape = \"box\""}));
+  }
+  if (spec.refinement.size() > 1) {
+    findings.push_back(Finding::error({"{} moves with {}: a zone that moves must be the only one", owner, by},
+                                      {"remove the others, or give a box that contains its path"}));
+  }
+  bool repeats = false;
+  for (int axis = 0; axis < Dim; ++axis) repeats = repeats || !periodic_range(spec.domain, axis).empty();
+  if (repeats) {
+    findings.push_back(Finding::error({"{} moves with {} in a domain that repeats", owner, by},
                                       {"give shape = \"box\" with a box that contains its path"}));
+  }
+  if (const double least = clearance * spec.particles.spacing * std::exp2(-table.level); table.distance < least) {
+    findings.push_back(Finding::error({"{} = {:.4g} is narrower than the supports beside walls that move",
+                                       owner.with_key("distance"), Amount{table.distance, "m"}},
+                                      {"give at least {:.4g}", least}));
   }
   return findings;
 }
@@ -121,6 +143,18 @@ Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename S
         {"make the zone at least {:.4g} m long, let it reach to the outermost walls, or use a lower level", needed})};
   }
   return {};
+}
+
+/// Whether a zone and its border meet a box on the way of the zone.
+template <int Dim>
+bool comes_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
+                const std::vector<AffineMap<Dim>>& path, const Box<Dim>& box) {
+  const double margin = clearance * spec.particles.spacing;
+  bool is_near = false;
+  visit_places<Dim>(spec, box, [&](const Vec<Dim>& x) {
+    for (const AffineMap<Dim>& map : path) is_near = is_near || zone.depth->depth(map.inverse(x)) > -margin;
+  });
+  return is_near;
 }
 
 /// Whether a zone and its border meet a box.
@@ -152,6 +186,28 @@ bool is_inside(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zon
   }
   Box<Dim> finest = zone.box;
   return finest.widen(-margin_inside<Dim>(spec, zone)).contains(box);
+}
+
+/// Walls that move and open ends on the way of a zone that moves.
+template <int Dim>
+Findings check_way(const CaseSpec& spec, const Boundary<Dim>& boundary, const SpacingField<Dim>& field,
+                   const CaseLabel& owner) {
+  Findings findings;
+  const auto& zone = field.zones().front();
+  std::vector<AffineMap<Dim>> path = path_of_wall(spec, boundary, field.carrier());
+  if (spec.walls[field.carrier()].drive.by == Drive::By::body) path.resize(1);
+  const auto refuse_near = [&](const Box<Dim>& box, const CaseLabel& what) {
+    if (!comes_near<Dim>(spec, zone, path, box)) return;
+    findings.push_back(Finding::error({"{} moves and comes within {:g} spacings of {}", owner, clearance, what},
+                                      {"reduce its distance, or give a box that contains both"}));
+  };
+  for (std::size_t w = 0; w < boundary.walls.size(); ++w) {
+    const int wall = static_cast<int>(w);
+    if (!boundary.walls[w].moves() || boundary.walls[w].body == boundary.walls[field.carrier()].body) continue;
+    refuse_near(swept_box(spec, boundary, wall), wall_label(boundary, wall));
+  }
+  for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) refuse_near(box_around(end.as_faces()), end.label());
+  return findings;
 }
 
 /// Walls that move and open ends beside a zone.
@@ -210,8 +266,10 @@ Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, cons
                                         {"move it to where the water is to be finer"}));
       continue;
     }
-    if (const Findings moving = check_walls_at_rest(drawn, table, owner); !moving.empty()) {
-      append(findings, moving);
+    if (field.carrier() >= 0) {
+      const Findings carried = check_carried(spec, drawn, field.carrier(), table, owner);
+      append(findings, carried);
+      if (carried.empty()) append(findings, check_way(spec, drawn, field, owner));
       continue;
     }
     append(findings, check_period<Dim>(spec, zone, owner));

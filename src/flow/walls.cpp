@@ -49,6 +49,13 @@ void place_walls(Flow<Dim>& flow, double time) {
     if (!flow.walls.boundary.walls[flow.walls.particles.wall[row]].moves()) return;
     particles.position[i] = flow.neighbourhood.wrapped(flow.walls.particles.position[row]);
   });
+  if (flow.setup.graded == nullptr) return;
+  const SpacingField<Dim>& field = flow.setup.graded->field();
+  for (const auto& moving : motion.moving()) {
+    if (moving.wall != field.carrier()) continue;
+    const AffineMap<Dim> carried = moving.at(time, flow.state.motion);
+    field.carry(carried.linear, carried.constant);
+  }
 }
 
 template <int Dim>

@@ -29,6 +29,13 @@ Vec<Dim> place_of(const std::array<std::int32_t, Dim>& node, double step) {
   return Vec<Dim>::NullaryExpr([&](int d) { return step * node[d]; });
 }
 
+/// The sums of a field that has turned.
+template <int Dim>
+typename ContinuumTable<Dim>::Entry turned(const typename ContinuumTable<Dim>::Entry& drawn, const Mat<Dim>& turn) {
+  const Mat<Dim> moment = turn * unpacked<Dim>(drawn.sums.first_moment) * turn.transpose();
+  return {{drawn.sums.concentration, turn * drawn.sums.gradient, packed<Dim>(moment)}, turn * drawn.slope};
+}
+
 /// Node n of a cell.
 template <std::size_t Dim>
 std::array<std::int32_t, Dim> corner(std::array<std::int32_t, Dim> node, int n) {
@@ -62,7 +69,7 @@ const typename ContinuumTable<Dim>::Corners& ContinuumTable<Dim>::corners_of(con
 
 template <int Dim>
 typename ContinuumTable<Dim>::Entry ContinuumTable<Dim>::at(const GradedSums<Dim>& sums, const Vec<Dim>& x) {
-  Vec<Dim> place = x;
+  Vec<Dim> place = sums.field().drawn(x);
   if (!sums.field().varies_around(place, kernel_radius(sums.kernel()))) return {};
   const double step = sums.spacing() / nodes_per_spacing<Dim>;
   const NodeCell<Dim> cell(place, step);
@@ -87,7 +94,7 @@ typename ContinuumTable<Dim>::Entry ContinuumTable<Dim>::at(const GradedSums<Dim
       entry.slope[d] += others.prod() * node.concentration;
     }
   }
-  return entry;
+  return sums.field().carrier() < 0 ? entry : turned<Dim>(entry, sums.field().turn());
 }
 
 template class ContinuumTable<2>;

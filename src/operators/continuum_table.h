@@ -1,6 +1,7 @@
 // C* and its gradient as a table over the place, which is filled where particles come: a quadrature for each particle
 // in each step would be most of the cost of a step. Nodes are shared by all places with the same spacings around them,
-// so that a plane face needs a line of nodes and an edge a plane of them.
+// so that a plane face needs a line of nodes and an edge a plane of them. They belong to the field as drawn, which
+// zones that move carry with them.
 #pragma once
 
 #include <array>

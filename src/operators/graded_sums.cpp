@@ -62,7 +62,7 @@ double GradedSums<Dim>::lattice_slope(double relative_spacing, double volume) co
 
 template <int Dim>
 ContinuumSums<Dim> GradedSums<Dim>::continuum(const Vec<Dim>& x) const {
-  const double own = field_.at(x);
+  const double own = field_.at_drawn(x);
   const double reach = 0.5 * kernel_radius(kernel_) * (own + 1.0);
   const double step = reach / points_along_radius;
   double sum = 0.0;
@@ -80,7 +80,7 @@ ContinuumSums<Dim> GradedSums<Dim>::continuum(const Vec<Dim>& x) const {
         if constexpr (Dim == 3) s[2] = step * c;
         const double r = s.norm();
         if (r >= reach) continue;
-        const double mean = 0.5 * (own + field_.at(Vec<Dim>(x + s)));
+        const double mean = 0.5 * (own + field_.at_drawn(Vec<Dim>(x + s)));
         sum += kernel_value(kernel_, r / mean) / power<Dim>(mean);
         of_uniform += kernel_value(kernel_, r / own) / power<Dim>(own);
         if (r == 0.0) continue;

@@ -40,7 +40,7 @@ class GradedSums {
   double lattice_concentration(double relative_spacing, double volume) const;
   /// d ln C_0/d ln h of such a lattice, at its volume.
   double lattice_slope(double relative_spacing, double volume) const;
-  /// At a place, by quadrature.
+  /// At a place of the field as drawn, by quadrature.
   ContinuumSums<Dim> continuum(const Vec<Dim>& x) const;
 
  private:

@@ -75,6 +75,10 @@ SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& bound
   }
   for (const RefinementTable& table : spec.refinement) {
     Zone zone{{}, table.level, border_per_level * table.level * dx, nullptr};
+    for (std::size_t w = 0; table.shape == ZoneShape::walls && carrier_ < 0 && w < boundary.walls.size(); ++w) {
+      const WallProperties& wall = boundary.walls[w];
+      if (wall.moves() && std::ranges::count(table.walls, wall.name) > 0) carrier_ = static_cast<int>(w);
+    }
     if (table.shape == ZoneShape::polygon || table.shape == ZoneShape::walls) {
       zone.depth = std::make_shared<ZoneDepth<Dim>>(table, boundary, bounds, periodic_.sizes(), zone.border, dx);
       zone.box = zone.depth->box();
@@ -90,6 +94,15 @@ SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& bound
     }
     zones_.push_back(zone);
   }
+  if (carrier_ >= 0) motion_ = std::make_shared<Motion>();
+  are_prisms_ = Dim == 3 && std::ranges::all_of(spec.refinement, [](const RefinementTable& table) {
+                  return table.shape == ZoneShape::polygon;
+                });
+}
+
+template <int Dim>
+void SpacingField<Dim>::carry(const Mat<Dim>& turn, const Vec<Dim>& shift) const {
+  *motion_ = {turn, shift};
 }
 
 template <int Dim>
@@ -102,7 +115,7 @@ Vec<Dim> SpacingField<Dim>::wrapped(Vec<Dim> x) const {
 }
 
 template <int Dim>
-double SpacingField<Dim>::at(const Vec<Dim>& x) const {
+double SpacingField<Dim>::at_drawn(const Vec<Dim>& x) const {
   const Vec<Dim> inside = wrapped(x);
   double least = 1.0;
   for (const Zone& zone : zones_) least = std::min(least, in_zone(zone, inside));
@@ -123,6 +136,11 @@ double SpacingField<Dim>::in_zone(const Zone& zone, const Vec<Dim>& inside) {
 
 template <int Dim>
 Vec<Dim> SpacingField<Dim>::slope(const Vec<Dim>& x) const {
+  return motion_ == nullptr ? slope_drawn(x) : Vec<Dim>(motion_->turn * slope_drawn(drawn(x)));
+}
+
+template <int Dim>
+Vec<Dim> SpacingField<Dim>::slope_drawn(const Vec<Dim>& x) const {
   const Vec<Dim> inside = wrapped(x);
   double least = 1.0;
   Vec<Dim> slope = Vec<Dim>::Zero();
@@ -153,7 +171,7 @@ Vec<Dim> SpacingField<Dim>::slope(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-typename SpacingField<Dim>::NearestBorder SpacingField<Dim>::nearest_border(const Vec<Dim>& x) const {
+typename SpacingField<Dim>::NearestBorder SpacingField<Dim>::nearest_border_drawn(const Vec<Dim>& x) const {
   const Vec<Dim> inside = wrapped(x);
   NearestBorder nearest{-1, std::numeric_limits<double>::infinity()};
   for (std::size_t n = 0; n < zones_.size(); ++n) {
@@ -191,7 +209,10 @@ template <int Dim>
 bool SpacingField<Dim>::varies_around(Vec<Dim>& x, double reach) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   x = wrapped(x);
-  if (has_depths_) return nearest_border(x).distance <= reach;
+  if constexpr (Dim == 3) {
+    if (are_prisms_) x[2] = 0.0;
+  }
+  if (has_depths_) return nearest_border_drawn(x).distance <= reach;
   const Vec<Dim> period = periodic_.sizes();
   bool varies = false;
   for (int axis = 0; axis < Dim; ++axis) {

@@ -7,6 +7,8 @@
 // (zone_depth.h). The supports of particles follow h, not their volumes: particles of
 // several volumes that stand side by side have nearly the same support, and pairs are symmetric
 // (docs/theory/refinement.md).
+//
+// A zone around walls that move is carried by them: h(x, t) is the h of the place from which their motion has taken x.
 #pragma once
 
 #include <memory>
@@ -46,32 +48,55 @@ class SpacingField {
 
   const std::vector<Zone>& zones() const { return zones_; }
   bool is_uniform() const { return zones_.empty(); }
+  /// Index into Boundary::walls of a wall that carries the zones; -1: they rest.
+  int carrier() const { return carrier_; }
+  /// Moves the zones of this field, and of all copies of it, from where they are drawn by x -> turn x + shift.
+  void carry(const Mat<Dim>& turn, const Vec<Dim>& shift) const;
+  /// The place from which the motion of the zones has taken x.
+  Vec<Dim> drawn(const Vec<Dim>& x) const {
+    return motion_ == nullptr ? x : Vec<Dim>(motion_->turn.transpose() * (x - motion_->shift));
+  }
+  /// How the zones have turned since they were drawn.
+  Mat<Dim> turn() const { return motion_ == nullptr ? Mat<Dim>(Mat<Dim>::Identity()) : motion_->turn; }
   /// h; 1 is the spacing of the case.
-  double at(const Vec<Dim>& x) const;
+  double at(const Vec<Dim>& x) const { return at_drawn(drawn(x)); }
+  /// h at a place in the case as drawn.
+  double at_drawn(const Vec<Dim>& x) const;
   /// 1/m; grad h.
   Vec<Dim> slope(const Vec<Dim>& x) const;
   /// The least h there is.
   double finest() const;
-  /// Whether h varies within `reach` [m] of `x`. Moves `x` along directions in which it does not, so that places with
-  /// the same h around them become one.
+  /// Whether h varies within `reach` [m] of `x`, as drawn. Moves `x` along directions in which it does not, so that
+  /// places with the same h around them become one.
   bool varies_around(Vec<Dim>& x, double reach) const;
   /// The border of a zone that is nearest to a place.
   struct NearestBorder {
     int zone;         ///< -1: there is none
     double distance;  ///< m; 0 inside the border, where h varies
   };
-  NearestBorder nearest_border(const Vec<Dim>& x) const;
-  /// Depth [m] of a place in a zone, behind its nearest face; negative outside.
+  NearestBorder nearest_border(const Vec<Dim>& x) const { return nearest_border_drawn(drawn(x)); }
+  /// Depth [m] of a place, as drawn, in a zone, behind its nearest face; negative outside.
   double depth_in(const Zone& zone, const Vec<Dim>& x) const;
 
  private:
+  /// Where the zones are, from where they are drawn.
+  struct Motion {
+    Mat<Dim> turn = Mat<Dim>::Identity();
+    Vec<Dim> shift = Vec<Dim>::Zero();  ///< m
+  };
+
+  NearestBorder nearest_border_drawn(const Vec<Dim>& x) const;
+  Vec<Dim> slope_drawn(const Vec<Dim>& x) const;
   Vec<Dim> wrapped(Vec<Dim> x) const;
   /// h with one zone alone, at a place within the period.
   static double in_zone(const Zone& zone, const Vec<Dim>& inside);
 
   std::vector<Zone> zones_;
-  bool has_depths_ = false;  ///< whether a zone is not a box
-  Box<Dim> periodic_;        ///< m; along directions that are not periodic it has no extent
+  int carrier_ = -1;
+  std::shared_ptr<Motion> motion_;  ///< of this field and its copies; null if the zones rest
+  bool has_depths_ = false;         ///< whether a zone is not a box
+  bool are_prisms_ = false;         ///< 3D; whether all zones have the same depth above each other
+  Box<Dim> periodic_;               ///< m; along directions that are not periodic it has no extent
 };
 
 /// Particles in the part of a zone that is in `box` and not behind walls, without other zones, when it is full of water

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/from_spec.h"
 
@@ -17,13 +18,35 @@ constexpr double exact_beyond = 10.0;
 constexpr double nodes_apart = 0.5;
 
 /// Whether an edge lies beyond one side of a box.
-template <int Dim>
-bool is_beyond(const Box<Dim>& bounds, const Vec<Dim>& from, const Vec<Dim>& to, double tolerance) {
-  for (int axis = 0; axis < Dim; ++axis) {
+bool is_beyond(const Box<2>& bounds, const Vec<2>& from, const Vec<2>& to, double tolerance) {
+  for (int axis = 0; axis < 2; ++axis) {
     if (std::max(from[axis], to[axis]) <= bounds.min()[axis] + tolerance) return true;
     if (std::min(from[axis], to[axis]) >= bounds.max()[axis] - tolerance) return true;
   }
   return false;
+}
+
+template <int Dim>
+Vec<2> plan(const Vec<Dim>& x) {
+  return {x[0], x[1]};
+}
+
+/// Stores a piece of walls or of an outline; returns the box around it.
+template <int Dim>
+Box<Dim> add_piece(const WallFace<Dim>& piece, std::vector<WallFace<Dim>>& pieces, FaceGrid<Dim>& near) {
+  const Box<Dim> box = piece.box();
+  near.add(static_cast<int>(pieces.size()), box.min(), box.max(),
+           [&](const Vec<Dim>& x) { return (closest_point(piece, x) - x).norm(); });
+  pieces.push_back(piece);
+  return box;
+}
+
+/// m; at most the reach of the grid.
+template <int Dim>
+double distance_from(const std::vector<WallFace<Dim>>& pieces, const FaceGrid<Dim>& near, const Vec<Dim>& x) {
+  double distance = near.reach();
+  for (const int n : near.near(x)) distance = std::min(distance, (x - closest_point(pieces[n], x)).norm());
+  return distance;
 }
 
 }  // namespace
@@ -35,6 +58,7 @@ ZoneDepth<Dim>::ZoneDepth(const RefinementTable& table, const Boundary<Dim>& bou
       period_(period),
       bounds_(bounds),
       near_(border + table.distance + exact_beyond * spacing),
+      near_edges_(near_.reach()),
       farthest_(exact_beyond * spacing),
       step_(nodes_apart * spacing) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -52,51 +76,55 @@ ZoneDepth<Dim>::ZoneDepth(const RefinementTable& table, const Boundary<Dim>& bou
 
 template <int Dim>
 void ZoneDepth<Dim>::add_outline(const RefinementTable& table, double spacing) {
-  if constexpr (Dim == 2) {
-    const CaseLabel owner("refinement", table.name);
-    const double tolerance = corner_tolerance * spacing;
-    std::vector<Vec<2>> corners;
-    for (const Coordinates& point : table.points) {
-      corners.push_back(to_vec<2>(point, owner, "points"));
-      box_.extend(corners.back());
-    }
-    for (std::size_t n = 0; n < corners.size(); ++n) {
-      const Vec<2>& from = corners[n];
-      const Vec<2>& to = corners[(n + 1) % corners.size()];
-      if (!is_beyond<2>(bounds_, from, to, tolerance)) add_piece({{from, to}, Vec<2>::Zero()});
-    }
-    // A place on the outline of the walls is within: the polygon may end there.
-    bounds_ = {bounds_.min() + Vec<2>::Constant(tolerance), bounds_.max() - Vec<2>::Constant(tolerance)};
-    outline_ = Polygon(std::move(corners), tolerance);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const CaseLabel owner("refinement", table.name);
+  const double tolerance = corner_tolerance * spacing;
+  const Box<2> bounds(plan<Dim>(bounds_.min()), plan<Dim>(bounds_.max()));
+  std::vector<Vec<2>> corners;
+  Box<2> box;
+  for (const Coordinates& point : table.points) {
+    corners.push_back(to_vec<2>(point, owner, "points"));
+    box.extend(corners.back());
   }
+  for (std::size_t n = 0; n < corners.size(); ++n) {
+    const Vec<2>& from = corners[n];
+    const Vec<2>& to = corners[(n + 1) % corners.size()];
+    if (!is_beyond(bounds, from, to, tolerance)) add_piece<2>({{from, to}, Vec<2>::Zero()}, edges_, near_edges_);
+  }
+  box_ = {Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity)};
+  for (int axis = 0; axis < 2; ++axis) {
+    box_.min()[axis] = box.min()[axis];
+    box_.max()[axis] = box.max()[axis];
+    // A place on the outline of the walls is within: the polygon may end there.
+    bounds_.min()[axis] += tolerance;
+    bounds_.max()[axis] -= tolerance;
+  }
+  outline_ = std::make_unique<const Polygon>(std::move(corners), tolerance);
 }
 
 template <int Dim>
 void ZoneDepth<Dim>::add_walls(const RefinementTable& table, const Boundary<Dim>& boundary) {
   for (const WallFace<Dim>& face : boundary.faces) {
     if (std::ranges::count(table.walls, boundary.walls[face.wall].name) == 0) continue;
-    add_piece(face);
-    box_.extend(face.box());
+    box_.extend(add_piece<Dim>(face, pieces_, near_));
   }
   box_.widen(depth_of_pieces_);
 }
 
 template <int Dim>
-void ZoneDepth<Dim>::add_piece(const WallFace<Dim>& piece) {
-  const Box<Dim> box = piece.box();
-  near_.add(static_cast<int>(pieces_.size()), box.min(), box.max(),
-            [&](const Vec<Dim>& x) { return (closest_point(piece, x) - x).norm(); });
-  pieces_.push_back(piece);
+Vec<Dim> ZoneDepth<Dim>::in_plan(Vec<Dim> x) const {
+  if constexpr (Dim == 3) {
+    if (outline_ != nullptr) x[2] = 0.0;
+  }
+  return x;
 }
 
 template <int Dim>
 double ZoneDepth<Dim>::depth_of_image(const Vec<Dim>& place) const {
   const Vec<Dim> x = place.cwiseMax(bounds_.min()).cwiseMin(bounds_.max());
-  double distance = near_.reach();
-  for (const int n : near_.near(x)) distance = std::min(distance, (x - closest_point(pieces_[n], x)).norm());
-  bool is_inside = false;
-  if constexpr (Dim == 2) is_inside = outline_.where(x) != Where::outside;
-  return depth_of_pieces_ + (is_inside ? distance : -distance);
+  if (outline_ == nullptr) return depth_of_pieces_ - distance_from<Dim>(pieces_, near_, x);
+  const double distance = distance_from<2>(edges_, near_edges_, plan<Dim>(x));
+  return outline_->where(plan<Dim>(x)) != Where::outside ? distance : -distance;
 }
 
 template <int Dim>
@@ -182,14 +210,14 @@ double ZoneDepth<Dim>::weighted(const double* first, const Weights& weights) {
 template <int Dim>
 double ZoneDepth<Dim>::depth(const Vec<Dim>& x) const {
   if (is_far(x)) return -farthest_;
-  const Around nodes = around(x);
+  const Around nodes = around(in_plan(x));
   return weighted(nodes.first, weights_at(nodes.off));
 }
 
 template <int Dim>
 typename ZoneDepth<Dim>::Depth ZoneDepth<Dim>::at(const Vec<Dim>& x) const {
   if (is_far(x)) return {-farthest_, Vec<Dim>::Zero()};
-  const Around nodes = around(x);
+  const Around nodes = around(in_plan(x));
   const Weights weights = weights_at(nodes.off);
   Depth result{weighted(nodes.first, weights), Vec<Dim>::Zero()};
   for (int d = 0; d < Dim; ++d) {

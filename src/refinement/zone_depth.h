@@ -1,8 +1,10 @@
-// How deep a place is in a zone of finer particles that is not a box: a polygon, or the surroundings of walls.
+// How deep a place is in a zone of finer particles that is not a box: a polygon, in 3D the prism over a polygon in
+// plan, or the surroundings of walls.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -51,9 +53,10 @@ class ZoneDepth {
 
   void add_outline(const RefinementTable& table, double spacing);
   void add_walls(const RefinementTable& table, const Boundary<Dim>& boundary);
-  void add_piece(const WallFace<Dim>& piece);
   /// m; without images in periodic directions.
   double depth_of_image(const Vec<Dim>& place) const;
+  /// A prism has the depth of the plane z = 0 at all heights.
+  Vec<Dim> in_plan(Vec<Dim> x) const;
   double exact_depth(const Vec<Dim>& x) const;
   Around around(const Vec<Dim>& x) const;
   static Weights weights_at(const Vec<Dim>& off);
@@ -62,13 +65,15 @@ class ZoneDepth {
   /// The tile whose inner nodes include a node; computed when it is needed first.
   const Tile& tile_around(const Cell<Dim>& cell) const;
 
-  std::vector<WallFace<Dim>> pieces_;  ///< of the outline, or of the walls
-  Polygon outline_;                    ///< has no corners for walls
-  double depth_of_pieces_;             ///< m
-  Vec<Dim> period_;                    ///< m
-  Box<Dim> bounds_;                    ///< m; places beyond count as the nearest ones within
+  std::vector<WallFace<Dim>> pieces_;       ///< of the walls
+  std::vector<WallFace<2>> edges_;          ///< of the outline, in plan
+  std::unique_ptr<const Polygon> outline_;  ///< null for walls
+  double depth_of_pieces_;                  ///< m
+  Vec<Dim> period_;                         ///< m
+  Box<Dim> bounds_;                         ///< m; places beyond count as the nearest ones within
   Box<Dim> box_;
   FaceGrid<Dim> near_;
+  FaceGrid<2> near_edges_;
   double farthest_;                                        ///< m; distance outside at which the depth is limited
   double step_;                                            ///< m; between nodes
   mutable std::unordered_map<std::uint64_t, Tile> tiles_;  ///< m; depths at nodes, by the key of the tile

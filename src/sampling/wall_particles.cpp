@@ -205,10 +205,15 @@ WallParticles<Dim> sample_on_lattice(const Boundary<Dim>& boundary, const WallLa
   return joined(std::move(parts));
 }
 
-/// How often the edges of a wall particle are halved whose wall is nearest here.
+/// How often the edges of a wall particle are halved whose wall is nearest here. Zones that move may come to any wall
+/// at rest.
 template <int Dim>
-int level_at(const SpacingField<Dim>& field, const NearestWall<Dim>& wall, const Vec<Dim>& x) {
-  return static_cast<int>(std::lround(-std::log2(field.at(wall.face < 0 ? x : wall.point))));
+int level_at(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, const NearestWall<Dim>& wall,
+             const Vec<Dim>& x) {
+  const bool is_passed =
+      field.carrier() >= 0 && wall.face >= 0 && !boundary.walls[boundary.faces[wall.face].wall].moves();
+  const double spacing = is_passed ? field.finest() : field.at(wall.face < 0 ? x : wall.point);
+  return static_cast<int>(std::lround(-std::log2(spacing)));
 }
 
 /// The levels of cells of a lattice.
@@ -223,7 +228,7 @@ struct LevelsOfCells {
   int at(const Vec<Dim>& x) const {
     const auto centre =
         Vec<Dim>::NullaryExpr([&](int axis) { return lattice[axis].centre(lattice[axis].cell_at(x[axis])); });
-    return level_at(field, boundary.nearest(centre, reach_to_wall * spacing), centre);
+    return level_at(field, boundary, boundary.nearest(centre, reach_to_wall * spacing), centre);
   }
 };
 
@@ -233,9 +238,11 @@ void append_level(const LevelsOfCells<Dim>& levels, int level, const WallLayers&
   const int per_edge = 1 << level;
   Lattice<Dim> finer = levels.lattice;
   for (LatticeAxis& axis : finer) axis = axis.divided(per_edge);
-  // One more layer: up to half a level before the next one, supports are larger.
-  const WallParticles<Dim> fine = sample_on_lattice<Dim>(
-      levels.boundary, {layers.spacing / per_edge, layers.count + 1, false, layers.share}, finer);
+  // One more layer: up to half a level before the next one, supports are larger. Beside zones that move, they may be
+  // those of the case.
+  const int count = levels.field.carrier() < 0 ? layers.count + 1 : layers.count * per_edge;
+  const WallParticles<Dim> fine =
+      sample_on_lattice<Dim>(levels.boundary, {layers.spacing / per_edge, count, false, layers.share}, finer);
   for (std::size_t row = 0; row < fine.size(); ++row) {
     if (levels.at(fine.position[row]) != level) continue;
     append_part(all, fine, row, fine.position[row], fine.share[row] / power<Dim>(per_edge),
@@ -281,11 +288,11 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
     const bool is_on_lattice = on_lattice[particles.wall[row]];
     if (is_on_lattice && levels.at(x) > 0) continue;  // sampled below
     const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
-    const int per_edge = is_on_lattice ? 1 : 1 << level_at(field, wall, x);
+    const int per_edge = is_on_lattice ? 1 : 1 << level_at(field, boundary, wall, x);
     const Mat<Dim> axes = axes_at_wall(boundary, wall);
     const double edge = spacing / per_edge;
     // Where the spacing is the same all around, no water reaches parts behind the layers of this spacing.
-    const bool may_leave_out = particles.is_beyond_end[row] == 0 && wall.face >= 0 &&
+    const bool may_leave_out = field.carrier() < 0 && particles.is_beyond_end[row] == 0 && wall.face >= 0 &&
                                field.nearest_border(x).distance > 2.0 * layers * spacing;
     for (int part = 0; part < static_cast<int>(power<Dim>(per_edge)); ++part) {
       Vec<Dim> steps;

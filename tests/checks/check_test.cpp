@@ -848,7 +848,23 @@ TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
   spec.walls.back().displacement = {0.0, 0.0};
   EXPECT_EQ(listed(check(spec)).find("refinement"), std::string::npos) << listed(check(spec));
   spec.walls.back().displacement = {0.0, "0.3*t"};
-  expect_among(check(spec), Severity::error, {"refinement 'zone' lies around wall 'gate', which moves: zones rest"});
+  expect_among(check(spec), Severity::error,
+               {"refinement 'zone'", "narrower than the supports beside walls that move"});
+  spec.refinement[0].distance = 4.0 * dx;
+  EXPECT_EQ(listed(check(spec)).find("refinement"), std::string::npos) << listed(check(spec));
+  spec.refinement.push_back(zone);
+  expect_among(check(spec), Severity::error, {"moves with wall 'gate': a zone that moves must be the only one"});
+  spec.refinement.pop_back();
+  spec.refinement[0].walls.push_back(spec.walls[0].name = "tank");
+  expect_among(check(spec), Severity::error, {"moves with wall 'gate', and 'tank' does not move with that wall"});
+  spec.refinement[0].walls.pop_back();
+  WallTable follower = spec.walls.back();
+  follower.name = "follower";
+  follower.points = {{0.6, 0.0}, {0.6, 1.0}};
+  follower.displacement = {0.0, "0.2*t"};
+  spec.walls.push_back(follower);
+  expect_among(check(spec), Severity::error,
+               {"refinement 'zone' moves and comes within 8 spacings of wall 'follower'"});
 }
 
 // Particles in cells that the slope cuts keep off it by a quarter of the local spacing.

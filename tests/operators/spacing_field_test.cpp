@@ -8,6 +8,8 @@
 #include "case/choices.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "geometry/rotation.h"
+#include "operators/continuum_table.h"
 #include "refinement/spacing_field.h"
 
 namespace tailwater {
@@ -77,7 +79,7 @@ void expect_consistent(const SpacingField<2>& field) {
     const auto nearest = field.nearest_border(x);
     if (nearest.distance > 0.0) {
       EXPECT_EQ(slope.norm(), 0.0);
-      Vec<2> place = x;
+      Vec<2> place = field.drawn(x);
       EXPECT_EQ(field.varies_around(place, 0.99 * nearest.distance), false);
       EXPECT_EQ(field.varies_around(place, 1.01 * nearest.distance), true);
     }
@@ -96,6 +98,62 @@ TEST(SpacingField, IsFinestWithinTheDistanceFromWallsAndFadesBeyond) {
   EXPECT_EQ(field.at({2.0 - 0.301 - border, 0.2}), 1.0);
   EXPECT_LT(field.at({2.0 - 0.299 - border, 0.2}), 1.0);
   EXPECT_EQ(field.finest(), 0.5);
+}
+
+TEST(SpacingField, IsCarriedByWallsThatMove) {
+  CaseSpec spec = tank_with_block();
+  const SpacingField<2> drawn = field_of(spec, around_block(0.3));
+  EXPECT_EQ(drawn.carrier(), -1);
+  spec.walls[1].displacement = {"0.1*t", 0.0};
+  const SpacingField<2> field = field_of(spec, around_block(0.3));
+  const SpacingField<2> copy = field;
+  ASSERT_EQ(field.carrier(), 1);
+  EXPECT_EQ(copy.at({1.5, 0.2}), drawn.at({1.5, 0.2}));
+  const Mat<2> turn = rotation_in_plane(0.3);
+  const Vec<2> shift(0.4, 0.7);
+  field.carry(turn, shift);
+  expect_consistent(copy);
+  const Kernel<2> kernel = make_kernel<2>(KernelName::wendland_c2, 3.0 * dx);
+  const GradedSums<2> sums(kernel, dx, copy);
+  const GradedSums<2> sums_at_rest(kernel, dx, drawn);
+  ContinuumTable<2> table;
+  ContinuumTable<2> table_at_rest;
+  for (double x = 1.203; x < 2.0; x += 0.053) {  // between the nodes of the table, where its slope jumps
+    const Vec<2> place(x, 0.207);
+    const auto at_rest = table_at_rest.at(sums_at_rest, place);
+    const auto carried = table.at(sums, Vec<2>(turn * place + shift));
+    EXPECT_NEAR(copy.at(Vec<2>(turn * place + shift)), drawn.at(place), 1e-12);
+    EXPECT_NEAR(carried.sums.concentration, at_rest.sums.concentration, 1e-9);
+    EXPECT_NEAR((carried.slope - turn * at_rest.slope).norm(), 0.0, 1e-7);
+    EXPECT_NEAR((carried.sums.gradient - turn * at_rest.sums.gradient).norm(), 0.0, 1e-7);
+    const Vec<2> e(0.6, 0.8);
+    const double along = (unpacked<2>(at_rest.sums.first_moment) * e).dot(e);
+    const Vec<2> turned = turn * e;
+    EXPECT_NEAR((unpacked<2>(carried.sums.first_moment) * turned).dot(turned), along, 1e-9);
+  }
+}
+
+TEST(SpacingField, APolygonIsAPrismInThreeDimensions) {
+  CaseSpec spec = tank_with_block();
+  const SpacingField<2> in_plan = field_of(spec, slanted());
+  spec.general.dimension = 3;
+  WallTable tank;
+  tank.shape = WallShape::box;
+  tank.min = {0.0, 0.0, -1.0};
+  tank.max = {4.0, 3.0, 2.0};
+  tank.displacement = {0.0, 0.0, 0.0};
+  spec.walls = {tank};
+  spec.refinement = {slanted()};
+  const SpacingField<3> field(spec, make_boundary<3>(spec));
+  for (double x = 0.9; x < 4.0; x += 0.13) {
+    for (const double z : {-1.5, 0.3, 2.0}) {
+      const Vec<3> place(x, 0.4 * x, z);
+      EXPECT_EQ(field.at(place), in_plan.at({x, 0.4 * x}));
+      EXPECT_NEAR(
+          (field.slope(place) - Vec<3>(in_plan.slope({x, 0.4 * x})[0], in_plan.slope({x, 0.4 * x})[1], 0.0)).norm(),
+          0.0, 1e-12);
+    }
+  }
 }
 
 TEST(SpacingField, APolygonHasNoBorderWhereItEndsAtTheOutermostWalls) {

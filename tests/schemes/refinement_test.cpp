@@ -173,6 +173,42 @@ TEST(RefinementTest, AGateInAZoneReleasesWaterAsInAFineRun) {
   EXPECT_GT(in_zone, 0.8);
 }
 
+/// Kinetic energy of the water around a block that has set itself in motion for 0.4 s.
+double energy_around_block(const CaseSpec& spec) {
+  Flow<2> flow = make_flow<2>(spec);
+  tailwater::start(flow);
+  while (flow.state.time < 0.4) advance_steps(flow, 1);
+  const Particles<2>& particles = flow.state.particles;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const double wanted = power<2>(spec.particles.spacing * flow.setup.relative_spacing(particles.position[i]));
+    EXPECT_LT(particles.volume[i], 1.5 * volume_to_split * wanted);
+  }
+  return totals_of(flow).energy;
+}
+
+TEST(RefinementTest, AZoneMovesWithItsBlock) {
+  CaseSpec spec = tank_case<2>(dx, 2.4, 0.7);
+  WallTable block;
+  block.name = "block";
+  block.points = {{0.6, 0.25}, {0.8, 0.25}, {0.8, 0.45}, {0.6, 0.45}};
+  block.shape = WallShape::polygon;
+  block.fluid_side = FluidSide::outside;
+  block.displacement = {"3*t^2", 0.0};  // to 0.48 m, farther than the width of the border
+  spec.walls.push_back(block);
+  const double coarse = energy_around_block(spec);
+  RefinementTable zone;
+  zone.shape = ZoneShape::walls;
+  zone.walls = {"block"};
+  zone.distance = 0.2;
+  spec.refinement = {zone};
+  const double in_zone = energy_around_block(spec);
+  spec.refinement.clear();
+  spec.particles.spacing = 0.5 * dx;
+  const double fine = energy_around_block(spec);
+  EXPECT_NEAR(in_zone, fine, 0.3 * std::abs(coarse - fine)) << coarse << ' ' << in_zone << ' ' << fine;
+}
+
 TEST(RefinementTest, WaterComesToRestBesideABorder) {
   CaseSpec spec = tank_case<2>(dx, 1.0, 0.5);
   RefinementTable zone;
