@@ -61,30 +61,38 @@ def axisymmetric_dam_break(run):
     return errors
 
 
-def slump_reach(area, density, yield_stress, gravity):
-    """Reach (m) of a yielding liquid at rest over a bed: Liu & Mei (1989), J. Fluid Mech. 207, 505, whose surface
-    h = sqrt(2 t_y (L - x)/(rho g)) holds the area 2/3 L h(0)."""
-    return (1.5 * area / math.sqrt(2 * yield_stress / (density * gravity))) ** (2 / 3)
+def slump_surface(way, yield_height):
+    """Height (m) of a plane slump of a yielding liquid at rest, at this way (m) behind its tip; yield_height (m) is
+    t_y/(rho g). In a slump that has flowed outwards Nadai's stresses yield everywhere: the longitudinal stress takes
+    pi/2 t_y h from the thrust rho g h^2/2 of a column, whose gradient balances t_y on the bed. Without that part this
+    is Liu & Mei (1989), J. Fluid Mech. 207, 505 (docs/theory/rheology.md)."""
+    half = math.pi / 2 * yield_height
+    return half + np.sqrt(half**2 + 2 * yield_height * way)
+
+
+def slump_reach(area, yield_height):
+    """Reach (m) of such a slump of this area (m^2). The root s = h(0) - pi/2 t_y/(rho g) of the area under its surface
+    is that of a cubic."""
+    half = math.pi / 2 * yield_height
+    roots = np.roots([2, 3 * half, 0, -5 * half**3 - 6 * yield_height * area])
+    root = roots[np.abs(roots.imag) < 1e-9 * np.abs(roots)].real.max()
+    return (root**2 - half**2) / (2 * yield_height)
 
 
 def yielding_slump(run):
-    """reach_error: the front at the end over that of Liu & Mei (1989), less 1. surface_error: rms distance of the highest
-    particles in columns of 4 dx from their surface, over the height at the wall."""
+    """reach_error: the front at the end over that of slump_reach, less 1. surface_error: rms distance of the level from
+    slump_surface, over its height at the wall. The level is the area of the particles beside a place, weighted by a hat
+    of half a width of 4 dx."""
     liquid, = run.case["liquid"]
-    area = run.parameters["L"] * run.parameters["H"]
-    reach = slump_reach(area, liquid["density"], liquid["yield_stress"], run.gravity)
-    height = math.sqrt(2 * liquid["yield_stress"] * reach / (liquid["density"] * run.gravity))
-    x, y = exact_flows.frames(run)[-1].position[:, :2].astype(float).T
-    column = np.floor(x / (4 * run.spacing)).astype(int)
-    errors = []
-    for k in range(column.max()):
-        middle = (k + 0.5) * 4 * run.spacing
-        if middle > 0.9 * reach:  # the tip is steeper than the theory's long waves
-            break
-        top = y[column == k].max() + 0.5 * run.spacing
-        errors.append(top - height * math.sqrt(1 - middle / reach))
+    yield_height = liquid["yield_stress"] / (liquid["density"] * run.gravity)
+    reach = slump_reach(run.parameters["L"] * run.parameters["H"], yield_height)
+    x = exact_flows.frames(run)[-1].position[:, 0].astype(float)
+    width = 4 * run.spacing
+    places = np.arange(width, 0.9 * reach, run.spacing)  # the tip is steeper than the theory's long waves
+    level = [np.maximum(0, 1 - np.abs(x - place) / width).sum() * run.spacing**2 / width for place in places]
+    errors = level - slump_surface(reach - places, yield_height)
     return {"reach_error": float(run.curve("front", "front_m").value[-1] / reach - 1),
-            "surface_error": rms(np.array(errors)) / height}
+            "surface_error": rms(errors) / float(slump_surface(reach, yield_height))}
 
 
 FLOWS = {"thick-film": thick_film, "viscous-dam-break": viscous_dam_break,
