@@ -49,8 +49,8 @@ class TemporaryFolder:
 class Check:
     """The findings of `check` for a case; true if a run may begin.
 
-    `findings` is a list of dicts with "severity" ("error" or "warning"), "line" and "column" (0: none), "message" and
-    "places" (lists of coordinates, m). They have "table", "index", "key", "value", "unit" and "remedy" where these are
+    `findings` is a list of dicts with "severity" ("error" or "warning"), "id", "line" and "column" (0: none), "message"
+    and "places" (lists of coordinates, m). They have "table", "index", "key", "value", "unit" and "remedy" where these are
     known. `particles` (of fluid) and `memory` (bytes) are None where they cannot be computed."""
 
     def __init__(self, case: "Case"):
@@ -78,7 +78,7 @@ class Check:
         lines = [f"{self.case.title}: {'valid' if self else 'not valid'}"]
         if self.particles is not None:
             lines.append(f"{self.particles} fluid particles, about {self.memory / 1e6:.0f} MB")
-        lines += [f"{finding['severity']}: {finding['message']}" for finding in self.findings]
+        lines += [f"{finding['severity']}: {finding['message']} [{finding['id']}]" for finding in self.findings]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:

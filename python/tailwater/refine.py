@@ -5,6 +5,7 @@ and around gauges whose result is uncertain, if the folder of a study is given. 
 and estimates their cost.
 """
 
+import json
 import math
 import os
 import sys
@@ -219,12 +220,17 @@ def names_for(case, count):
     return [name for name in names if name not in taken][:count]
 
 
-def cost_of(case, tables):
-    """The lines of `tailwater check` on the zones and the cost of a case with these tables. Throws InputError."""
+def checked_with(case, tables, *words):
+    """The output of `tailwater check` for a case with these tables. Throws InputError."""
     with tempfile.NamedTemporaryFile("w", suffix=".toml", dir=case.file.parent, prefix=f".{case.file.stem}-") as file:
         file.write(text_with(case, tables))
         file.flush()
-        lines = call("check", file.name, "--no-preview").splitlines()
+        return call("check", *words, file.name)
+
+
+def cost_of(case, tables):
+    """The lines of `tailwater check` on the zones and the cost of a case with these tables. Throws InputError."""
+    lines = checked_with(case, tables, "--no-preview").splitlines()
     begin = next(k for k, line in enumerate(lines) if line.startswith("refinement:"))
     return [line for line in lines[begin:] if not line.startswith("memory:")]
 
@@ -239,13 +245,13 @@ def require_zones(case):
     # Outside of all walls: `check` rejects this zone, after the features.
     beyond = [1e6] * dimension_of(tomllib.loads(case.file.read_text(encoding="utf-8")))
     zone = Zone(np.array(beyond), 2 * np.array(beyond), ROWS)
-    try:
-        cost_of(case, [table_of(zone, names_for(case, 1)[0])])
-    except InputError as error:
-        features = [f"{case.file}: {before}{after}" for _, before, after in
-                    (line.partition("zones of refinement") for line in str(error).splitlines()) if before]
-        if features:
-            raise InputError("\n".join(features)) from None
+    name = names_for(case, 1)[0]
+    findings = json.loads(checked_with(case, [table_of(zone, name)], "--json"))["findings"]
+    features = [found["message"].removesuffix(f"; {found['remedy']}").removeprefix(f"refinement '{name}': ")
+                for found in findings if found["id"] == "zone-refuses-feature"]
+    if features:
+        raise InputError("\n".join(f"{case.file}: {feature}; remedy: refine the whole case by a smaller particles.spacing"
+                                   for feature in features))
 
 
 def accepted(case, zones):
@@ -275,6 +281,8 @@ def coarse_run(case, out):
 def source_of(options):
     """(case, coarse run, {probe: uncertainty}) from the words of the user."""
     given = options.source
+    if not given.exists() and given.suffix != ".toml":
+        raise InputError(f"{given}: is neither a case file nor the folder of a run or a study; remedy: name one of these")
     if not given.is_dir():
         case = Case(given)
         require_zones(case)

@@ -192,7 +192,7 @@ def case_of(run):
         case = Case(run.path / "case.effective.toml")
         found["explain"] = case.explain().splitlines()
         check = case.check()
-        found["findings"] = [{"severity": one["severity"], "message": one["message"]} for one in check.findings]
+        found["findings"] = [{"severity": one["severity"], "message": f"{one['message']} [{one['id']}]"} for one in check.findings]
         drawing = check.drawing
         found["drawing"] = drawing[max(drawing.find("<svg"), 0):]
     except Error as error:

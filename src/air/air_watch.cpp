@@ -66,6 +66,7 @@ AirWatch<Dim>::AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, 
   if (spec.air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
   if (!(cells_over<Dim>(box, spacing_, domain) <= most_cells_of_map)) {
     throw CaseError(
+        "air-map-too-large",
         {"{}: air is searched for in cells of half a particle spacing, and the walls and openings, wherever "
          "they move, span more than {:g} of them",
          CaseLabel("air").with_key("pockets"), most_cells_of_map},
@@ -285,11 +286,13 @@ void AirWatch<Dim>::set_start_pressures(AirState& state) const {
     const Vec<Dim> x = to_vec<Dim>(start.at, owner, "at");
     const int k = space_.pocket_at(x);
     if (k < 0) {
-      throw CaseError({"{}: at {} there is no air at the start that water and walls enclose", owner, place(x)},
+      throw CaseError("pocket-without-air",
+                      {"{}: at {} there is no air at the start that water and walls enclose", owner, place(x)},
                       {"give a point in such air, or close the walls around it"});
     }
     if (const auto [other, is_new] = given.emplace(k, owner); !is_new) {
-      throw CaseError({"{} is in the same air as {}", owner, other->second}, {"remove one of them"});
+      throw CaseError("pocket-named-twice", {"{} is in the same air as {}", owner, other->second},
+                      {"remove one of them"});
     }
     AirPocket& pocket = state.pockets[k];
     const double gas = law_.gas(start.overpressure, pocket.volume);

@@ -106,11 +106,12 @@ void EnclosedAir<Dim>::begin(Flow<Dim>& flow) {
     const double pressure = pressure_of(first.pockets[k]);
     if (pressure >= least || watch.reference_of(k) == k) continue;
     const Finding finding = Finding::warning(
+        "air-pressure-separates-water",
         {"air enclosed at the start has {:.4g}, and its water is open to other air; the water between will separate or "
          "be stirred, because the model sustains no tension there",
          Amount{pressure, "Pa"}},
         {"close the space around it, or give it no overpressure below 0"});
-    tailwater::warn(finding.message());
+    tailwater::warn(finding);
   }
   watch.forget();
 }

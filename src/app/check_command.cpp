@@ -80,13 +80,23 @@ void print_as_json(const CheckOptions& options) {
                          .dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
+void warn_of_no_preview(const char* problem) {
+  warn("preview-skipped", "no preview: {}; remedy: name another file (--preview FILE)", problem);
+}
+
 /// Writes the previews, with the places of errors marked, and prints their paths.
 template <int Dim>
 void write_previews(const CaseSpec& spec, const CheckOptions& options, const Boundary<Dim>& boundary,
                     const FluidParticles<Dim>& fluid, const WallParticles<Dim>& walls, std::span<const Duct<Dim>> ducts,
                     std::span<const Vec<Dim>> bad_places = {}) {
   const std::filesystem::path preview = preview_file(options);
-  write_text_file(preview, preview_svg(spec, boundary, fluid, walls, ducts, bad_places));
+  try {
+    write_text_file(preview, preview_svg(spec, boundary, fluid, walls, ducts, bad_places));
+  } catch (const IoError& problem) {
+    if (!options.preview.empty()) throw;
+    warn_of_no_preview(problem.what());
+    return;
+  }
   fmt::print("preview:   {}\n", preview.string());
   if constexpr (Dim == 3) {
     const std::filesystem::path image = std::filesystem::path(preview).replace_extension(".png");
@@ -94,7 +104,7 @@ void write_previews(const CaseSpec& spec, const CheckOptions& options, const Bou
       draw_start(image, spec.general.title, spec.particles.spacing, boundary, fluid.position, bad_places);
       fmt::print("           {}\n", image.string());
     } catch (const IoError& error) {
-      warn("no picture in perspective: {}", error.what());
+      warn("preview-3d-skipped", "no picture in perspective: {}", error.what());
     }
   }
 }
@@ -110,7 +120,7 @@ void show_bad_places(const CaseSpec& spec, const CheckOptions& options, const Fi
   } catch (const InputError&) {
     // Nothing can be drawn, for the reason in the findings.
   } catch (const IoError& problem) {
-    warn("no preview: {}", problem.what());
+    warn_of_no_preview(problem.what());
   }
 }
 
@@ -191,8 +201,20 @@ void check_in(const CaseSpec& spec, const CheckOptions& options) {
   write_previews<Dim>(spec, options, drawn, fluid, flow.walls.particles, flow.walls.boundary.ducts);
 }
 
-void check_case(const CheckOptions& options) {
-  if (!options.draws_nothing) preview_file(options);  // for its errors, before the check begins
+/// Looks for problems with the file of the preview before the check begins. The check goes on without a preview that
+/// was not asked for.
+void look_at_preview(CheckOptions& options) {
+  try {
+    if (!options.draws_nothing) preview_file(options);
+  } catch (const InputError& problem) {
+    if (!options.preview.empty()) throw;
+    warn_of_no_preview(problem.what());
+    options.draws_nothing = true;
+  }
+}
+
+void check_case(CheckOptions options) {
+  look_at_preview(options);
   const CaseSpec spec = read_case(options.case_file, options.overrides);
   std::error_code error;  // without a preview there is nothing to protect
   if (std::filesystem::equivalent(options.case_file, options.preview, error)) {

@@ -32,6 +32,7 @@ Json json_of(const Finding& finding, const std::string& origin) {
   const auto& [file, line, column, end_column] = finding.position;
   const bool is_of_text = file.empty() || file == origin;  // else of an override
   Json json{{"severity", finding.severity == Severity::error ? "error" : "warning"},
+            {"id", finding.id},
             {"line", line},
             {"column", column},
             {"message", is_of_text ? finding.message() : finding.line()},
@@ -161,7 +162,7 @@ void check_what_can_be(const CaseSpec& spec, const std::string& origin, TrialSte
     add_findings(answer, spec.sources.located(error.findings()), origin);
     if (answer["drawing"].is_null()) answer["drawing"] = broken_drawing<Dim>(spec);
   } catch (const SolverError& failure) {
-    add_findings(answer, {Finding::error({"a trial step fails: {}", failure.what()}, {})}, origin);
+    add_findings(answer, {Finding::error("trial-step-failed", {"a trial step fails: {}", failure.what()}, {})}, origin);
   }
 }
 
@@ -180,7 +181,7 @@ Json check_as_json(const std::string& text, const std::string& origin, const std
   } catch (const CaseError& error) {
     add_findings(answer, error.findings(), origin);
   } catch (const InputError& error) {
-    add_findings(answer, {Finding::error({"{}", error.what()}, {})}, origin);
+    add_findings(answer, {Finding::error("case-not-readable", {"{}", error.what()}, {})}, origin);
   }
   return answer;
 }

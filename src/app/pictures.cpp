@@ -22,7 +22,7 @@ void draw_pictures(const std::filesystem::path& run, int count, const Communicat
   try {
     run_python("tailwater.pictures", {"--count", fmt::format("{}", count), run.string()});
   } catch (const IoError& error) {
-    warn("no pictures: {}; later: tailwater pictures {}", error.what(), run.string());
+    warn("pictures-skipped", "no pictures: {}; later: tailwater pictures {}", error.what(), run.string());
   }
 }
 

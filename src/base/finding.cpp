@@ -24,7 +24,8 @@ std::string FilePosition::text() const {
 }
 
 std::string Finding::line() const {
-  return position.file.empty() ? message() : fmt::format("{}: {}", position.text(), message());
+  const std::string text = fmt::format("{} [{}]", message(), id);
+  return position.file.empty() ? text : fmt::format("{}: {}", position.text(), text);
 }
 
 bool has_error(const Findings& findings) {

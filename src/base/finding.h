@@ -8,6 +8,7 @@
 #include <concepts>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,23 @@ struct MarkedPlace {
 struct Amount {
   double number;
   std::string unit;
+};
+
+/// The name by which docs/reference/messages.md lists a message: lower-case words with hyphens, written as a literal
+/// where the message is made.
+class MessageId {
+ public:
+  template <std::size_t Size>
+  consteval MessageId(const char (&literal)[Size]) : text_(literal) {
+    for (const char letter : text_) {
+      if ((letter < 'a' || letter > 'z') && (letter < '0' || letter > '9') && letter != '-') throw "not an id";
+    }
+  }
+
+  constexpr std::string_view text() const { return text_; }
+
+ private:
+  std::string_view text_;
 };
 
 /// A part of a message, and the data among its arguments.
@@ -101,6 +119,7 @@ enum class Severity { warning, error };
 
 struct Finding {
   Severity severity;
+  std::string_view id;
   CaseLabel about;
   std::vector<MarkedPlace> places;
   std::optional<Amount> value;
@@ -108,24 +127,26 @@ struct Finding {
   std::string remedy;   ///< an imperative; empty if the problem is the whole message
   FilePosition position;
 
-  Finding(Severity the_severity, Clause the_problem, Clause the_remedy, FilePosition the_position = {})
+  Finding(Severity the_severity, MessageId the_id, Clause the_problem, Clause the_remedy,
+          FilePosition the_position = {})
       : severity(the_severity),
+        id(the_id.text()),
         about(std::move(the_problem.about)),
         places(std::move(the_problem.places)),
         value(std::move(the_problem.value)),
         problem(std::move(the_problem.words)),
         remedy(std::move(the_remedy.words)),
         position(std::move(the_position)) {}
-  static Finding error(Clause problem, Clause remedy) {
-    return {Severity::error, std::move(problem), std::move(remedy)};
+  static Finding error(MessageId id, Clause problem, Clause remedy) {
+    return {Severity::error, id, std::move(problem), std::move(remedy)};
   }
-  static Finding warning(Clause problem, Clause remedy) {
-    return {Severity::warning, std::move(problem), std::move(remedy)};
+  static Finding warning(MessageId id, Clause problem, Clause remedy) {
+    return {Severity::warning, id, std::move(problem), std::move(remedy)};
   }
 
   /// The common shape of messages: the problem, why it matters, the remedy.
   std::string message() const { return remedy.empty() ? problem : problem + "; " + remedy; }
-  /// The message, behind the position in the case file if that is known.
+  /// The position in the case file if that is known, the message, and its id in brackets.
   std::string line() const;
 };
 
@@ -142,8 +163,8 @@ Findings merge_alike(const Findings& findings);
 class CaseError : public InputError {
  public:
   explicit CaseError(Findings findings) : InputError(text_of(findings)), findings_(std::move(findings)) {}
-  CaseError(Clause problem, Clause remedy, FilePosition position = {})
-      : CaseError(Findings{{Severity::error, std::move(problem), std::move(remedy), std::move(position)}}) {}
+  CaseError(MessageId id, Clause problem, Clause remedy, FilePosition position = {})
+      : CaseError(Findings{{Severity::error, id, std::move(problem), std::move(remedy), std::move(position)}}) {}
 
   const Findings& findings() const { return findings_; }
 

@@ -12,19 +12,6 @@
 namespace tailwater {
 namespace {
 
-/// [1 over the frequency of a line or spring with its load]; their force is that of the start of the step.
-constexpr double longest_step_of_springs = 0.5;
-
-/// Speed that a unit impulse gives the place x of a body as drawn, at most [1/kg].
-template <int Dim>
-double mobility_at(const FloatingBody<Dim>& body, const Vec<Dim>& x) {
-  const auto is_turn = [](int entry) { return entry >= Dim; };
-  const bool turns_at_all = std::ranges::any_of(body.free, is_turn);
-  const bool goes = !std::ranges::all_of(body.free, is_turn);
-  return (goes ? 1.0 / body.mass : 0.0) +
-         (turns_at_all ? (x - body.drawn.centre).squaredNorm() / body.inertia.minCoeff() : 0.0);
-}
-
 /// The friction on a body is that of its velocity at the start of a step. In a liquid whose viscous forces would limit
 /// an explicit step, that friction could grow from step to step.
 template <int Dim>
@@ -36,7 +23,8 @@ void require_thin_liquids(const CaseSpec& spec, const Setup<Dim>& setup) {
     if (is_thin[k] == 0) thick = &spec.liquids[k];
   }
   if (thick == nullptr) return;
-  throw CaseError({"{} floats beside {}, whose viscous forces are too large for a body that its friction moves",
+  throw CaseError("body-in-thick-liquid",
+                  {"{} floats beside {}, whose viscous forces are too large for a body that its friction moves",
                    CaseLabel("body", spec.bodies[0].name), CaseLabel("liquid", thick->name)},
                   {"hold the body as a wall, or give the liquid less viscosity"});
 }
@@ -78,10 +66,9 @@ template <int Dim>
 StepLimits FloatingBodies<Dim>::step_limits(const Flow<Dim>& /*flow*/) const {
   StepLimits limits;
   for (const Mooring<Dim>& mooring : moorings) {
-    double mobility = mobility_at<Dim>(bodies[mooring.body], mooring.at);
-    if (mooring.to_body >= 0) mobility += mobility_at<Dim>(bodies[mooring.to_body], mooring.anchor);
-    if (mobility == 0.0 || mooring.stiffness == 0.0) continue;
-    limits.step = std::min(limits.step, longest_step_of_springs / std::sqrt(mooring.stiffness * mobility));
+    if (const double frequency = frequency_of<Dim>(mooring, bodies); frequency > 0.0) {
+      limits.step = std::min(limits.step, longest_step_of_springs / frequency);
+    }
   }
   for (const FloatingBody<Dim>& body : bodies) {
     const Twist<Dim> mass = body.scale();

@@ -25,7 +25,7 @@ void check_end_of_series(const TimeSeries& series, double start, double end, con
   const double last = series.empty() ? end : start + series.time.back();
   if (node == nullptr || last >= end) return;
   problems.wrong(
-      key, *node,
+      "series-ends-before-run", key, *node,
       fmt::format("{}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add lines (the "
                   "last values again, if it then rests), or end the run before",
                   series.file, series.line.back(), last, end));
@@ -46,7 +46,7 @@ void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problem
 void check_interval(double interval, double end, double most, const CaseLabel& key, const toml::node* node,
                     std::string_view what, std::string_view remedy, Problems& problems) {
   if (node == nullptr || interval <= 0.0 || end / interval <= most) return;
-  problems.wrong(key, *node,
+  problems.wrong("output-too-frequent", key, *node,
                  fmt::format("makes {:.3g} {} until time.end; give at least {:.3g} s, or 0: {}", end / interval, what,
                              end / most, remedy));
 }
@@ -74,7 +74,7 @@ void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Proble
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
     const toml::node* node = root["fluid"][k]["level"].node();
     if (spec.fluid[k].shape != BlockShape::fill || node == nullptr) continue;
-    problems.wrong(CaseLabel("fluid", k).with_key("level"), *node,
+    problems.wrong("fill-gravity-not-down", CaseLabel("fluid", k).with_key("level"), *node,
                    fmt::format("is a {0}, but physics.gravity does not point down along {0}; turn the case so that it "
                                "does, or draw the water as a box or a {1}",
                                dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
@@ -90,7 +90,7 @@ void check_names_of_driven_walls(const CaseSpec& spec, const toml::table& root, 
       if (names.insert(tables[k].name).second) continue;
       const CaseLabel key = CaseLabel(table, k).with_key("name");
       problems.add(
-          &root[table][k].node()->source(), key,
+          "name-of-wall-taken", &root[table][k].node()->source(), key,
           fmt::format("{} = \"{}\": a wall has this name too; give each a name of its own", key, tables[k].name));
     }
   };
@@ -105,7 +105,8 @@ void check_name(const std::string& name, const std::vector<Target>& targets, std
   std::vector<std::string_view> names;
   for (const Target& target : targets) names.push_back(target.name);
   if (std::ranges::find(names, name) != names.end()) return;
-  problems.wrong(key, node, fmt::format("there is no {} \"{}\"; {}", kind, name, unknown_name_hint(name, names)));
+  problems.wrong("name-unknown", key, node,
+                 fmt::format("there is no {} \"{}\"; {}", kind, name, unknown_name_hint(name, names)));
 }
 
 /// Checks that a body is made of walls that have no other motion.
@@ -114,8 +115,8 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
   for (std::size_t k = 0; k < spec.bodies.size(); ++k) {
     const BodyTable& body = spec.bodies[k];
     const CaseLabel key = CaseLabel("body", k).with_key("walls");
-    const auto wrong = [&](const std::string& message) {
-      problems.wrong(key, *root["body"][k]["walls"].node(), message);
+    const auto wrong = [&](MessageId id, const std::string& message) {
+      problems.wrong(id, key, *root["body"][k]["walls"].node(), message);
     };
     for (const std::string& name : body.walls) {
       const auto wall = std::ranges::find(spec.walls, name, &WallTable::name);
@@ -129,19 +130,23 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
       const bool is_closed = wall->shape == WallShape::polygon || wall->shape == WallShape::mesh ||
                              (wall->shape == WallShape::box && wall->open.empty());
       if (const auto [first, is_new] = body_of_wall.emplace(name, body.name); !is_new) {
-        wrong(fmt::format("wall '{}' is of body '{}' already; remove it from one of them", name, first->second));
+        wrong("body-wall-shared",
+              fmt::format("wall '{}' is of body '{}' already; remove it from one of them", name, first->second));
       } else if (is_moved) {
-        wrong(fmt::format("wall '{}' has a motion of its own; remove its displacement, rotation and motion", name));
+        wrong("body-wall-moves",
+              fmt::format("wall '{}' has a motion of its own; remove its displacement, rotation and motion", name));
       } else if (!is_closed) {
-        wrong(fmt::format("wall '{}' is not closed; draw a polygon, a box without open faces, or a mesh", name));
+        wrong("body-wall-open",
+              fmt::format("wall '{}' is not closed; draw a polygon, a box without open faces, or a mesh", name));
       } else if (wall->shape != WallShape::mesh && wall->fluid_side != FluidSide::outside) {
-        wrong(fmt::format("wall '{}' has the water inside; give it fluid_side = \"outside\"", name));
+        wrong("body-wall-water-inside",
+              fmt::format("wall '{}' has the water inside; give it fluid_side = \"outside\"", name));
       }
     }
   }
   const std::string_view why_not = traits_of(spec).no_floating;
   if (!spec.bodies.empty() && !why_not.empty()) {
-    problems.add(&root["body"][0].node()->source(), CaseLabel("body", 0),
+    problems.add("body-needs-robust", &root["body"][0].node()->source(), CaseLabel("body", 0),
                  fmt::format("body[0]: bodies float only with scheme.formulation = \"{}\" and scheme.name = \"{}\": "
                              "{}; choose these, or give the walls a motion",
                              name_of(Formulation::robust), name_of(SchemeName::farzin2014), why_not));
@@ -152,7 +157,7 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
 void check_no_air(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const auto check_none = [&](const char* table, const auto& tables) {
     if (tables.empty()) return;
-    problems.add(&root[table][0].node()->source(), CaseLabel(table, 0),
+    problems.add("air-not-computed", &root[table][0].node()->source(), CaseLabel(table, 0),
                  fmt::format("{}[0]: enclosed air is not computed in this case; give pockets = \"{}\" or \"{}\" in "
                              "[air], or remove the table",
                              table, name_of(AirPockets::adiabatic), name_of(AirPockets::isothermal)));
@@ -168,7 +173,7 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
     const toml::node* node = root["pocket"][k]["overpressure"].node();
     if (node == nullptr || spec.pockets[k].overpressure > -spec.air.pressure) continue;
     problems.wrong(
-        CaseLabel("pocket", k).with_key("overpressure"), *node,
+        "pocket-without-pressure", CaseLabel("pocket", k).with_key("overpressure"), *node,
         fmt::format("leaves no pressure of the atmosphere's {:.9g} Pa (air.pressure); give more than {:.9g} Pa",
                     spec.air.pressure, -spec.air.pressure));
   }
@@ -177,7 +182,7 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
   const std::string_view why_not = traits_of(spec).no_pockets;
   if (why_not.empty()) return;
   problems.wrong(
-      CaseLabel("air").with_key("pockets"), *node,
+      "air-needs-robust", CaseLabel("air").with_key("pockets"), *node,
       fmt::format("is not possible with scheme.formulation = \"{}\": {}; choose \"{}\", or \"{}\" pockets",
                   name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust), name_of(AirPockets::none)));
 }
@@ -187,27 +192,27 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
 /// the space without water, and particles in a layer stand farther apart.
 void check_porous(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   if (spec.porous.empty()) return;
-  const auto wrong = [&](const std::string& message) {
-    problems.add(&root["porous"][0].node()->source(), CaseLabel("porous", 0), "porous[0]: " + message);
+  const auto wrong = [&](MessageId id, const std::string& message) {
+    problems.add(id, &root["porous"][0].node()->source(), CaseLabel("porous", 0), "porous[0]: " + message);
   };
   if (!traits_of(spec).no_floating.empty()) {
-    wrong(
-        fmt::format("porous layers are possible only with scheme.formulation = \"{}\" and scheme.name = \"{}\", and "
-                    "without study.displacement; choose these, or remove the layers",
-                    name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
+    wrong("porous-needs-robust",
+          fmt::format("porous layers are possible only with scheme.formulation = \"{}\" and scheme.name = \"{}\", and "
+                      "without study.displacement; choose these, or remove the layers",
+                      name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
   }
   const bool has_coefficients = std::ranges::any_of(
       spec.porous, [](const PorousTable& layer) { return layer.resistance == PorousResistance::coefficients; });
   if (has_coefficients && gravity_magnitude(spec.physics) == 0.0) {
-    wrong(
-        "without gravity there is no hydraulic gradient, whose coefficients these are; give a grain_size and another "
-        "resistance");
+    wrong("porous-without-gravity",
+          "without gravity there is no hydraulic gradient, whose coefficients these are; give a grain_size and another "
+          "resistance");
   }
   if (spec.air.pockets != AirPockets::none) {
-    wrong(
-        fmt::format("enclosed air is not computed beside porous layers; give pockets = \"{}\" in [air], or remove "
-                    "the layers",
-                    name_of(AirPockets::none)));
+    wrong("porous-beside-air",
+          fmt::format("enclosed air is not computed beside porous layers; give pockets = \"{}\" in [air], or remove "
+                      "the layers",
+                      name_of(AirPockets::none)));
   }
 }
 
@@ -217,20 +222,20 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
   const auto check_number = [&](const char* key, double of_liquid) {
     const std::optional<double> given = root["physics"][key].value<double>();
     if (!given || *given == of_liquid) return;
-    problems.wrong(CaseLabel("physics").with_key(key), *root["physics"][key].node(),
+    problems.wrong("liquid-has-own-value", CaseLabel("physics").with_key(key), *root["physics"][key].node(),
                    fmt::format("liquid \"{}\" has its own; remove this key", liquid.name));
   };
   check_number("density", liquid.density);
   check_number("viscosity", kinematic_viscosity(liquid));
   if (!traits_of(spec).no_floating.empty()) {
-    problems.add(&root["liquid"][0].node()->source(), CaseLabel("liquid", 0),
+    problems.add("liquid-needs-robust", &root["liquid"][0].node()->source(), CaseLabel("liquid", 0),
                  fmt::format("liquid[0]: liquids are possible only with scheme.formulation = \"{}\" and scheme.name = "
                              "\"{}\", and without study.displacement; choose these, or remove the liquid",
                              name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
   }
   const auto refuse = [&](const char* table, bool is_there, std::string_view what) {
     if (!is_there) return;
-    problems.add(&root[table][0].node()->source(), CaseLabel(table, 0),
+    problems.add("table-beside-liquid", &root[table][0].node()->source(), CaseLabel(table, 0),
                  fmt::format("{}[0]: {} not computed with liquid \"{}\"; remove the table, or the liquid", table, what,
                              liquid.name));
   };
@@ -238,7 +243,7 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
     for (const char* key : {"roughness", "manning"}) {
       const toml::node* node = root["wall"][k][key].node();
       if (node == nullptr || (spec.walls[k].roughness == 0.0 && spec.walls[k].manning == 0.0)) continue;
-      problems.wrong(CaseLabel("wall", k).with_key(key), *node,
+      problems.wrong("rough-wall-beside-liquid", CaseLabel("wall", k).with_key(key), *node,
                      fmt::format("rough walls are not computed with liquid \"{}\", whose friction is that of a smooth "
                                  "wall; remove the key",
                                  liquid.name));
@@ -248,17 +253,18 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
   for (std::size_t k = 0; has_several_liquids(spec) && k < spec.inlets.size(); ++k) {
     if (spec.inlets[k].water_from.empty()) continue;
     problems.wrong(
-        CaseLabel("inlet", k).with_key("water_from"), *root["inlet"][k]["water_from"].node(),
+        "circuit-of-liquids", CaseLabel("inlet", k).with_key("water_from"), *root["inlet"][k]["water_from"].node(),
         fmt::format("a circuit has one liquid, and the case has \"{}\" and others; remove this key", liquid.name));
   }
   if (spec.physics.channel_width > 0.0) {
-    problems.wrong(CaseLabel("physics").with_key("channel_width"), *root["physics"]["channel_width"].node(),
+    problems.wrong("side-walls-beside-liquid", CaseLabel("physics").with_key("channel_width"),
+                   *root["physics"]["channel_width"].node(),
                    fmt::format("friction of side walls is not computed with liquid \"{}\"; remove the key, or compute "
                                "in three dimensions",
                                liquid.name));
   }
   if (spec.air.pockets != AirPockets::none) {
-    problems.wrong(CaseLabel("air").with_key("pockets"), *root["air"]["pockets"].node(),
+    problems.wrong("air-beside-liquid", CaseLabel("air").with_key("pockets"), *root["air"]["pockets"].node(),
                    fmt::format("enclosed air is not computed with liquid \"{}\"; give \"{}\"", liquid.name,
                                name_of(AirPockets::none)));
   }
@@ -272,7 +278,7 @@ void check_liquids_of_blocks(const CaseSpec& spec, const toml::table& root, Prob
     if (node != nullptr && !spec.fluid[k].liquid.empty()) {
       check_name(spec.fluid[k].liquid, spec.liquids, "liquid", key, *node, problems);
     } else if (has_several_liquids(spec)) {
-      problems.add(&root["fluid"][k].node()->source(), key,
+      problems.add("block-without-liquid", &root["fluid"][k].node()->source(), key,
                    fmt::format("{} is missing, and other blocks have one; give the name of a [[liquid]], which may be "
                                "water: rheology = \"newtonian\", viscosity = 1e-3",
                                key));
@@ -293,7 +299,7 @@ void check_densities(const CaseSpec& spec, const toml::table& root, Problems& pr
   const auto [light, heavy] = std::ranges::minmax_element(spec.liquids, {}, &LiquidTable::density);
   if (heavy->density <= largest_density_ratio * light->density) return;
   const auto k = static_cast<std::size_t>(light - spec.liquids.begin());
-  problems.add(&root["liquid"][k].node()->source(), CaseLabel("liquid", k),
+  problems.add("liquid-densities-too-far", &root["liquid"][k].node()->source(), CaseLabel("liquid", k),
                fmt::format("liquid[{}]: its density {:g} kg/m^3 is less than 1/{:g} of {:g}, that of \"{}\"; give "
                            "densities within this ratio, and air by [air] or as empty space",
                            k, light->density, largest_density_ratio, heavy->density, heavy->name));
@@ -305,7 +311,7 @@ void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& prob
   if (!problems.none()) return;
   for (std::size_t k = 0; k < spec.liquids.size(); ++k) {
     if (std::ranges::count(spec.fluid, spec.liquids[k].name, &FluidTable::liquid) > 0) continue;
-    problems.add(&root["liquid"][k].node()->source(), CaseLabel("liquid", k),
+    problems.add("liquid-without-block", &root["liquid"][k].node()->source(), CaseLabel("liquid", k),
                  fmt::format("liquid[{}]: no [[fluid]] is of \"{}\"; give a block liquid = \"{}\", or remove the table",
                              k, spec.liquids[k].name, spec.liquids[k].name));
   }
@@ -324,7 +330,7 @@ void check_study(const CaseSpec& spec, const toml::table& root, Problems& proble
                                  : fmt::format("formulation = \"{}\"", name_of(spec.scheme.formulation));
   for (const auto& [key, node] : *study) {
     if (has_study(spec.scheme, key.str())) continue;
-    problems.wrong(CaseLabel("study").with_key(key.str()), node,
+    problems.wrong("study-key-unused", CaseLabel("study").with_key(key.str()), node,
                    fmt::format("is not used with scheme.{}; remove it", scheme));
   }
 }
@@ -333,7 +339,7 @@ void check_study(const CaseSpec& spec, const toml::table& root, Problems& proble
 void check_tension(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   const toml::node* const key = root["physics"]["tension"].node();
   if (key == nullptr || spec.physics.tension == 0.0 || spec.scheme.formulation == Formulation::robust) return;
-  problems.wrong(CaseLabel("physics").with_key("tension"), *key,
+  problems.wrong("tension-needs-robust", CaseLabel("physics").with_key("tension"), *key,
                  "is not used with scheme.formulation = \"published\"; remove it");
 }
 
@@ -367,18 +373,21 @@ void check_names_of_others(const CaseSpec& spec, const toml::table& root, Proble
 
 }  // namespace
 
+void check_named_walls(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  check_bodies(spec, root, problems);
+  check_walls_of_zones(spec, root, problems);
+}
+
 void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems& problems) {
+  check_liquids(spec, root, problems);  // first, as it ends early where an earlier problem was found
   check_amount_of_output(spec, root, problems);
   check_ends_of_series(spec, root, problems);
   check_levels_of_fills(spec, root, problems);
   check_names_of_driven_walls(spec, root, problems);
-  check_bodies(spec, root, problems);
   check_air(spec, root, problems);
   check_porous(spec, root, problems);
-  check_liquids(spec, root, problems);
   check_study(spec, root, problems);
   check_tension(spec, root, problems);
-  check_walls_of_zones(spec, root, problems);
   check_names_of_others(spec, root, problems);
 }
 

@@ -1,4 +1,4 @@
-// Rules that involve several tables of a case, checked once each table is sound.
+// Rules that involve several tables of a case.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,7 +8,12 @@
 
 namespace tailwater {
 
-/// Reports contradictions between tables of the case `spec`, which was read from `root`.
+/// Reports walls that bodies and zones name and that do not exist, or that no body can have. Tables may have problems
+/// of their own.
+void check_named_walls(const CaseSpec& spec, const toml::table& root, Problems& problems);
+
+/// Reports other contradictions between tables of the case `spec`, which was read from `root`, once each table is
+/// sound.
 void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems& problems);
 
 }  // namespace tailwater

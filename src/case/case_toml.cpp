@@ -41,8 +41,8 @@ std::string read_case_from(std::istream& stream) {
 
 toml::table parse_case(std::string_view text, const std::string& file) {
   if (const auto line = line_of_deep_key(text)) {
-    throw CaseError({"a key has too many dots"}, {"write keys as in fluid[0].max: a table and a name in it"},
-                    {file, static_cast<int>(*line)});
+    throw CaseError("key-too-deep", {"a key has too many dots"},
+                    {"write keys as in fluid[0].max: a table and a name in it"}, {file, static_cast<int>(*line)});
   }
   try {
     return toml::parse(text, file);
@@ -51,7 +51,7 @@ toml::table parse_case(std::string_view text, const std::string& file) {
     std::string description(error.description());  // it quotes letters unchanged, ends of lines too
     std::ranges::replace_if(
         description, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
-    throw CaseError({"not valid TOML: {}", description},
+    throw CaseError("toml-invalid", {"not valid TOML: {}", description},
                     {"correct the line (texts are written in quotes, lists in [ ])"},
                     {file, static_cast<int>(where.line), static_cast<int>(where.column)});
   }

@@ -21,7 +21,7 @@ void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection s
     if (from[d] == to[d]) flat += "xyz"[d];
   }
   if (flat.size() != 1) {
-    reader.wrong("to",
+    reader.wrong("plate-corners", "to",
                  "differs from `from` in {} coordinates, but {} is a flat {}: give two points that have exactly one "
                  "coordinate in common",
                  from.size() - flat.size(), what,
@@ -31,9 +31,9 @@ void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection s
         "the plane through from and to is at one {}, so its sides are \"-{}\" and \"+{}\"; give one of them", flat,
         flat, flat);
     if (reader.given("side") != nullptr) {
-      reader.wrong("side", message);
+      reader.wrong("plate-side", "side", message);
     } else {
-      reader.missing("side", message);
+      reader.missing("plate-side", "side", message);
     }
   }
 }
@@ -45,20 +45,20 @@ constexpr double highest_over_depth = 0.78;
 void check_waves(const WaveKeys& waves, double depth, std::string_view place, TableReader& reader) {
   const bool is_periodic = has_period(waves.waves);
   if (is_periodic && waves.period == 0.0 && reader.given("period") != nullptr && !reader.is_wrong("period")) {
-    reader.wrong("period", "waves need a period; give a number above 0 in s");
+    reader.wrong("wave-period-missing", "period", "waves need a period; give a number above 0 in s");
   }
   if (is_periodic && waves.waves != WaveKind::regular && waves.ramp == 0.0 && reader.given("ramp") != nullptr &&
       !reader.is_wrong("ramp")) {
-    reader.wrong("ramp", "{} waves do not begin at rest; give a time above 0 s",
+    reader.wrong("wave-ramp-missing", "ramp", "{} waves do not begin at rest; give a time above 0 s",
                  waves.waves == WaveKind::focused ? "focused" : "irregular");
   }
   if (waves.waves == WaveKind::focused && !reader.is_wrong("focus") &&
       (waves.focus.size() != 2 || waves.focus[1] <= 0.0)) {
-    reader.wrong("focus", "give two numbers, as in [3, 10]: a distance in m and a time above 0 in s");
+    reader.wrong("wave-focus", "focus", "give two numbers, as in [3, 10]: a distance in m and a time above 0 in s");
   }
   if (waves.height > highest_over_depth * depth && !reader.is_wrong("height") && !reader.is_wrong("depth")) {
-    reader.wrong("height", "such a wave breaks at the {}: give at most {} of the depth, {:.4g} m", place,
-                 highest_over_depth, highest_over_depth * depth);
+    reader.wrong("wave-too-high", "height", "such a wave breaks at the {}: give at most {} of the depth, {:.4g} m",
+                 place, highest_over_depth, highest_over_depth * depth);
   }
 }
 
@@ -67,12 +67,12 @@ void check_waves(const WaveKeys& waves, double depth, std::string_view place, Ta
 void check(const WaveMakerTable& maker, TableReader& reader) {
   check_plate(maker.from, maker.to, maker.side, "a wave maker", reader);
   if (maker.waves == WaveKind::none && maker.absorption == Absorption::none && !reader.is_wrong("absorption")) {
-    reader.missing("absorption",
+    reader.missing("maker-without-waves", "absorption",
                    "a plate that makes no waves would rest; give absorption = \"active\", or other waves");
   }
   const bool is_long = maker.waves == WaveKind::solitary || maker.waves == WaveKind::n_wave;
   if (maker.type == MakerType::flap && is_long && !reader.is_wrong("type")) {
-    reader.wrong("type", "such a long wave moves the water evenly over the depth; use a piston");
+    reader.wrong("flap-long-wave", "type", "such a long wave moves the water evenly over the depth; use a piston");
   }
   check_waves(maker, maker.depth, "maker", reader);
 }
@@ -82,13 +82,14 @@ void check_numbers_of_freedoms(const std::vector<double>& numbers, std::string_v
   const std::size_t needed = reader.dimension() == 2 ? 3 : 6;
   if (numbers.empty() || reader.is_wrong(key)) return;
   if (numbers.size() == needed && std::ranges::none_of(numbers, [](double number) { return number < 0.0; })) return;
-  reader.wrong(key, "give {} numbers of at least 0, for {}", needed,
+  reader.wrong("body-numbers", key, "give {} numbers of at least 0, for {}", needed,
                needed == 3 ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z");
 }
 
 void check(const BodyTable& body, TableReader& reader) {
   if (body.walls.empty() && !reader.is_wrong("walls")) {
-    reader.missing("walls", "a body needs a surface; give the names of its walls, as in [\"hull\"]");
+    reader.missing("body-without-walls", "walls",
+                   "a body needs a surface; give the names of its walls, as in [\"hull\"]");
   }
   if (reader.dimension() == 0) return;  // the names of the free motions depend on it
   check_numbers_of_freedoms(body.springs, "springs", reader);
@@ -99,7 +100,8 @@ void check(const BodyTable& body, TableReader& reader) {
   for (const std::string& degree : body.free) {
     const bool is_turn = degree.starts_with("rotation");
     if (degree.find('z') != std::string::npos ? is_flat : is_turn && (degree == "rotation") != is_flat) {
-      reader.wrong("free", "\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", degree,
+      reader.wrong("body-freedom-unknown", "free",
+                   "\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", degree,
                    reader.dimension(), is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z");
       return;
     }
@@ -111,15 +113,15 @@ void check(const BodyTable& body, TableReader& reader) {
   if (body.inertia.empty()) {
     if (turns) {
       reader.missing(
-          "inertia",
+          "inertia-missing", "inertia",
           fmt::format(
               "a body that is free to turn needs its moment{} of inertia; give {}, or leave the rotation out of `free`",
               is_flat ? "" : "s", is_flat ? "[I]" : "[Ixx, Iyy, Izz]"));
     }
   } else if (body.inertia.size() != needed ||
              std::ranges::any_of(body.inertia, [](double moment) { return moment <= 0.0; })) {
-    reader.wrong("inertia", "give {} above 0 in {} dimensions", is_flat ? "one number" : "three numbers",
-                 reader.dimension());
+    reader.wrong("inertia-numbers", "inertia", "give {} above 0 in {} dimensions",
+                 is_flat ? "one number" : "three numbers", reader.dimension());
   }
 }
 
@@ -127,16 +129,18 @@ void check(const MooringTable& mooring, TableReader& reader) {
   if (!reader.is_wrong("body")) {
     const std::vector<std::string>& bodies = mooring.bodies;
     if (bodies.empty()) {
-      reader.missing("body", "a mooring holds a body; give its name");
+      reader.missing("mooring-without-body", "body", "a mooring holds a body; give its name");
     } else if (bodies.size() > 2) {
-      reader.wrong("body", "a line has two ends; name one body, or the two that it ties");
+      reader.wrong("mooring-of-three-bodies", "body", "a line has two ends; name one body, or the two that it ties");
     }
   }
   if (mooring.stiffness == 0.0 && (mooring.damping == 0.0 || mooring.length > 0.0) && !reader.is_wrong("stiffness")) {
-    reader.wrong("stiffness", "a line without stiffness is a damper, which needs damping above 0 and no length");
+    reader.wrong("mooring-without-stiffness", "stiffness",
+                 "a line without stiffness is a damper, which needs damping above 0 and no length");
   }
   if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
-    reader.wrong("anchor", "is where the line is fastened to the body, so it has no direction; give another place");
+    reader.wrong("mooring-without-length", "anchor",
+                 "is where the line is fastened to the body, so it has no direction; give another place");
   }
 }
 
@@ -144,16 +148,18 @@ void check(const DampingTable& damping, TableReader& reader) {
   check_box(damping.min, damping.max, reader);
   if (const toml::node* node = reader.given("towards");
       node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
-    reader.wrong("towards", "a case of two dimensions has no z; give a direction in x or y");
+    reader.wrong("direction-in-2d", "towards", "a case of two dimensions has no z; give a direction in x or y");
   }
   if (reader.dimension() == 2 && damping.direction != 0.0 && !reader.is_wrong("direction")) {
-    reader.wrong("direction", "waves of a case of two dimensions have one direction; leave it out");
+    reader.wrong("wave-direction-in-2d", "direction",
+                 "waves of a case of two dimensions have one direction; leave it out");
   }
   if (reader.dimension() == 2 && damping.spreading != 0.0 && !reader.is_wrong("spreading")) {
-    reader.wrong("spreading", "waves of a case of two dimensions have one direction; leave it out");
+    reader.wrong("wave-direction-in-2d", "spreading",
+                 "waves of a case of two dimensions have one direction; leave it out");
   }
   if (damping.waves != WaveKind::none && !has_period(damping.waves) && !reader.is_wrong("waves")) {
-    reader.wrong("waves", "a zone makes no solitary waves and no N-waves; use a piston");
+    reader.wrong("damping-waves", "waves", "a zone makes no solitary waves and no N-waves; use a piston");
   } else if (damping.waves != WaveKind::none) {
     check_waves(damping, damping.depth, "zone", reader);
   }
@@ -164,7 +170,7 @@ void check(const RefinementTable& zone, TableReader& reader) {
   check_corner_count(zone.points, 3, reader);
   if (zone.shape == ZoneShape::walls && zone.walls.empty() && reader.given("walls") != nullptr &&
       !reader.is_wrong("walls")) {
-    reader.wrong("walls", "names no wall; give the names of walls, as in [\"pier\"]");
+    reader.wrong("zone-names-no-wall", "walls", "names no wall; give the names of walls, as in [\"pier\"]");
   }
 }
 

@@ -48,7 +48,8 @@ class NamedNumbersReader {
     }
     while (!open_.empty()) {
       const std::string name = one_in_a_circle();
-      report(name, *open_.at(name), "depends on itself through other numbers; give one of them a number");
+      report("parameter-circular", name, *open_.at(name),
+             "depends on itself through other numbers; give one of them a number");
       close(name, unknown);
     }
     for (const auto& [name, value] : context_.numbers) {
@@ -61,12 +62,13 @@ class NamedNumbersReader {
     if (node == nullptr) return;
     const toml::table* table = node->as_table();
     if (table == nullptr) {
-      report("", *node, "not a table; write the parameters below a line [parameters]");
+      report("parameters-not-table", "", *node, "not a table; write the parameters below a line [parameters]");
       return;
     }
     constexpr std::size_t most = 1000;  // their names are compared with each unknown one
     if (table->size() > most) {
-      report("", *node, fmt::format("has {} parameters; a case has at most {}", table->size(), most));
+      report("parameters-too-many", "", *node,
+             fmt::format("has {} parameters; a case has at most {}", table->size(), most));
       return;
     }
     for (const auto& [key, value] : *table) {
@@ -76,7 +78,7 @@ class NamedNumbersReader {
         open_[name] = &value;
         continue;
       }
-      report(name, value,
+      report("parameter-name", name, value,
              "cannot be a parameter's name; use letters, digits and _, not x, y, z, t, dx, g, pi or a function's name");
     }
   }
@@ -141,9 +143,10 @@ class NamedNumbersReader {
     try {
       if (const auto* text = node.as_string()) return evaluate(text->get(), context_.numbers);
       if (const auto number = number_in(node); node.is_number() && std::isfinite(*number)) return *number;
-      report(name, node, "not a finite number; give a number or an expression of other parameters");
+      report("parameter-not-finite", name, node,
+             "not a finite number; give a number or an expression of other parameters");
     } catch (const ExpressionError& error) {
-      report(name, node, error.what());
+      report("expression-invalid", name, node, error.what());
     }
     return unknown;
   }
@@ -155,11 +158,11 @@ class NamedNumbersReader {
     settle(std::exchange(waiting_for_[name], {}));
   }
 
-  void report(const std::string& name, const toml::node& node, const std::string& message) {
+  void report(MessageId id, const std::string& name, const toml::node& node, const std::string& message) {
     const CaseLabel key = name == "dx"  ? CaseLabel("particles").with_key("spacing")
                           : name == "g" ? CaseLabel("physics").with_key("gravity")
                                         : CaseLabel("parameters").with_key(name);
-    context_.problems.wrong(key, node, message);
+    context_.problems.wrong(id, key, node, message);
     context_.keys_done.insert(key.text());
   }
 
@@ -179,7 +182,7 @@ void read_foundations(CaseSpec& spec, Context& context, const toml::table& root)
   general.read_ahead(spec.general, {"format", "dimension"});
   if (spec.general.format > case_format) {
     // Other apparent errors may be valid in that format.
-    general.wrong("format", *general.given("format"),
+    general.wrong("case-format-newer", "format", *general.given("format"),
                   fmt::format("this program reads case files up to format {}; use a newer version of it", case_format));
     throw CaseError(context.problems.findings());
   }

@@ -23,7 +23,7 @@ void read_linked(std::string_view key, TableReader& reader, Body&& body) {
   try {
     body();
   } catch (const UserError& error) {
-    reader.wrong(key, error.what());
+    reader.wrong("linked-file", key, error.what());
   }
 }
 
@@ -70,7 +70,8 @@ struct Given {
 void check_given_once(std::span<const Given> quantities, TableReader& reader) {
   for (const Given& quantity : quantities) {
     if (!quantity.in_case || !quantity.in_file) continue;
-    reader.wrong(quantity.key, "the file has a column {} as well; remove one of the two", quantity.key);
+    reader.wrong("value-in-case-and-file", quantity.key, "the file has a column {} as well; remove one of the two",
+                 quantity.key);
   }
 }
 
@@ -142,14 +143,15 @@ void read_linked_files(InletTable& inlet, TableReader& reader) {
   check_given_once(std::array{discharge, velocity, level}, reader);
   const bool has_wrong_key = reader.is_wrong("discharge") || reader.is_wrong("velocity") || reader.is_wrong("level");
   if (!has_wrong_key && !discharge.anywhere() && !velocity.anywhere() && !level.anywhere()) {
-    reader.missing("discharge", "give a discharge, a velocity or a level, or a file with one of them");
+    reader.missing("inlet-without-flow", "discharge",
+                   "give a discharge, a velocity or a level, or a file with one of them");
   }
   if (discharge.anywhere() && velocity.anywhere()) {
     const std::string_view key = velocity.in_case ? "velocity" : discharge.in_case ? "discharge" : "file";
-    reader.wrong(key, "an inlet has a discharge or a velocity; remove one of the two");
+    reader.wrong("inlet-flow-twice", key, "an inlet has a discharge or a velocity; remove one of the two");
   }
   if (inlet.profile && !discharge.anywhere() && !velocity.anywhere()) {
-    reader.wrong("profile",
+    reader.wrong("inlet-profile-without-flow", "profile",
                  "needs a discharge or a velocity; an inlet with a level alone takes the velocity from the flow");
   }
 }

@@ -25,13 +25,13 @@ class Reporter {
  public:
   Reporter(std::size_t k, const toml::table& root, Problems& problems) : k_(k), root_(root), problems_(problems) {}
 
-  void wrong(const char* key, const std::string& message) const {
+  void wrong(MessageId id, const char* key, const std::string& message) const {
     const CaseLabel label = CaseLabel("measurement", k_).with_key(key);
     const toml::node* node = root_["measurement"][k_][key].node();
     if (node == nullptr) {
-      problems_.add(&root_["measurement"][k_].node()->source(), label, fmt::format("{}: {}", label, message));
+      problems_.add(id, &root_["measurement"][k_].node()->source(), label, fmt::format("{}: {}", label, message));
     } else {
-      problems_.wrong(label, *node, message);
+      problems_.wrong(id, label, *node, message);
     }
   }
 
@@ -51,22 +51,23 @@ std::vector<std::string_view> names_in(const Tables& tables, Name name) {
 void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& reporter) {
   const auto probe = std::ranges::find(spec.probes, measurement.probe, &ProbeTable::name);
   if (probe == spec.probes.end()) {
-    reporter.wrong("probe",
+    reporter.wrong("measurement-probe-unknown", "probe",
                    fmt::format("there is no such probe; {}",
                                unknown_name_hint(measurement.probe, names_in(spec.probes, &ProbeTable::name))));
     return;
   }
   const std::vector<OutputColumn> columns = comparable_columns(*probe, spec.general.dimension);
   if (columns.empty()) {
-    reporter.wrong("probe", fmt::format("a {} probe{} cannot be compared with measured values; give a probe of another "
-                                        "type, as \"depth\" or \"velocity\"",
-                                        name_of(probe->type), spec.general.dimension == 3 ? " in 3D" : ""));
+    reporter.wrong("measurement-of-probe-type", "probe",
+                   fmt::format("a {} probe{} cannot be compared with measured values; give a probe of another "
+                               "type, as \"depth\" or \"velocity\"",
+                               name_of(probe->type), spec.general.dimension == 3 ? " in 3D" : ""));
     return;
   }
   if (measurement.column.empty()) measurement.column = columns.front().name;
   const auto column = std::ranges::find(columns, measurement.column, &OutputColumn::name);
   if (column == columns.end()) {
-    reporter.wrong("column",
+    reporter.wrong("measurement-column", "column",
                    fmt::format("a {} probe has no such column; {}", name_of(probe->type),
                                unknown_name_hint(measurement.column, names_in(columns, &OutputColumn::name))));
     return;
@@ -76,13 +77,14 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
         measurement.file, std::array<std::string_view, 2>{probe->name, column->name}, column->measure,
         probe->type == ProbeType::profile ? Samples::of_profiles : Samples::of_one_place);
   } catch (const UserError& error) {
-    reporter.wrong("file", error.what());
+    reporter.wrong("linked-file", "file", error.what());
     return;
   }
   // A measurement that begins after the end of the run is allowed, because the run may have been shortened.
   if (measurement.series.time.back() <= 0.0) {
-    reporter.wrong("file", fmt::format("{} ends at t = {:.9g} s, where the run begins; correct the zero of its times",
-                                       measurement.file, measurement.series.time.back()));
+    reporter.wrong("measurement-before-run", "file",
+                   fmt::format("{} ends at t = {:.9g} s, where the run begins; correct the zero of its times",
+                               measurement.file, measurement.series.time.back()));
   }
   if (probe->type != ProbeType::profile) return;
   const auto is_taken = [&](double time) {
@@ -92,7 +94,7 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
   };
   const auto missing = std::ranges::find_if_not(measurement.series.time, is_taken);
   if (missing == measurement.series.time.end()) return;
-  reporter.wrong("file",
+  reporter.wrong("measurement-off-times", "file",
                  fmt::format("{} has values at t = {:.9g} s, when probe \"{}\" takes no profile; add this to its times",
                              measurement.file, *missing, probe->name));
 }

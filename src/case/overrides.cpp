@@ -180,7 +180,7 @@ void apply_overrides(toml::table& root, const std::vector<std::string>& override
     try {
       apply(root, text, origin);
     } catch (const Misplaced& misplaced) {
-      problems.add_override(origin, misplaced.reason);
+      problems.add_override("override-misplaced", origin, misplaced.reason);
     }
   }
 }

@@ -51,18 +51,21 @@ FilePosition position_of(const std::string& file, const toml::source_region* sou
   return {file, static_cast<int>(begin.line), static_cast<int>(begin.column), static_cast<int>(end_column)};
 }
 
-void Problems::add(const toml::source_region* source, const CaseLabel& about, const std::string& message) {
-  findings_.emplace_back(Severity::error, Clause("{}", printable(message)), Clause(), position_of(file_, source));
+void Problems::add(MessageId id, const toml::source_region* source, const CaseLabel& about,
+                   const std::string& message) {
+  findings_.emplace_back(Severity::error, id, Clause("{}", printable(message)), Clause(), position_of(file_, source));
   findings_.back().about = about;
 }
 
-void Problems::wrong(const CaseLabel& key, const toml::node& node, const std::string& message, std::string_view part) {
+void Problems::wrong(MessageId id, const CaseLabel& key, const toml::node& node, const std::string& message,
+                     std::string_view part) {
   const CaseLabel shown = part.empty() ? key : key.with_key(part);
-  add(&node.source(), key, fmt::format("{} = {}: {}", shown, value_text(node), message));
+  add(id, &node.source(), key, fmt::format("{} = {}: {}", shown, value_text(node), message));
 }
 
-void Problems::add_override(const std::string& origin, const std::string& message) {
-  findings_.emplace_back(Severity::error, Clause("{}", printable(message)), Clause(), FilePosition{printable(origin)});
+void Problems::add_override(MessageId id, const std::string& origin, const std::string& message) {
+  findings_.emplace_back(Severity::error, id, Clause("{}", printable(message)), Clause(),
+                         FilePosition{printable(origin)});
 }
 
 Findings Problems::findings() const {

@@ -21,13 +21,14 @@ class Problems {
   explicit Problems(const std::string& file) : file_(printable(file)) {}
 
   /// `source` is the position in the file or in an override; null: the file as a whole.
-  void add(const toml::source_region* source, const CaseLabel& about, const std::string& message);
+  void add(MessageId id, const toml::source_region* source, const CaseLabel& about, const std::string& message);
 
   /// Adds "wall[0].points[1] = 3: MESSAGE" about a value; `part` names a part of the key, such as "points[1]".
-  void wrong(const CaseLabel& key, const toml::node& node, const std::string& message, std::string_view part = "");
+  void wrong(MessageId id, const CaseLabel& key, const toml::node& node, const std::string& message,
+             std::string_view part = "");
 
   /// An override whose key does not exist in the file.
-  void add_override(const std::string& origin, const std::string& message);
+  void add_override(MessageId id, const std::string& origin, const std::string& message);
 
   bool none() const { return findings_.empty(); }
 

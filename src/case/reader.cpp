@@ -34,7 +34,7 @@ void check_names(const std::vector<Table>& tables, std::vector<TableReader>& rea
         fmt::format("the name \"{}\" is used twice; give each table a name of its own", tables[i].name);
     const bool is_given = readers[i].given("name") != nullptr;
     TableReader& reader = is_given ? readers[i] : readers[first->second];
-    reader.wrong("name", *reader.given("name"), message);
+    reader.wrong("name-twice", "name", *reader.given("name"), message);
   }
 }
 
@@ -51,7 +51,7 @@ class CaseReader {
   void table(std::string_view name, Table& table, std::string_view) {
     names_.push_back(name);
     if (const toml::node* node = root_.get(name); node != nullptr && !node->is_table()) {
-      context_.problems.wrong(CaseLabel(std::string(name)), *node,
+      context_.problems.wrong("table-expected", CaseLabel(std::string(name)), *node,
                               fmt::format("not a table; write its keys below a line [{}]", name));
     }
     const CaseLabel label{std::string(name)};
@@ -70,7 +70,7 @@ class CaseReader {
     const bool are_tables =
         list != nullptr && std::all_of(list->begin(), list->end(), [](const toml::node& n) { return n.is_table(); });
     if (!are_tables) {
-      context_.problems.wrong(CaseLabel(std::string(name)), *node,
+      context_.problems.wrong("table-list-expected", CaseLabel(std::string(name)), *node,
                               fmt::format("not a list of tables; write each below a line [[{}]] (two brackets)", name));
       return;
     }
@@ -92,7 +92,7 @@ class CaseReader {
   void report_unknown_tables() {
     for (const auto& [name, node] : root_) {
       if (std::find(names_.begin(), names_.end(), name.str()) == names_.end()) {
-        context_.problems.wrong(CaseLabel(std::string(name.str())), node,
+        context_.problems.wrong("table-unknown", CaseLabel(std::string(name.str())), node,
                                 fmt::format("unknown table; {}", unknown_name_hint(name.str(), names_)));
       }
     }
@@ -144,12 +144,14 @@ CaseSpec read_case_in(const std::filesystem::path& folder, std::string_view text
   const bool has_no_fluid = root.get("fluid") == nullptr || (root["fluid"].is_array() && spec.fluid.empty());
   const bool comes_in = root.get("inlet") != nullptr || std::ranges::any_of(spec.outlets, may_bring_water);
   if (has_no_fluid && !comes_in) {
-    context.problems.add(
-        nullptr, {},
-        "there is no fluid; add at least one table [[fluid]], an [[inlet]], or the level of an [[outlet]]");
+    context.problems.add("no-fluid", nullptr, {},
+                         "there is no fluid; add a [[fluid]] or an [[inlet]] table, or the level of an [[outlet]]");
   }
-  if (context.problems.none()) check_across_tables(spec, root, context.problems);
-  if (context.problems.none()) read_measurements(spec, root, context.problems);
+  if (context.problems.none()) {
+    check_across_tables(spec, root, context.problems);
+    read_measurements(spec, root, context.problems);
+  }
+  check_named_walls(spec, root, context.problems);
   if (!context.problems.none()) throw CaseError(context.problems.findings());
   if (const LiquidTable* const liquid = liquid_of(spec)) {
     spec.physics.density = liquid->density;

@@ -24,6 +24,9 @@ bool is_too_small(double value, const Range& range) {
   return range.low == 0.0 && value > 0.0 && value < smallest_number;
 }
 
+constexpr const char* unseen =
+    "has a control character or an end of a line; write letters that can be seen, on one line";
+
 /// For a key in the wrong table: the tables that contain it.
 std::string home_of(std::string_view key) {
   std::vector<std::string> homes;
@@ -47,12 +50,11 @@ std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::for
 void TableReader::text(std::string_view key, std::string& value, std::string_view doc, Presence presence) {
   if (const toml::node* node = find(key, doc, "", "", presence)) {
     if (const auto* given = node->as_string(); given != nullptr && !is_printable(given->get())) {
-      wrong(key, *node,
-            "has a control character or an end of a line; write it on one line, of letters that can be seen");
+      wrong("text-not-printable", key, *node, unseen);
     } else if (given != nullptr) {
       value = given->get();
     } else {
-      wrong(key, *node, "give a text in quotes");
+      wrong("text-expected", key, *node, "give a text in quotes");
     }
   }
 }
@@ -66,7 +68,8 @@ void TableReader::integer(std::string_view key, int& value, std::string_view uni
   if (is_int && range.contains(*given)) {
     value = static_cast<int>(*given);
   } else {
-    wrong(key, *node, fmt::format("give a whole number, {}{}", range_text(range), in_unit(unit)));
+    wrong("whole-number-expected", key, *node,
+          fmt::format("give a whole number, {}{}", range_text(range), in_unit(unit)));
   }
 }
 
@@ -76,14 +79,15 @@ void TableReader::number(std::string_view key, double& value, std::string_view u
   const auto given = node == nullptr ? std::nullopt : evaluated(key, key, *node, unit);
   if (!given) return;
   if (is_too_small(*given, range)) {
-    wrong(key, *node,
+    wrong("number-too-small", key, *node,
           fmt::format("too small to be meant; give {}a number of at least {:g}{}", range.low_is_excluded ? "" : "0 or ",
                       smallest_number, in_unit(unit)));
   } else if (range.contains(*given)) {
     value = *given;
   } else {
     const std::string result = node->is_string() ? fmt::format("its value {} is ", *given) : "";
-    wrong(key, *node, fmt::format("{}out of range; give a number {}{}", result, range_text(range), in_unit(unit)));
+    wrong("number-out-of-range", key, *node,
+          fmt::format("{}out of range; give a number {}{}", result, range_text(range), in_unit(unit)));
   }
 }
 
@@ -123,7 +127,7 @@ void TableReader::field(std::string_view key, VectorField& value, Variables vari
 }
 
 const toml::array* TableReader::list_at(std::string_view key, const toml::node* node, const std::string& wanted) {
-  if (node != nullptr && !node->is_array()) wrong(key, *node, wanted);
+  if (node != nullptr && !node->is_array()) wrong("list-expected", key, *node, wanted);
   return node == nullptr ? nullptr : node->as_array();
 }
 
@@ -135,7 +139,7 @@ void TableReader::points(std::string_view key, std::vector<Coordinates>& value, 
   if (list == nullptr) return;
   constexpr std::size_t most = 10000;  // faces are compared with one another
   if (list->size() > most) {
-    wrong(key, *node,
+    wrong("shape-too-many-points", key, *node,
           fmt::format("has {} points; a shape has at most {}: give fewer, or several shapes", list->size(), most));
     return;
   }
@@ -168,13 +172,14 @@ void TableReader::texts(std::string_view key, std::vector<std::string>& value,
     const std::string place = is_one ? std::string(key) : fmt::format("{}[{}]", key, i);
     const auto* name = element.as_string();
     if (name == nullptr) {
-      wrong(key, element, fmt::format("give {}", choice), place);
+      wrong("list-entry-not-text", key, element, fmt::format("give {}", choice), place);
     } else if (!is_printable(name->get())) {
-      wrong(key, element, "has a control character; write letters that can be seen", place);
+      wrong("text-not-printable", key, element, unseen, place);
     } else if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), name->get()) == allowed.end()) {
-      wrong(key, element, fmt::format("unknown name; {}", unknown_name_hint(name->get(), allowed)), place);
+      wrong("list-entry-unknown", key, element,
+            fmt::format("unknown name; {}", unknown_name_hint(name->get(), allowed)), place);
     } else if (std::find(given.begin(), given.end(), name->get()) != given.end()) {
-      wrong(key, element, "is in the list twice; remove one", place);
+      wrong("list-entry-twice", key, element, "is in the list twice; remove one", place);
     } else {
       given.push_back(name->get());
     }
@@ -196,15 +201,15 @@ std::filesystem::path TableReader::linked(const std::string& file) const {
   return path.lexically_normal();
 }
 
-void TableReader::wrong(std::string_view key, const toml::node& node, const std::string& message,
+void TableReader::wrong(MessageId id, std::string_view key, const toml::node& node, const std::string& message,
                         std::string_view place) {
   context_.keys_wrong.insert(full(key));
-  context_.problems.wrong(table_.with_key(key), node, message, place);
+  context_.problems.wrong(id, table_.with_key(key), node, message, place);
 }
 
-void TableReader::missing(std::string_view key, const std::string& message) {
+void TableReader::missing(MessageId id, std::string_view key, const std::string& message) {
   context_.keys_wrong.insert(full(key));
-  context_.problems.add(source_ == nullptr ? nullptr : &source_->source(), table_.with_key(key),
+  context_.problems.add(id, source_ == nullptr ? nullptr : &source_->source(), table_.with_key(key),
                         fmt::format("{} is missing; {}", full(key), message));
 }
 
@@ -215,7 +220,7 @@ void TableReader::report_unknown_keys(std::span<const KeyInfo> keys) {
   for (const auto& [key, node] : *source_) {
     if (std::find(valid.begin(), valid.end(), key.str()) == valid.end()) {
       const std::string fate = fate_of(table_.table, key.str());
-      wrong(key.str(), node,
+      wrong("key-unknown", key.str(), node,
             fate.empty() ? fmt::format("unknown key; {}{}", home_of(key.str()), unknown_name_hint(key.str(), valid))
                          : fate);
     }
@@ -228,7 +233,7 @@ const toml::node* TableReader::find(std::string_view key, std::string_view doc, 
   if (is_not_now || context_.keys_done.contains(full(key))) return nullptr;
   const toml::node* node = given(key);
   if (node == nullptr && presence == Presence::required) {
-    missing(key,
+    missing("key-missing", key,
             fmt::format("add it to {}: {}{}{}{}", table_, doc, allowed.empty() ? "" : "; ", allowed, in_unit(unit)));
   }
   return node;
@@ -240,12 +245,12 @@ std::optional<std::size_t> TableReader::chosen(std::string_view key, std::span<c
   if (node == nullptr) return std::nullopt;
   const auto* name = node->as_string();
   if (name == nullptr) {
-    wrong(key, *node, fmt::format("give one of {}", quoted_list(names)));
+    wrong("choice-not-text", key, *node, fmt::format("give one of {}", quoted_list(names)));
     return std::nullopt;
   }
   const auto found = std::find(names.begin(), names.end(), name->get());
   if (found == names.end()) {
-    wrong(key, *node, fmt::format("unknown choice; {}", unknown_name_hint(name->get(), names)));
+    wrong("choice-unknown", key, *node, fmt::format("unknown choice; {}", unknown_name_hint(name->get(), names)));
     return std::nullopt;
   }
   return found - names.begin();
@@ -258,7 +263,7 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
     try {
       value = evaluate(text->get(), context_.numbers);
     } catch (const ExpressionError& error) {
-      wrong(key, node, error.what(), place);
+      wrong("expression-invalid", key, node, error.what(), place);
       return std::nullopt;
     }
     if (!std::isfinite(*value)) {
@@ -267,15 +272,16 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
       return std::nullopt;
     }
   } else if (!node.is_number()) {
-    wrong(key, node, fmt::format("wrong type; give a number{} or an expression such as \"2*H\"", in_unit(unit)), place);
+    wrong("number-expected", key, node,
+          fmt::format("wrong type; give a number{} or an expression such as \"2*H\"", in_unit(unit)), place);
     return std::nullopt;
   }
   if (!std::isfinite(*value)) {
-    wrong(key, node, fmt::format("not a finite number; give a number{}", in_unit(unit)), place);
+    wrong("number-not-finite", key, node, fmt::format("not a finite number; give a number{}", in_unit(unit)), place);
     return std::nullopt;
   }
   if (std::abs(*value) > largest_number) {
-    wrong(key, node,
+    wrong("number-too-large", key, node,
           fmt::format("its size is beyond {:g}, which no quantity of a flow reaches in SI units; give a number{}",
                       largest_number, in_unit(unit)),
           place);
@@ -298,7 +304,7 @@ std::optional<Varying> TableReader::read_varying(std::string_view key, const std
   try {
     if (text != nullptr && Formula(text->get(), numbers, names).uses_variables()) return text->get();
   } catch (const ExpressionError& error) {
-    wrong(key, *text, error.what(), place);
+    wrong("expression-invalid", key, *text, error.what(), place);
     return std::nullopt;
   }
   return evaluated(key, place, node, unit);
@@ -321,7 +327,7 @@ const toml::array* TableReader::components(std::string_view key, const std::stri
                                                                 : list->size() == static_cast<std::size_t>(dimension));
   if (!is_right_size) {
     const std::string count = dimension == 0 ? "2 or 3" : fmt::format("{}", dimension);
-    wrong(key, node,
+    wrong("vector-expected", key, node,
           fmt::format("give {} numbers{}, one per dimension{}", count, in_unit(unit),
                       dimension == 0 ? "" : fmt::format(" (case.dimension = {})", dimension)),
           place);

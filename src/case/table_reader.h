@@ -91,16 +91,18 @@ class TableReader {
   std::filesystem::path linked(const std::string& file) const;
 
   /// Reports a problem with the value of `key`, or with the part of it at `place`.
-  void wrong(std::string_view key, const toml::node& node, const std::string& message, std::string_view place = "");
+  void wrong(MessageId id, std::string_view key, const toml::node& node, const std::string& message,
+             std::string_view place = "");
   /// Reports a problem with the node of a key in the file.
-  void wrong(std::string_view key, const std::string& message) { wrong(key, *given(key), message); }
+  void wrong(MessageId id, std::string_view key, const std::string& message) { wrong(id, key, *given(key), message); }
   template <class First, class... Rest>
-  void wrong(std::string_view key, fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
-    wrong(key, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  void wrong(MessageId id, std::string_view key, fmt::format_string<First, Rest...> text, First&& first,
+             Rest&&... rest) {
+    wrong(id, key, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
   }
 
   /// Reports a key that is required and absent.
-  void missing(std::string_view key, const std::string& message);
+  void missing(MessageId id, std::string_view key, const std::string& message);
 
   /// Reports keys in the file that the table does not have.
   void report_unknown_keys(std::span<const KeyInfo> keys);

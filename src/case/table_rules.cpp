@@ -80,7 +80,7 @@ void set_defaults(OutletTable& outlet, TableReader& reader) { outlet.direction =
 void check(const PhysicsTable& physics, TableReader& reader) {
   const toml::node* node = reader.given("channel_width");
   if (node != nullptr && physics.channel_width > 0.0 && reader.dimension() == 3) {
-    reader.wrong("channel_width",
+    reader.wrong("channel-width-in-3d", "channel_width",
                  "replaces the side walls that are missing in two dimensions, but case.dimension = 3; remove it and "
                  "give the side walls as [[wall]] tables");
   }
@@ -103,7 +103,7 @@ void check(const PorousTable& porous, TableReader& reader) {
   const bool has_law = porous.resistance != PorousResistance::coefficients || reader.is_wrong("resistance") ||
                        reader.is_wrong("linear") || reader.is_wrong("quadratic");
   if (!has_law && reader.given("linear") == nullptr && reader.given("quadratic") == nullptr) {
-    reader.missing("linear",
+    reader.missing("resistance-without-law", "linear",
                    "resistance = \"coefficients\" needs it: give linear (a) or quadratic (b) of the hydraulic gradient "
                    "a v + b v |v|, or both");
   }
@@ -115,13 +115,14 @@ void check(const LiquidTable& liquid, TableReader& reader) {
       reader.is_wrong("viscosity") || reader.is_wrong("high_shear_viscosity") || reader.is_wrong("index");
   if (is_wrong) return;
   if (reader.given("high_shear_viscosity") != nullptr && liquid.high_shear_viscosity >= liquid.viscosity) {
-    reader.wrong("high_shear_viscosity",
+    reader.wrong("high-shear-viscosity", "high_shear_viscosity",
                  "is not below the viscosity at rest, {:.6g} Pa s (viscosity); give a smaller one, or choose rheology "
                  "= \"newtonian\"",
                  liquid.viscosity);
   }
   if (liquid.index > 1.0) {
-    reader.wrong("index", "is above 1, with which the viscosity would rise beyond that at rest; give at most 1");
+    reader.wrong("carreau-index", "index",
+                 "is above 1, with which the viscosity would rise beyond that at rest; give at most 1");
   }
 }
 
@@ -131,9 +132,10 @@ namespace {
 void check_mesh_of_plate(const WallTable& wall, TableReader& reader) {
   if (reader.is_wrong("file")) return;
   if (reader.dimension() == 2) {
-    reader.wrong("file", "a mesh has three dimensions, but case.dimension = 2; give points or a points_file");
+    reader.wrong("mesh-in-2d", "file",
+                 "a mesh has three dimensions, but case.dimension = 2; give points or a points_file");
   } else if (!wall.points_file.empty() || reader.given("points") != nullptr) {
-    reader.wrong("file", "the plate has points as well; remove one of the two keys");
+    reader.wrong("points-given-twice", "file", "the wall has points as well; remove one of the two keys");
   }
 }
 
@@ -146,12 +148,13 @@ void check_points_given(const WallTable& wall, TableReader& reader) {
   }
   const bool has_file = !wall.points_file.empty();
   if (has_file && reader.given("points") != nullptr) {
-    reader.wrong("points_file", "the wall has points as well; remove one of the two keys");
+    reader.wrong("points-given-twice", "points_file", "the wall has points as well; remove one of the two keys");
   } else if (!has_file && reader.given("points") == nullptr && !reader.is_wrong("shape") &&
              !reader.is_wrong("points_file")) {
     reader.missing(
-        "points", fmt::format("shape = \"{}\" needs it: give its corners in m, or a {}", name_of(wall.shape),
-                              wall.shape == WallShape::plate && reader.dimension() == 3 ? "mesh file" : "points_file"));
+        "points-missing", "points",
+        fmt::format("shape = \"{}\" needs it: give its corners in m, or a {}", name_of(wall.shape),
+                    wall.shape == WallShape::plate && reader.dimension() == 3 ? "mesh file" : "points_file"));
   }
 }
 
@@ -165,15 +168,16 @@ void check_fluid_side(const WallTable& wall, TableReader& reader) {
     constexpr std::string_view sides =
         "\"inside\" or \"outside\" of a closed mesh, \"above\" or \"below\" an open one, or its \"front\" or \"back\"";
     if (node == nullptr) {
-      reader.missing("fluid_side", fmt::format("a mesh needs it; give {}", sides));
+      reader.missing("mesh-fluid-side-missing", "fluid_side", fmt::format("a mesh needs it; give {}", sides));
     } else if (is_chain_side) {
-      reader.wrong("fluid_side", "does not fit shape = \"mesh\"; give {}", sides);
+      reader.wrong("fluid-side-of-shape", "fluid_side", "does not fit shape = \"{}\"; give {}", name_of(wall.shape),
+                   sides);
     }
     return;
   }
   const bool is_chain = wall.shape == WallShape::polyline;
   if (is_chain ? is_chain_side : is_body_side) return;
-  reader.wrong("fluid_side", "does not fit shape = \"{}\"; give {}", name_of(wall.shape),
+  reader.wrong("fluid-side-of-shape", "fluid_side", "does not fit shape = \"{}\"; give {}", name_of(wall.shape),
                is_chain ? "\"left\" or \"right\"" : "\"inside\" or \"outside\"");
 }
 
@@ -181,13 +185,13 @@ void check_fluid_side(const WallTable& wall, TableReader& reader) {
 void check_wall_motion(const WallTable& wall, TableReader& reader) {
   const auto is_zero = [](const Varying& value) { return value == Varying(0.0); };
   const auto refuse = [&](std::string_view key) {
-    reader.wrong(key, "the wall has a motion from a file as well; remove one of the two keys");
+    reader.wrong("motion-given-twice", key, "the wall has a motion from a file as well; remove one of the two keys");
   };
   if (!wall.motion.empty() && !std::ranges::all_of(wall.displacement, is_zero)) refuse("displacement");
   if (!wall.motion.empty() && !is_zero(wall.rotation)) refuse("rotation");
   const bool has_axis = std::ranges::any_of(wall.axis, [](double c) { return c != 0.0; });
   if (reader.dimension() == 2 && has_axis) {
-    reader.wrong("axis", "in two dimensions walls turn about their pivot only; remove the key");
+    reader.wrong("axis-in-2d", "axis", "in two dimensions walls turn about their pivot only; remove the key");
   }
   if (reader.dimension() != 3 || wall.rotation == Varying(0.0)) return;
   check_turning_in_3d(wall, "rotation", reader);
@@ -214,14 +218,14 @@ void check(const WallTable& wall, TableReader& reader) {
   if (const toml::node* node = reader.given("open"); node != nullptr && reader.dimension() == 2) {
     for (const std::string& face : wall.open) {
       if (face.ends_with('z')) {
-        reader.wrong("open", "a box of two dimensions has no face \"{}\"; remove it", face);
+        reader.wrong("face-in-2d", "open", "a box of two dimensions has no face \"{}\"; remove it", face);
       }
     }
   }
   check_fluid_side(wall, reader);
   check_wall_motion(wall, reader);
   if (wall.roughness > 0.0 && wall.manning > 0.0) {
-    reader.wrong("manning", "the wall has a roughness as well; remove one of the two keys");
+    reader.wrong("roughness-given-twice", "manning", "the wall has a roughness as well; remove one of the two keys");
   }
 }
 
@@ -240,25 +244,26 @@ void check_section(const Section& section, TableReader& reader) {
     if (!is_given && !reader.is_wrong(key)) continue;
     given.push_back(key);
     if (key != "from" && reader.dimension() == 2 && !reader.is_wrong(key)) {
-      reader.wrong(key, "exists in three dimensions only; give from and to, the ends of a segment");
+      reader.wrong("section-in-2d", key, "exists in three dimensions only; give from and to, the ends of a segment");
     }
   }
   if (given.size() > 1 && !reader.is_wrong(given[1])) {
-    reader.wrong(given[1], "is a second section beside {}; remove one of the two", given[0]);
+    reader.wrong("section-given-twice", given[1], "is a second section beside {}; remove one of the two", given[0]);
   }
   const bool has_ends = given.empty() || given[0] == "from";
   if (has_ends && section.from.empty() && !reader.is_wrong("from")) {
-    reader.missing("from", "give the start of the opening");
+    reader.missing("section-from-missing", "from", "give the start of the opening");
   }
-  if (has_ends && section.to.empty() && !reader.is_wrong("to")) reader.missing("to", "give the end of the opening");
+  if (has_ends && section.to.empty() && !reader.is_wrong("to"))
+    reader.missing("section-to-missing", "to", "give the end of the opening");
   if (!section.polygon.empty() && section.polygon.size() < 3 && !reader.is_wrong("polygon")) {
-    reader.wrong("polygon", "has {} corners; give three or more", section.polygon.size());
+    reader.wrong("section-too-few-corners", "polygon", "has {} corners; give three or more", section.polygon.size());
   }
   if (!section.centre.empty() && section.radius == 0.0 && !reader.is_wrong("radius")) {
-    reader.missing("radius", "give the radius of the disc around centre");
+    reader.missing("section-radius-missing", "radius", "give the radius of the disc around centre");
   }
   if (section.radius > 0.0 && section.centre.empty() && !reader.is_wrong("radius")) {
-    reader.wrong("radius", "is that of a disc; give its centre as well");
+    reader.wrong("section-centre-missing", "radius", "is that of a disc; give its centre as well");
   }
 }
 
@@ -267,7 +272,7 @@ void check_section(const Section& section, TableReader& reader) {
 void check(const InletTable& inlet, TableReader& reader) {
   check_section(inlet, reader);
   if (inlet.reserve > 0.0 && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
-    reader.wrong("reserve",
+    reader.wrong("reserve-without-circuit", "reserve",
                  "is water that waits to circulate; give water_from, the outlet whose water enters, or remove it");
   }
 }
@@ -275,7 +280,7 @@ void check(const InletTable& inlet, TableReader& reader) {
 void check(const OutletTable& outlet, TableReader& reader) {
   check_section(outlet, reader);
   if (outlet.beyond == Beyond::air && may_bring_water(outlet) && !reader.is_wrong("beyond")) {
-    reader.wrong("beyond", "is air, in which no level stands; remove it, or the level");
+    reader.wrong("level-beyond-air", "beyond", "is air, in which no level stands; remove it, or the level");
   }
 }
 
@@ -288,13 +293,13 @@ void check_region(const ProbeTable& probe, TableReader& reader) {
   if (reader.is_wrong("region_min") || reader.is_wrong("region_max")) return;
   if ((min == nullptr) != (max == nullptr)) {
     const bool lacks_max = max == nullptr;
-    reader.wrong(lacks_max ? "region_min" : "region_max", lacks_max ? *min : *max,
+    reader.wrong("region-corner-missing", lacks_max ? "region_min" : "region_max", lacks_max ? *min : *max,
                  fmt::format("is one corner of a box; give {} as well", lacks_max ? "region_max" : "region_min"));
     return;
   }
   for (std::size_t d = 0; d < std::min(probe.region_min.size(), probe.region_max.size()); ++d) {
     if (probe.region_max[d] < probe.region_min[d]) {
-      reader.wrong("region_max", *max,
+      reader.wrong("region-max-below-min", "region_max", *max,
                    fmt::format("lies below region_min in {}: {} and {}; exchange them", "xyz"[d], probe.region_min[d],
                                probe.region_max[d]));
     }
@@ -311,7 +316,7 @@ void check(const ProbeTable& probe, TableReader& reader) {
         std::adjacent_find(probe.times.begin(), probe.times.end(), std::greater_equal<>()) == probe.times.end();
     const bool are_needed = probe.type == ProbeType::profile;
     if (probe.times.empty() ? are_needed : probe.times.front() < 0.0 || !is_rising) {
-      reader.wrong("times", "give at least one time in s, none negative, in increasing order");
+      reader.wrong("times-not-rising", "times", "give at least one time in s, none negative, in increasing order");
     }
   }
   check_ends(probe.from, probe.to, reader);
@@ -322,7 +327,8 @@ void check(const ProbeTable& probe, TableReader& reader) {
     const bool is_file_name = std::all_of(probe.name.begin(), probe.name.end(), is_plain) && !probe.name.empty() &&
                               probe.name.front() != '-' && probe.name.size() <= 100;
     if (!is_file_name) {
-      reader.wrong("name", "cannot be a file name; use up to 100 letters, digits, _ and -, and do not begin with -");
+      reader.wrong("probe-name-not-file", "name",
+                   "cannot be a file name; use up to 100 letters, digits, _ and -, and do not begin with -");
     }
   }
 }
@@ -332,11 +338,11 @@ void check(const DomainTable& domain, TableReader& reader) {
     const toml::node* node = reader.given(key);
     if (node == nullptr || reader.is_wrong(key) || range.empty()) return;
     if (range.size() != 2) {
-      reader.wrong(key, "give two numbers in m, [low, high], or remove the key");
+      reader.wrong("range-expected", key, "give two numbers in m, [low, high], or remove the key");
     } else if (range[0] >= range[1]) {
-      reader.wrong(key, "is empty; give [low, high] with low below high, in m");
+      reader.wrong("range-empty", key, "is empty; give [low, high] with low below high, in m");
     } else if (reader.dimension() != 0 && reader.dimension() < least_dimension) {
-      reader.wrong(key, "a case of two dimensions has no z; remove the key");
+      reader.wrong("period-z-in-2d", key, "a case of two dimensions has no z; remove the key");
     }
   };
   check_period("periodic_x", domain.periodic_x, 2);
@@ -352,11 +358,13 @@ void check_key_uses(std::string_view table, std::span<const KeyInfo> rows, Table
     const std::string choice = fmt::format("{} = \"{}\"", use->selector, use->choice);
     const toml::node* node = reader.given(info.key);
     if (need == KeyNeed::needed && node == nullptr) {
-      reader.missing(info.key, fmt::format("{} needs it: {}{}", choice, info.doc, in_unit(info.unit)));
+      reader.missing("key-missing-for-choice", info.key,
+                     fmt::format("{} needs it: {}{}", choice, info.doc, in_unit(info.unit)));
     } else if (need == KeyNeed::needed && node->is_string() && node->as_string()->get().empty()) {
-      reader.wrong(info.key, "is empty, and {} needs it: {}", choice, info.doc);
+      reader.wrong("key-empty-for-choice", info.key, "is empty, and {} needs it: {}", choice, info.doc);
     } else if (need == KeyNeed::unused && node != nullptr) {
-      reader.wrong(info.key, "is not used with {}; remove it (it goes with {})", choice, key_use_text(table, info.key));
+      reader.wrong("key-unused", info.key, "is not used with {}; remove it (it goes with {})", choice,
+                   key_use_text(table, info.key));
     }
   }
 }

@@ -17,11 +17,13 @@ Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
     if (wall.face >= 0 && wall.signed_distance < -tolerance) {
       findings.push_back(Finding::error(
+          "air-place-in-wall",
           {"{}: {} is in {}, {:.4g} behind its surface at {}", owner, place(x),
            wall_label(boundary, boundary.faces[wall.face].wall), Amount{-wall.signed_distance, "m"}, place(wall.point)},
           {"move it into the air, or onto the surface"}));
     } else if (wall.face < 0 || box.exteriorDistance(x) > tolerance) {
-      findings.push_back(Finding::error({"{}: {} is outside of all walls, where air is open", owner, place(x)},
+      findings.push_back(Finding::error("air-place-outside-walls",
+                                        {"{}: {} is outside of all walls, where air is open", owner, place(x)},
                                         {"give a point in air that water and walls enclose"}));
     }
   };

@@ -11,7 +11,8 @@ void check_polygon(const FluidTable& block, const CaseLabel& label, double parti
   const double area = std::abs(signed_area(block.points));
   if (particles > 0.0 && area >= 0.5 * dx * dx) return;
   findings.push_back(
-      Finding::error({"{} at {} holds no particle: its area is {:.3g} and the spacing is {:.6g} m", label,
+      Finding::error("block-area-too-small",
+                     {"{} at {} holds no particle: its area is {:.3g} and the spacing is {:.6g} m", label,
                       place(to_vec<Dim>(block.points[0], label, "points[0]")), Amount{area, "m^2"}, dx},
                      {"use a smaller spacing, or correct the block's points"}));
 }
@@ -23,7 +24,8 @@ void check_box(const FluidTable& block, const CaseLabel& label, double particles
   int smallest = 0;
   extent.minCoeff(&smallest);
   if (particles == 0.0 || extent[smallest] < (1.0 - corner_tolerance) * dx) {
-    findings.push_back(Finding::error({"{} at {} is {:.6g} long in {}, so it holds no particle of spacing {:.6g} m",
+    findings.push_back(Finding::error("block-thinner-than-spacing",
+                                      {"{} at {} is {:.6g} long in {}, so it holds no particle of spacing {:.6g} m",
                                        label, place(low), Amount{extent[smallest], "m"}, "xyz"[smallest], dx},
                                       {"use a spacing of at most {:.6g} m, or a larger block", extent[smallest]}));
   }
@@ -33,7 +35,8 @@ template <int Dim>
 void check_mesh(const FluidTable& block, const CaseLabel& label, double particles, double dx, Findings& findings) {
   if (particles > 0.0) return;
   findings.push_back(
-      Finding::error({"{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in "
+      Finding::error("block-mesh-too-small",
+                     {"{} holds no particle of spacing {:.6g} m in the mesh of {}: it is too small, or all of it is in "
                       "walls and bodies",
                       label, dx, block.file},
                      {"use a smaller spacing, or move it (translate)"}));
@@ -42,7 +45,8 @@ void check_mesh(const FluidTable& block, const CaseLabel& label, double particle
 template <int Dim>
 void check_fill(const FluidTable& block, const CaseLabel& label, double particles, double dx, Findings& findings) {
   if (particles > 0.0) return;
-  findings.push_back(Finding::error({"{} holds no particle of spacing {:.6g} m between the walls around its seed {}",
+  findings.push_back(Finding::error("fill-too-small",
+                                    {"{} holds no particle of spacing {:.6g} m between the walls around its seed {}",
                                      label, dx, place(to_vec<Dim>(block.seed, label, "seed"))},
                                     {"use a smaller spacing, or move the seed"}));
 }
@@ -52,7 +56,7 @@ void check_fill(const FluidTable& block, const CaseLabel& label, double particle
 template <int Dim>
 Findings check_blocks(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   if (spec.fluid.empty() && spec.inlets.empty() && std::ranges::none_of(spec.outlets, may_bring_water)) {
-    return {Finding::error({"there is no fluid"},
+    return {Finding::error("no-fluid", {"there is no fluid"},
                            {"add a [[fluid]] or an [[inlet]] table, or the level of an [[outlet]]"})};
   }
   std::vector<double> particles(spec.fluid.size(), 0.0);

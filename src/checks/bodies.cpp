@@ -37,7 +37,8 @@ Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const B
   const double draught = body.mass / per_draught;
   if (draught >= least_draught * dx) return {};
   return {
-      Finding::error({"{} = {:.4g} is so light that it floats with a draught of {:.3g} m, less than {} spacings: its "
+      Finding::error("body-too-light",
+                     {"{} = {:.4g} is so light that it floats with a draught of {:.3g} m, less than {} spacings: its "
                       "motion cannot be computed from the pressure of the particles",
                       CaseLabel("body", body.name).with_key("mass"), Amount{body.mass, "kg"}, draught, least_draught},
                      {"give a mass of at least {:.3g} kg, or a spacing of at most {:.3g} m",
@@ -53,7 +54,8 @@ Findings check_freedoms(const FloatingBody<Dim>& body) {
       if (numbers[entry] == 0.0 || std::ranges::find(body.free, entry) != body.free.end()) continue;
       const std::string_view name = freedom_names[entry < Dim ? entry : entry + 1];  // 2D has no z, 3D no "rotation"
       findings.push_back(
-          Finding::warning({"{} has {:.4g} for {}, in which the body is not free to move: this number has no effect",
+          Finding::warning("body-number-without-effect",
+                           {"{} has {:.4g} for {}, in which the body is not free to move: this number has no effect",
                             CaseLabel("body", body.name).with_key(key), numbers[entry], name},
                            {"add \"{}\" to `free`, or give 0", name}));
     }
@@ -77,7 +79,8 @@ Findings check_inertia(const CaseSpec& spec, const FloatingBody<Dim>& body) {
     const double radius = std::sqrt(inertia / body.mass);
     const double least = least_radius_of_inertia * spec.particles.spacing;
     if (radius >= least) continue;
-    return {Finding::error({"{} = {:.4g} puts its {:.4g} kg only {:.3g} m from their centre, less than {} spacings: "
+    return {Finding::error("inertia-too-small",
+                           {"{} = {:.4g} puts its {:.4g} kg only {:.3g} m from their centre, less than {} spacings: "
                             "its rotation cannot be computed from the pressure of the particles",
                             CaseLabel("body", body.name).with_key("inertia"), Amount{inertia, "kg m^2"}, body.mass,
                             radius, least_radius_of_inertia},
@@ -102,7 +105,8 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const CaseLabel label("body", body.name);
     if (box.exteriorDistance(centre) > corner_tolerance * spec.particles.spacing) {
       findings.push_back(
-          Finding::warning({"{} has its centre of mass at {}, outside of its walls, which lie between {} and {}", label,
+          Finding::warning("centre-outside-body",
+                           {"{} has its centre of mass at {}, outside of its walls, which lie between {} and {}", label,
                             place(centre), place<Dim>(box.min()), place<Dim>(box.max())},
                            {"give `centre` in coordinates of the case, where the body is drawn"}));
       continue;
@@ -112,6 +116,7 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const double farthest = (centre - box.min()).cwiseMax(box.max() - centre).norm();
     if (turns_freely && radius > farthest) {
       findings.push_back(Finding::warning(
+          "inertia-too-large",
           {"{} has an inertia of {:.4g}, as if its {:.4g} kg were {:.4g} m away from their centre, but the farthest "
            "point of its walls is {:.4g} m away",
            label, Amount{body.inertia.maxCoeff(), "kg m^2"}, body.mass, radius, farthest},
@@ -131,6 +136,7 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     const double away = box.isEmpty() ? 0.0 : box.exteriorDistance(x);
     if (away <= box.diagonal().norm()) return;
     findings.push_back(Finding::error(
+        "mooring-far-from-body",
         {"{} is fastened at {}, {:.4g} from {}, which lies between {} and {}", CaseLabel("mooring", name), place(x),
          Amount{away, "m"}, CaseLabel("body", body.name), place<Dim>(box.min()), place<Dim>(box.max())},
         {"give `at` as a place on the first body as drawn, and `anchor` as the other end of the line, on the second "

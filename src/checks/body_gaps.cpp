@@ -74,12 +74,13 @@ Finding body_gap_finding(const CaseSpec& spec, const Boundary<Dim>& boundary, co
   const double dx = spec.particles.spacing;
   const Clause finer =
       gap.width > 0.1 * dx ? Clause(", or use a spacing of at most {:.3g} m", 0.99 * gap.width / least_sum) : Clause();
-  return Finding::error({"{} has gaps to the walls on both sides of together {:.3g}, as to {} at {}, which is {:.2g} "
-                         "spacings: water under "
-                         "it cannot get past it",
-                         CaseLabel("body", body), Amount{gap.width, "m"}, wall_label(boundary, gap.wall),
-                         place(gap.where), gap.width / dx},
-                        {"leave {:.3g} m or more on one side of the body{}", 1.01 * least_sum * dx, finer});
+  return Finding::error(
+      "body-gaps-too-narrow",
+      {"the gaps on both sides of {}, as that to {} at {}, are together {:.3g} wide, {:.2g} spacings: "
+       "water cannot pass the body",
+       CaseLabel("body", body), wall_label(boundary, gap.wall), place(gap.where), Amount{gap.width, "m"},
+       gap.width / dx},
+      {"leave {:.3g} m or more on one side of the body{}", 1.01 * least_sum * dx, finer});
 }
 
 /// The gap that prevents water from passing a body; none if it can pass.

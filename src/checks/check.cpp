@@ -36,10 +36,12 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_bodies(spec, boundary));
   append(findings, check_body_gaps(spec, boundary));
   append(findings, check_moorings(spec, boundary));
+  append(findings, check_springs(spec, fluid));
   append(findings, check_refinement(spec, boundary, fluid));
   append(findings, check_air_places(spec, boundary));
   append(findings, check_leaks(spec, boundary, fluid));
   if (!has_error(findings)) append(findings, check_hanging_water(spec, boundary, fluid));
+  if (!has_error(findings)) append(findings, check_sealed_space(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));
   if (!has_error(findings)) {
     append(findings, check_damping(spec, boundary, fluid));

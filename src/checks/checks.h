@@ -5,9 +5,18 @@
 #include "base/finding.h"
 #include "case/spec.h"
 #include "geometry/boundary.h"
+#include "geometry/from_spec.h"
 #include "sampling/fluid_particles.h"
 
 namespace tailwater {
+
+/// Height of the water at the start along gravity [m]; 0 without gravity. Collective.
+template <int Dim>
+double water_height(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if (gravity.norm() == 0.0 || fluid.all == 0) return 0.0;
+  return fluid.extent_along(gravity.normalized()) + spec.particles.spacing;
+}
 
 /// Errors: no fluid; a block too small for a single particle.
 template <int Dim>
@@ -88,6 +97,10 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
 template <int Dim>
 Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
+/// Warning: a space below the level of a fill that walls close off, so that it stays dry. Collective.
+template <int Dim>
+Findings check_sealed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
+
 /// Error: water that enters, or a body, at a speed too high for incompressible water.
 template <int Dim>
 Findings check_speeds(const CaseSpec& spec);
@@ -100,6 +113,10 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary);
 /// Error: a body that fills its space from side to side, except for gaps through which no water can pass.
 template <int Dim>
 Findings check_body_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+/// Warning: a spring of a body or a mooring that needs time steps less than a tenth of those of the water. Collective.
+template <int Dim>
+Findings check_springs(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
 /// Error: a mooring that is fastened far from its body.
 template <int Dim>

@@ -225,11 +225,13 @@ Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx
   const double good_spacing = gap.width / rows_of_good_gap;
   if (gap.width <= closed * dx) {
     return Finding::warning(
+        "gap-closed",
         {"the gap of {:.3g} between {} and {} at {} counts as closed, because it is narrower than half a spacing",
          width, a, b, place(gap.where)},
         {"let them touch, or for water that passes use a spacing of at most {:.3g} m", good_spacing});
   }
   return Finding::warning(
+      "gap-few-rows",
       {"the gap of {:.3g} between {} and {} at {} is {:.1f} spacings wide, so less water passes than should, by about "
        "20 % at half a spacing and 4 % at four",
        width, a, b, place(gap.where), gap.width / local},

@@ -57,6 +57,7 @@ void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, con
     walls.insert(wall_label(boundary, wall).text());
   }
   findings.push_back(Finding::error(
+      "closed-space-overfilled",
       {"{} adds {:.3g} by t = {:.6g} s to a space without an outlet, which can hold at most {:.3g} m^{} more, closed "
        "by {}",
        end.opening.label(), Amount{inflow, fmt::format("m^{}", Dim)}, last, room, Dim, fmt::join(walls, " and ")},

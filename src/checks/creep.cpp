@@ -15,6 +15,7 @@ void check_creep_of(const LiquidTable& liquid, const CaseSpec& spec, double heig
   const double least = spec.time.end_at_rest;
   if (least > 0.0 && speed > least) {
     findings.push_back(Finding::warning(
+        "creep-prevents-rest",
         {"{} = {:.4g}: below its yield stress the liquid creeps at up to {:.2g} m/s, so the run may not end at rest "
          "(time.end_at_rest = {:.2g} m/s)",
          key, Amount{liquid.rest_viscosity, "Pa s"}, speed, least},
@@ -25,6 +26,7 @@ void check_creep_of(const LiquidTable& liquid, const CaseSpec& spec, double heig
   const double way = speed * spec.time.end;
   if (least > 0.0 || way <= spec.particles.spacing) return;
   findings.push_back(Finding::warning(
+      "creep-below-yield-stress",
       {"{} = {:.4g}: below its yield stress the liquid creeps at up to {:.2g} m/s, which is {:.2g} m until the end of "
        "the run",
        key, Amount{liquid.rest_viscosity, "Pa s"}, speed, way},

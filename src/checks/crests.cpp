@@ -54,7 +54,8 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary) {
         const bool is_end =
             (corner - points.front()).norm() <= tolerance || (corner - points.back()).norm() <= tolerance;
         if (is_end || up.dot(corner) < *rim) continue;
-        return {Finding::error({"{} has a crest at {}, {:.6g} higher than the higher of its ends: water would run over "
+        return {Finding::error("crest-above-ends",
+                               {"{} has a crest at {}, {:.6g} higher than the higher of its ends: water would run over "
                                 "the ends before it passes the crest",
                                 label, place(corner), Amount{up.dot(corner) - *rim, "m"}},
                                {"raise the ends, or lower the crest"})};

@@ -121,12 +121,12 @@ class EndFlowCheck {
   }
 
  private:
-  void error(Clause problem, Clause remedy) {
-    findings_.push_back(Finding::error(std::move(problem), std::move(remedy)));
+  void error(MessageId id, Clause problem, Clause remedy) {
+    findings_.push_back(Finding::error(id, std::move(problem), std::move(remedy)));
   }
 
-  void warn(Clause problem, Clause remedy) {
-    findings_.push_back(Finding::warning(std::move(problem), std::move(remedy)));
+  void warn(MessageId id, Clause problem, Clause remedy) {
+    findings_.push_back(Finding::warning(id, std::move(problem), std::move(remedy)));
   }
 
   Vec<Dim> top() const {
@@ -135,10 +135,10 @@ class EndFlowCheck {
 
   void look_at_gravity() {
     if (end_.flow.level && full_gravity_.isZero(0.0)) {
-      error({"{} needs gravity, which the case does not have", label_.with_key("level")},
+      error("level-needs-gravity", {"{} needs gravity, which the case does not have", label_.with_key("level")},
             {"give a discharge or a velocity instead"});
     } else if (end_.gravity > 0.0 && end_.up.dot(end_.rise) < least_cosine) {
-      error({"{}: gravity is oblique to its edges, so it has no bed", label_},
+      error("opening-oblique-to-gravity", {"{}: gravity is oblique to its edges, so it has no bed", label_},
             {"turn the case so that one edge is upright"});
     }
   }
@@ -154,7 +154,8 @@ class EndFlowCheck {
       const double from = series->times().front();
       const double to = series->times().back();
       if (from > 0.0 || to < last_) {
-        error({"{} covers t = {:.6g} to {:.6g} s, but the run lasts from 0 to time.end = {:.6g} s",
+        error("series-shorter-than-run",
+              {"{} covers t = {:.6g} to {:.6g} s, but the run lasts from 0 to time.end = {:.6g} s",
                label_.with_key("file"), from, to, last_},
               {"add rows, or end the run earlier"});
         return;
@@ -166,7 +167,7 @@ class EndFlowCheck {
       const double time = last_ * k / count;
       const double value = quantity->at(time);
       if (!std::isfinite(value)) {
-        error({"{} has no finite value at t = {:.6g} s", label_.with_key(key), time},
+        error("value-not-finite-in-time", {"{} has no finite value at t = {:.6g} s", label_.with_key(key), time},
               {"give an expression that has one during the whole run"});
         return;
       }
@@ -178,7 +179,8 @@ class EndFlowCheck {
       const double next = std::min(last_, time + std::min(crossing_, last_ / count));
       const double change = quantity->at(next) - quantity->at(time);
       if (std::abs(change) <= most_of_range * scale) continue;
-      error({"{} jumps by {:.4g} between t = {:.6g} and {:.6g} s, faster than a wave crosses the end of the channel",
+      error("value-jumps",
+            {"{} jumps by {:.4g} between t = {:.6g} and {:.6g} s, faster than a wave crosses the end of the channel",
              label_.with_key(key), Amount{change, unit}, time, next},
             {"let it change over {:.2g} s or more", 4.0 * crossing_});
       return;
@@ -200,7 +202,8 @@ class EndFlowCheck {
     if (end_.flow.level) {
       look_at_froude(time, q, depth);
     } else if (critical > end_.height) {
-      error({"{}: at t = {:.6g} s more water enters than the opening can pass: the flow is critical at a depth of "
+      error("inflow-exceeds-opening",
+            {"{}: at t = {:.6g} s more water enters than the opening can pass: the flow is critical at a depth of "
              "{:.4g}, "
              "and the opening is {:.4g} m high",
              label_, time, Amount{critical, "m"}, end_.height},
@@ -214,6 +217,7 @@ class EndFlowCheck {
     const double critical = end_.largest_depth(last_);
     if (critical == 0.0 || critical >= dx_) return;
     findings_.push_back(Finding::warning(
+        "inflow-thinner-than-spacing",
         {"{}: the flow is critical at a depth of {:.3g} at most, less than the spacing of {:.3g} m: where nothing dams "
          "it, it enters one spacing deep and slower",
          label_, Amount{critical, "m"}, dx_},
@@ -228,12 +232,14 @@ class EndFlowCheck {
 
   void look_at_level(double time, double level) {
     if (level < floor()) {
-      error({"{} = {:.6g} at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are heights above "
+      error("level-below-opening",
+            {"{} = {:.6g} at t = {:.6g} s is below the lowest point of the opening, {:.6g} m: levels are heights above "
              "the origin, not depths",
              label_.with_key("level"), Amount{level, "m"}, time, floor()},
             {"give one above the bed there"});
     } else if (end_.gravity > 0.0 && level > end_.floor + end_.height && !has_lid_) {
-      error({"{} = {:.6g} at t = {:.6g} s is above the top of the opening, {:.6g} m, where no wall is",
+      error("level-above-opening",
+            {"{} = {:.6g} at t = {:.6g} s is above the top of the opening, {:.6g} m, where no wall is",
              label_.with_key("level"), Amount{level, "m"}, time, end_.floor + end_.height},
             {"make the opening and the walls beside it higher, or lower the level"});
     }
@@ -248,18 +254,21 @@ class EndFlowCheck {
       const double q = inflow_ * k / count;
       const double level = end_.flow.level->at(last_, q);
       if (!std::isfinite(level)) {
-        error({"{} has no finite value at q = {:.4g}", label_.with_key("level"), Amount{q, discharge_unit}},
+        error("rating-curve-not-finite",
+              {"{} has no finite value at q = {:.4g}", label_.with_key("level"), Amount{q, discharge_unit}},
               {"give an expression that has one for all discharges up to {:.4g}", Amount{inflow_, discharge_unit}});
         return;
       }
       if (level < before) {
-        warn({"{} falls from {:.4g} to {:.4g} where q grows to {:.4g}: what flows out lowers the level, and draws more",
+        warn("rating-curve-falls",
+             {"{} falls from {:.4g} to {:.4g} where q grows to {:.4g}: what flows out lowers the level, and draws more",
               label_.with_key("level"), Amount{before, "m"}, level, Amount{q, discharge_unit}},
              {"give an expression that grows with q"});
         return;
       }
       if (level > end_.floor + end_.height && !has_lid_) {
-        warn({"{} = {:.4g} at q = {:.4g}, of up to {:.4g} that flow in, is above the top of the opening, {:.6g} m, "
+        warn("rating-curve-above-opening",
+             {"{} = {:.4g} at q = {:.4g}, of up to {:.4g} that flow in, is above the top of the opening, {:.6g} m, "
               "where no wall is",
               label_.with_key("level"), Amount{level, "m"}, q, Amount{inflow_, discharge_unit},
               end_.floor + end_.height},
@@ -274,11 +283,13 @@ class EndFlowCheck {
     const double speed = depth > 0.0 ? std::abs(q) / depth : 0.0;
     const double froude = depth > 0.0 ? speed / std::sqrt(end_.gravity * depth) : 0.0;
     if (froude > most_froude) {
-      error({"{}: at t = {:.6g} s water would enter at {:.4g}, which is implausible (Froude number {:.3g})", label_,
+      error("inflow-implausibly-fast",
+            {"{}: at t = {:.6g} s water would enter at {:.4g}, which is implausible (Froude number {:.3g})", label_,
              time, Amount{speed, "m/s"}, froude},
             {"check the units: {}", unit_hint});
     } else if (q < 0.0 || froude < 1.0) {
-      error({"{} is given, but the flow is subcritical at t = {:.6g} s (Froude number {:.3g}), and its level follows "
+      error("level-at-subcritical-inlet",
+            {"{} is given, but the flow is subcritical at t = {:.6g} s (Froude number {:.3g}), and its level follows "
              "from the water inside",
              label_.with_key("level"), time, froude},
             {"remove the level, or the discharge and the velocity"});

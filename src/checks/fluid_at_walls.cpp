@@ -167,27 +167,28 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
   const Contacts<Dim> contacts = contacts_of(boundary, fluid, field, least, gap_to, dx);
   std::vector<std::size_t> in_front(boundary.walls.size(), 0);
   for (const auto& [key, contact] : contacts.by_wall) in_front[key.first] += contact.in_front;
-
   Findings findings;
   for (const auto& [key, contact] : contacts.by_wall) {
     const CaseLabel wall = wall_label(boundary, key.first);
     const CaseLabel block = fluid_label(spec, key.second);
     if (contact.behind > 0 && in_front[key.first] > 0) {
       findings.push_back(
-          Finding::error({"{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} deep at {}", wall,
+          Finding::error("water-on-both-sides",
+                         {"{} has fluid on both sides: {} particles of {} lie behind it, up to {:.6g} deep at {}", wall,
                           contact.behind, block, Amount{contact.deepest, "m"}, place(contact.deepest_at)},
                          {"end the block on the bed (shape = \"polygon\"), or draw a wall that stands in water with "
-                          "two faces at least {} "
-                          "spacings apart",
+                          "two faces at least {} spacings apart",
                           dummy_layers(spec) + 1}));
     } else if (contact.behind > 0) {
-      findings.push_back(Finding::error({"{} lies behind {}: {} particles, up to {:.6g} deep at {}", block, wall,
+      findings.push_back(Finding::error("water-behind-wall",
+                                        {"{} lies behind {}: {} particles, up to {:.6g} deep at {}", block, wall,
                                          contact.behind, Amount{contact.deepest, "m"}, place(contact.deepest_at)},
                                         {"give the wall the other fluid_side, or move the block"}));
     }
     if (contact.too_near > 0) {
       findings.push_back(
-          Finding::error({"{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} at {}",
+          Finding::error("water-too-near-wall",
+                         {"{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} at {}",
                           block, wall, contact.too_near, least_in(field, least, contact.nearest_at),
                           Amount{contact.nearest, "m"}, place(contact.nearest_at)},
                          {"put the block's edge on the wall or a whole number of spacings ({:.6g} m) from it", dx}));
@@ -199,6 +200,7 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
     const bool is_gap = distance > gap_from && distance < gap_to;
     if (!is_gap || !reported.insert({wall, block}).second) return;
     findings.push_back(Finding::warning(
+        "water-leaves-gap-at-wall",
         {"there is a gap between {} and {}: the nearest particle stands {:.2f} from the wall, at {}, instead of {:.2f}",
          fluid_label(spec, block), wall_label(boundary, wall), Amount{distance / dx, "spacings"}, place(at), regular},
         {"put the block's edge on the wall, or at least two spacings away from it"}));

@@ -26,6 +26,7 @@ Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn) {
       }
       if (moving < 0 || goes_on) continue;
       findings.push_back(Finding::warning(
+          "wall-ends-at-moving-wall",
           {"{} ends at {}, where the moving {} begins: once that wall has moved, a gap is left at this end",
            wall_label(drawn, face.wall), place(end), wall_label(drawn, moving)},
           {"draw the resting wall on by {:.6g} m or more", dummy_layers(spec) * dx}));

@@ -74,6 +74,7 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
   Findings findings;
   if (spec.physics.tension > largest_tension) {
     findings.push_back(Finding::warning(
+        "tension-above-atmosphere",
         {"{} = {:.3g} is more than the pressure of the atmosphere, {:.0e} Pa: real water boils before it hangs so high",
          CaseLabel("physics").with_key("tension"), Amount{spec.physics.tension, "Pa"}, largest_tension},
         {"give at most {:.0e} Pa", largest_tension}));
@@ -92,6 +93,7 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
                             ? Clause("fill it no higher, or give physics.tension = {:.2g}", 1.2 * tension)
                             : Clause("fill it no higher");
     findings.push_back(Finding::warning(
+        "hanging-water-separates",
         {"the water below {} at {} stands {:.3g} above its own surface, as in a siphon, and will separate, because "
          "walls hold water up to {:.3g} below the pressure of the atmosphere (physics.tension)",
          wall_label(boundary, boundary.faces[connected.face_above].wall),

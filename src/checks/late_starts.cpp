@@ -6,7 +6,8 @@ Findings check_late_starts(const CaseSpec& spec) {
   Findings findings;
   const auto check = [&](const CaseLabel& owner, double start) {
     if (start < spec.time.end) return;
-    findings.push_back(Finding::warning({"{} begins to move at {:.6g}, and the run ends at {:.6g} s: it rests", owner,
+    findings.push_back(Finding::warning("motion-after-end",
+                                        {"{} begins to move at {:.6g}, and the run ends at {:.6g} s: it rests", owner,
                                          Amount{start, "s"}, spec.time.end},
                                         {"end the run later, or let it start earlier"}));
   };

@@ -23,7 +23,8 @@ Findings water_behind(const Boundary<Dim>& boundary, const Spread<Dim>& reached)
     const std::optional<Vec<Dim>>& place_behind = reached.behind[f];
     if (!place_behind || boundary.walls[wall].is_plate || !reported.insert(wall).second) continue;
     findings.push_back(
-        Finding::error({"the water can reach the back of {}, at {}, where nothing would hold it",
+        Finding::error("water-reaches-back-of-wall",
+                       {"the water can reach the back of {}, at {}, where nothing would hold it",
                         wall_label(boundary, wall), place(*place_behind)},
                        {"draw a wall that has water on both sides with shape = \"plate\", or with two faces"}));
   }
@@ -79,7 +80,8 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   add_cells_at_ends(spec, boundary, space, wet);
   const Spread<Dim> reached = spread(space, wet, Vec<Dim>(gravity.normalized()));
   if (!reached.way_out) return water_behind(boundary, reached);
-  return {Finding::error({"the water would pour out of the case at {}, near {}", place(*reached.way_out),
+  return {Finding::error("water-pours-out",
+                         {"the water would pour out of the case at {}, near {}", place(*reached.way_out),
                           nearest_label(boundary, ends, *reached.way_out)},
                          {"close it there, or make it higher"})};
 }

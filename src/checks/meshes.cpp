@@ -24,13 +24,14 @@ Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurf
   const double dx = spec.particles.spacing;
   const double length = (surface.high() - surface.low()).maxCoeff();
   if (length < dx) {
-    return {Finding::error({"{} is {:.3g} long, less than a spacing of {:.6g} m", label, Amount{length, "m"}, dx},
+    return {Finding::error("mesh-smaller-than-spacing",
+                           {"{} is {:.3g} long, less than a spacing of {:.6g} m", label, Amount{length, "m"}, dx},
                            {"correct its scale, or use a smaller spacing"})};
   }
   const double water_length = water.isEmpty() ? 0.0 : water.sizes().maxCoeff() + dx;
   if (water_length == 0.0 || length <= largest_share_of_water * water_length) return {};
   return {Finding::error(
-      {"{} is {:.6g} long and the water {:.6g} m", label, Amount{length, "m"}, water_length},
+      "mesh-larger-than-water", {"{} is {:.6g} long and the water {:.6g} m", label, Amount{length, "m"}, water_length},
       {"give scale = 0.001 if its file is in millimetres, otherwise cut off the parts that the water does not reach"})};
 }
 
@@ -53,6 +54,7 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
   const CaseLabel label = wall_label(boundary, wall);
   if (!own.intersects(others)) {
     return {Finding::warning(
+        "mesh-beside-water",
         {"{}: file {} reaches from {} to {}, and the water and all other walls from {} to {}, so it stands beside them",
          label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()), place<3>(others.max())},
         {"correct translate, or scale = {:g} (0.001 for a file in millimetres)", table.scale})};
@@ -62,6 +64,7 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
   const double length_of_others = others.sizes().maxCoeff();
   if (length <= largest_share_of_case * length_of_others) return {};
   return {Finding::warning(
+      "mesh-displaces-water",
       {"{}: file {} is a body {:.6g} long, and water and walls have a length of {:.6g} m: it would displace the water "
        "inside it",
        label, table.file, Amount{length, "m"}, length_of_others},
@@ -101,7 +104,8 @@ Findings check_self_crossing(const MeshSurface& surface, const CaseLabel& label,
       if (other <= one || found || share_a_point(mesh, one, other)) return;
       const auto where = crossing_of_triangles(face, face_of(mesh, other), tolerance);
       if (!where) return;
-      found = Finding::error({"{} crosses itself at {}, where triangles {} and {} pass through each other", label,
+      found = Finding::error("mesh-crosses-itself",
+                             {"{} crosses itself at {}, where triangles {} and {} pass through each other", label,
                               place(*where), one + 1, other + 1},
                              {"unite the bodies of the file where they overlap, or correct the triangles"});
     });
@@ -128,7 +132,8 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
     if (behind < 0 || share_a_point(surface.mesh(), t - mesh.first_face, behind)) continue;
     const WallFace<3>& other = boundary.faces[mesh.first_face + behind];
     if (-face.normal.dot(other.normal) < least_facing_of_plate) continue;
-    return {Finding::error({"{} is only {:.3g} thick at {}, with the water on its other side: its {} layers of wall "
+    return {Finding::error("mesh-too-thin",
+                           {"{} is only {:.3g} thick at {}, with the water on its other side: its {} layers of wall "
                             "particles need {:.6g} m, or the water on one side would interact with that on the other",
                             label, Amount{-other.height(middle), "m"}, place(middle), dummy_layers(spec), needed},
                            {"make it thicker, or the spacing smaller"})};

@@ -17,14 +17,6 @@ constexpr double fastest_over_water = 10.0;
 /// sine exceeds them by 1 % with 20 lines per period and by 10 % with 7.
 constexpr double largest_overshoot = 0.1;
 
-/// Height of the water at the start along gravity [m]; 0 without gravity.
-template <int Dim>
-double water_height(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
-  const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  if (gravity.norm() == 0.0 || fluid.all == 0) return 0.0;
-  return fluid.extent_along(gravity.normalized()) + spec.particles.spacing;
-}
-
 /// The samples of one file, as motions of the wall's corners.
 template <int Dim>
 class FileWalk {
@@ -65,7 +57,8 @@ class FileWalk {
     }
     if (worst <= std::max(0.25 * dx_, largest_overshoot * largest_displacement)) return {};
     return {
-        Finding::warning({"{} moves {:.3g} beyond lines {} and {} of {}, because its speed changes more suddenly "
+        Finding::warning("motion-overshoots-file",
+                         {"{} moves {:.3g} beyond lines {} and {} of {}, because its speed changes more suddenly "
                           "than these lines resolve",
                           label_, Amount{worst, "m"}, series_.line[worst_at], series_.line[worst_at + 1], series_.file},
                          {"give more lines there"})};
@@ -74,6 +67,7 @@ class FileWalk {
  private:
   Finding jump(std::size_t k, double displacement, double duration, double fastest) const {
     return Finding::error(
+        "motion-file-jumps",
         {"{} jumps between lines {} and {} of {}: it moves {:.3g} m in {:.3g} s, at {:.3g}, which is more than {:.0f} "
          "times as fast as the water falls ({:.3g} m/s)",
          label_, series_.line[k], series_.line[k + 1], series_.file, displacement, duration,

@@ -22,6 +22,7 @@ bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, 
     const Vec<Dim> displacement = start(face.corners[0]) - face.corners[0];
     if (displacement.norm() <= corner_tolerance * spec.particles.spacing) continue;
     findings.push_back(Finding::error(
+        "motion-starts-displaced",
         {"{} is not where it is drawn at t = 0: its point {} has moved by {} m, but displacement and "
          "rotation{} must begin with 0",
          wall_label(drawn, wall), place(face.corners[0]), vector_text(displacement), file_of(spec, wall)},

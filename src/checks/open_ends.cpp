@@ -100,7 +100,8 @@ void check_opening_size(const Boundary<Dim>& boundary, const Opening<Dim>& end, 
   for (const Vec<Dim>& corner : end.rim()) mouth.extend(corner);
   const Box<Dim> box = box_around(boundary.faces).merged(fluid.box());
   if (box.isEmpty() || mouth.diagonal().norm() <= largest_opening * box.diagonal().norm()) return;
-  findings.push_back(Finding::error({"{} at {} is {:.6g} m wide, more than {:g} times the size of all walls and water",
+  findings.push_back(Finding::error("opening-too-wide",
+                                    {"{} at {} is {:.6g} m wide, more than {:g} times the size of all walls and water",
                                      end.label(), place(end.corner), mouth.diagonal().norm(), largest_opening},
                                     {"end it where the walls of the channel end"}));
 }
@@ -110,6 +111,7 @@ void check_direction(const CaseSpec& spec, const Opening<Dim>& end, Findings& fi
   for (int axis = 0; axis < Dim; ++axis) {
     if (periodic_range(spec.domain, axis).empty() || std::abs(end.normal[axis]) <= corner_tolerance) continue;
     findings.push_back(Finding::error(
+        "opening-across-period",
         {"{} at {} lets water {} in {}, but with periodic_{} water returns to the other side", end.label(),
          place(end.corner), end.kind == OpeningKind::inlet ? "in" : "out", "xyz"[axis], "xyz"[axis]},
         {"remove the open end or periodic_{}", "xyz"[axis]}));
@@ -122,13 +124,15 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
   for (const Vec<Dim>& x : closed_rim(spec, end)) {
     const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
     if (wall.face < 0) {
-      findings.push_back(Finding::error({"{} has its rim at {}, but the case has no wall", end.label(), place(x)},
+      findings.push_back(Finding::error("opening-without-wall",
+                                        {"{} has its rim at {}, but the case has no wall", end.label(), place(x)},
                                         {"draw a bed that ends there"}));
       return;
     }
     if (std::abs(wall.signed_distance) <= tolerance) continue;
     findings.push_back(
-        Finding::error({"{} {} at {}: the nearest point of {} is {}, {:.6g} away", end.label(),
+        Finding::error("opening-rim-off-wall",
+                       {"{} {} at {}: the nearest point of {} is {}, {:.6g} away", end.label(),
                         wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
                         wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point),
                         Amount{std::abs(wall.signed_distance), "m"}},
@@ -149,7 +153,8 @@ void check_rim_rests(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
     });
     if (rests) continue;
     findings.push_back(
-        Finding::error({"{} has its rim at {} on {}, which moves; an opening stays where it is drawn, so that a gap "
+        Finding::error("opening-rim-on-moving-wall",
+                       {"{} has its rim at {} on {}, which moves; an opening stays where it is drawn, so that a gap "
                         "opens between them",
                         end.label(), place(x), wall_label(boundary, boundary.faces[wall.face].wall)},
                        {"end the moving wall before the opening, and draw a wall at rest around the opening"}));
@@ -169,12 +174,13 @@ void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     if (wall.face < 0) continue;
     const CaseLabel label = wall_label(boundary, boundary.faces[wall.face].wall);
     if (end.beyond(x) <= wall_clearance * dx) {
-      findings.push_back(
-          Finding::error({"{} overlaps {} at {}: no wall may stand in it", end.label(), label, place(wall.point)},
-                         {"leave that piece of wall out (of a box: open = [...]), or move the {}", end.label().table}));
+      findings.push_back(Finding::error(
+          "wall-in-opening", {"{} overlaps {} at {}: no wall may stand in it", end.label(), label, place(wall.point)},
+          {"leave that piece of wall out (of a box: open = [...]), or move the {}", end.label().table}));
     } else {
       findings.push_back(
-          Finding::error({"{} stands beyond {} at {}: the space up to {:.6g} m outside of it must be free, because the "
+          Finding::error("wall-beyond-opening",
+                         {"{} stands beyond {} at {}: the space up to {:.6g} m outside of it must be free, because the "
                           "program {} there",
                           label, end.label(), place(wall.point), depth,
                           end.meets_air ? "follows the jet" : "adds a duct with the prescribed flow"},
@@ -202,6 +208,7 @@ void check_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, const Cha
   const auto is_cut = [&](const Vec<Dim>& x) { return is_cut_into_wall(boundary, mouth, x, dx); };
   if (!std::ranges::all_of(whole_rim(mouth, dx), is_cut)) return;
   findings.push_back(Finding::error(
+      "opening-in-wall-undefined",
       {"{} at {} is a hole in a wall, and the case does not define the far side", mouth.label(), place(mouth.corner)},
       {"give beyond = \"air\" for a free jet, or the level of the water there"}));
 }
@@ -218,6 +225,7 @@ void check_ducts_apart(const CaseSpec& spec, const std::vector<ChannelEnd<Dim>>&
       const auto other = std::ranges::find_if(ends, holds);
       if (other == ends.end()) continue;
       findings.push_back(Finding::error(
+          "openings-share-space",
           {"{} and {} share the space at {}, up to {:.6g} m outside of each, where the program adds a duct for each",
            end.mouth.label(), other->mouth.label(), place(x), end.duct},
           {"move them apart"}));
@@ -247,7 +255,8 @@ bool check_fluid_beyond(const CaseSpec& spec, const ChannelEnd<Dim>& channel_end
   const std::int64_t beyond = fluid.ranks.sum(own);
   if (beyond == 0) return true;
   first = gather_on_all(fluid.ranks, first);
-  findings.push_back(Finding::error({"{} cuts through {}: {} particles lie beyond it at the start, the first at {}",
+  findings.push_back(Finding::error("opening-cuts-water",
+                                    {"{} cuts through {}: {} particles lie beyond it at the start, the first at {}",
                                      end.label(), fluid_label(spec, first[0].block), beyond, place(first[0].place)},
                                     {"end the block there, move the open end, or give it the opposite direction"}));
   return false;
@@ -266,7 +275,8 @@ void check_facing(const CaseSpec& spec, const Boundary<Dim>& boundary, const Ope
   };
   if (has_walls(-2.0 * dx) || !has_walls(2.0 * dx)) return;
   findings.push_back(
-      Finding::error({"{} at {} faces the wrong way: the walls are on the side that is outside by its direction {}",
+      Finding::error("opening-faces-inwards",
+                     {"{} at {} faces the wrong way: the walls are on the side that is outside by its direction {}",
                       end.label(), place(end.corner), vector_text(end.direction())},
                      {"give the opposite direction"}));
 }

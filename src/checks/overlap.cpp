@@ -74,7 +74,8 @@ Findings check_overlap(const CaseSpec& spec, const Boundary<Dim>& boundary, cons
   Findings findings;
   for (const auto& [blocks, overlap] : overlaps) {
     findings.push_back(
-        Finding::error({"{} and {} overlap, first at {}: {} particles of the second are nearer than {:.6g} m to "
+        Finding::error("blocks-overlap",
+                       {"{} and {} overlap, first at {}: {} particles of the second are nearer than {:.6g} m to "
                         "particles of the first",
                         fluid_label(spec, blocks.first), fluid_label(spec, blocks.second), place(overlap.where),
                         overlap.particles, least},

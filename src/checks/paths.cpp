@@ -93,7 +93,8 @@ class PathWalk {
     for (int k = 0; k < least_samples; ++k) {
       if (looks_ > most_looks) {
         findings_.push_back(
-            Finding::warning({"{} or another wall moves so far that collisions are only checked up to t = {:.6g}",
+            Finding::warning("path-checked-in-part",
+                             {"{} or another wall moves so far that collisions are only checked up to t = {:.6g}",
                               label(movers_.front().wall), Amount{end * k / least_samples, "s"}},
                              {"check the paths after that time by eye"}));
         break;
@@ -137,10 +138,12 @@ class PathWalk {
   /// wall.
   bool accepts_displacement(Mover<Dim>& mover, const Vec<Dim>& where, double length, double from, double to) {
     if (!std::isfinite(length)) {
-      findings_.push_back(Finding::error({"{} is at no finite place at t = {:.6g}", label(mover.wall), Amount{to, "s"}},
+      findings_.push_back(Finding::error("path-not-finite",
+                                         {"{} is at no finite place at t = {:.6g}", label(mover.wall), Amount{to, "s"}},
                                          {"correct its displacement or rotation"}));
     } else if (length > 0.25 * dx_ && length > largest_speed_of_case * (to - from)) {
       findings_.push_back(Finding::error(
+          "wall-too-fast",
           {"{} is too fast: its point {} moves {:.3g} in the {:.3g} s after t = {:.6g} s, but water is treated as "
            "incompressible, which limits walls to {:.0f} m/s",
            label(mover.wall), place(where), Amount{length, "m"}, to - from, from, largest_speed_of_case},
@@ -208,10 +211,12 @@ class PathWalk {
         if (!found) continue;
         collided_.insert(std::minmax(wall, other));
         findings_.push_back(found->is_crossing
-                                ? Finding::error({"{} crosses {} at t = {:.6g} at {}", label(wall), label(other),
+                                ? Finding::error("walls-cross",
+                                                 {"{} crosses {} at t = {:.6g} at {}", label(wall), label(other),
                                                   Amount{time, "s"}, place(found->where)},
                                                  {"change its path, or draw it shorter"})
-                                : Finding::error({"{} comes closer than a spacing to {} at t = {:.6g} at {}: the water "
+                                : Finding::error("walls-closer-than-spacing",
+                                                 {"{} comes closer than a spacing to {} at t = {:.6g} at {}: the water "
                                                   "between them would be compressed",
                                                   label(wall), label(other), Amount{time, "s"}, place(found->where)},
                                                  {"end its path at least {:.6g} m before", dx_}));
@@ -242,7 +247,8 @@ class PathWalk {
       Vec<Dim> middle = Vec<Dim>::Zero();
       for (const Vec<Dim>& corner : faces_[f].corners) middle += corner / Dim;
       findings_.push_back(
-          Finding::error({"{} crushes the water at t = {:.6g}, when it is at {}: the walls leave {:.3g} m^{} to {:.3g} "
+          Finding::error("wall-crushes-water",
+                         {"{} crushes the water at t = {:.6g}, when it is at {}: the walls leave {:.3g} m^{} to {:.3g} "
                           "m^{} of water that cannot get out",
                           label(wall), Amount{time, "s"}, place(middle), enclosed->volume, Dim, room_->water(), Dim},
                          {"end its path before, or leave the water a way out"}));

@@ -17,6 +17,7 @@ Findings walls_longer_than(double period, int axis, const CaseSpec& spec, const 
     const double length = boxes[w].isEmpty() ? 0.0 : boxes[w].sizes()[axis];
     if (length <= period + 0.5 * spec.particles.spacing) continue;
     findings.push_back(Finding::error(
+        "wall-longer-than-period",
         {"{} is {:.6g} long in {}, in which the case repeats itself every {:.6g} m (domain.periodic_{}), "
          "so it would lie in itself",
          wall_label(boundary, static_cast<int>(w)), Amount{length, "m"}, "xyz"[axis], period, "xyz"[axis]},
@@ -37,7 +38,8 @@ Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundar
     const double width = range[1] - range[0];
     append(findings, walls_longer_than(width, axis, spec, boundary));
     if (width >= (4.0 - corner_tolerance) * support) continue;
-    findings.push_back(Finding::error({"{} from {:.6g} to {:.6g} is {:.6g} wide, less than four kernel supports of "
+    findings.push_back(Finding::error("period-too-narrow",
+                                      {"{} from {:.6g} to {:.6g} is {:.6g} wide, less than four kernel supports of "
                                        "{:.6g} m, so a particle would meet "
                                        "its own image",
                                        CaseLabel("domain").with_key(fmt::format("periodic_{}", "xyz"[axis])), range[0],

@@ -8,7 +8,8 @@ template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   if (boundary.plates.empty() || !traits_of(spec).walls.on_wall) return {};
   return {
-      Finding::error({"{} is a plate, and the formulation puts particles on the wall itself, with which the water on "
+      Finding::error("plate-needs-robust",
+                     {"{} is a plate, and the formulation puts particles on the wall itself, with which the water on "
                       "both sides would interact",
                       wall_label(boundary, boundary.plates.front().wall)},
                      {"choose scheme.formulation = \"robust\", or draw a wall with two faces"})};

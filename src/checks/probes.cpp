@@ -62,7 +62,8 @@ Box<Dim> box_of_probe(const ProbeTable& probe) {
 /// Adds a warning about times that are never reached, and about means over more than the run.
 void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findings) {
   if (probe.averaging_time > spec.time.end) {
-    findings.push_back(Finding::warning({"{}: averaging_time = {:.6g} is longer than the run of {:.6g} s: its largest "
+    findings.push_back(Finding::warning("averaging-longer-than-run",
+                                        {"{}: averaging_time = {:.6g} is longer than the run of {:.6g} s: its largest "
                                          "pressure is no mean over that time",
                                          label(probe), Amount{probe.averaging_time, "s"}, spec.time.end},
                                         {"give a shorter one, or end the run later"}));
@@ -71,6 +72,7 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
   const auto late = std::ranges::count_if(probe.times, is_late);
   if (late == 0) return;
   findings.push_back(Finding::warning(
+      "probe-times-after-end",
       {"{}: {} of its {} times are after time.end = {:.6g} s, the last at {:.6g}; they give no readings", label(probe),
        late, probe.times.size(), spec.time.end, Amount{*std::ranges::max_element(probe.times), "s"}},
       {"end the run later, or leave them out"}));
@@ -85,6 +87,7 @@ void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const Pr
   const double away = (at - wall.point).norm();
   if (wall.face < 0 || away <= spec.particles.spacing) return;
   findings.push_back(Finding::warning(
+      "probe-far-from-wall",
       {"{} at {} reads the pressure on the nearest wall, at {}, {:.4g} away", label(probe), place(at),
        place(wall.point), Amount{away, "m"}},
       {"move it onto the wall that is meant, or take type = \"pressure\" for the pressure in the water"}));
@@ -125,6 +128,7 @@ Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const F
     const Box<Dim> where(to_vec<Dim>(zone.min, owner, "min"), to_vec<Dim>(zone.max, owner, "max"));
     if (box.intersects(where)) continue;
     findings.push_back(Finding::error(
+        "damping-outside-case",
         {"{} from {} to {} is outside of the case, whose walls and water lie between {} and {}: it would damp nothing",
          owner, place<Dim>(where.min()), place<Dim>(where.max()), place<Dim>(box.min()), place<Dim>(box.max())},
         {"move it to where the waves are to decay"}));
@@ -142,6 +146,7 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
     const Box<Dim> where = box_of_probe<Dim>(probe);
     if (drawn.faces.empty() || where.isEmpty() || reach_of_water(spec, box).intersects(where)) continue;
     findings.push_back(Finding::error(
+        "probe-outside-case",
         {"{} at {} is outside of the case, whose walls and water lie between {} and {}: no water comes there",
          label(probe), place<Dim>(where.min()), place<Dim>(box.min()), place<Dim>(box.max())},
         {"move it"}));

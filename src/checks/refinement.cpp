@@ -17,7 +17,8 @@ namespace {
 constexpr double clearance = 8.0;
 
 Finding refused(const CaseLabel& owner, const std::string& what, Clause remedy) {
-  return Finding::error({"{}: zones of refinement do not work with {}", owner, what}, std::move(remedy));
+  return Finding::error("zone-refuses-feature", {"{}: zones of refinement do not work with {}", owner, what},
+                        std::move(remedy));
 }
 
 /// Features of the case that no zone works with, wherever it is.
@@ -47,6 +48,7 @@ Findings check_period(const CaseSpec& spec, const typename SpacingField<Dim>::Zo
     const bool is_above = zone.box.max()[axis] >= range[1];
     if (is_below == is_above) continue;
     findings.push_back(Finding::error(
+        "zone-across-period",
         {"{} reaches over one end of the periodic direction {}, which goes from {:g} to {:g}, and not over the other: "
          "the spacing would jump there",
          owner, "xyz"[axis], range[0], range[1]},
@@ -90,6 +92,7 @@ Findings check_depth(const CaseSpec& spec, const Box<Dim>& all, const typename S
   visit_depths<Dim>(spec, zone, zone.box.intersection(all), [&](double depth) { deepest = std::max(deepest, depth); });
   if (deepest >= zone.border - spec.particles.spacing) return {};
   return {Finding::error(
+      "zone-too-thin",
       {"{} is at most {:.4g} deep behind its edges, but the spacing needs {:.4g} m to fall by its level: nowhere would "
        "it be as fine as asked",
        owner, Amount{deepest, "m"}, zone.border},
@@ -104,21 +107,21 @@ Findings check_carried(const CaseSpec& spec, const Boundary<Dim>& boundary, int 
   const CaseLabel by = wall_label(boundary, carrier);
   for (const WallProperties& wall : boundary.walls) {
     if (wall.body == boundary.walls[carrier].body || std::ranges::count(table.walls, wall.name) == 0) continue;
-    findings.push_back(Finding::error({"{} moves with {}, and '{}' does not move with that wall", owner, by, wall.name},
+    findings.push_back(Finding::error("zone-walls-move-apart", {"{} moves with {}, and '{}' does not move with that wall", owner, by, wall.name},
                                       {"name walls of one body only, or give shape = \"box\""}));
   }
   if (spec.refinement.size() > 1) {
-    findings.push_back(Finding::error({"{} moves with {}: a zone that moves must be the only one", owner, by},
+    findings.push_back(Finding::error("moving-zone-not-alone", {"{} moves with {}: a zone that moves must be the only one", owner, by},
                                       {"remove the others, or give a box that contains its path"}));
   }
   bool repeats = false;
   for (int axis = 0; axis < Dim; ++axis) repeats = repeats || !periodic_range(spec.domain, axis).empty();
   if (repeats) {
-    findings.push_back(Finding::error({"{} moves with {} in a domain that repeats", owner, by},
+    findings.push_back(Finding::error("moving-zone-in-periodic-domain", {"{} moves with {} in a domain that repeats", owner, by},
                                       {"give shape = \"box\" with a box that contains its path"}));
   }
   if (const double least = clearance * spec.particles.spacing * std::exp2(-table.level); table.distance < least) {
-    findings.push_back(Finding::error({"{} = {:.4g} is narrower than the supports beside walls that move",
+    findings.push_back(Finding::error("moving-zone-too-narrow", {"{} = {:.4g} is narrower than the supports beside walls that move",
                                        owner.with_key("distance"), Amount{table.distance, "m"}},
                                       {"give at least {:.4g}", least}));
   }
@@ -137,6 +140,7 @@ Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename S
     const double needed = zone.border * (static_cast<int>(has_low) + static_cast<int>(has_high));
     if (high - low >= needed - corner_tolerance * spec.particles.spacing) continue;
     return {Finding::error(
+        "zone-too-narrow",
         {"{} is {:.4g} long in {}, but the spacing needs {:.4g} m to fall by its level behind each face: nowhere would "
          "it be as fine as asked",
          owner, Amount{high - low, "m"}, "xyz"[axis], zone.border},
@@ -260,7 +264,8 @@ Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, cons
     const auto& zone = field.zones()[n];
     append(findings, check_features(spec, owner));
     if (!box.intersects(zone.box)) {
-      findings.push_back(Finding::error({"{} is outside of the case, whose walls and water lie between {} and {}: it "
+      findings.push_back(Finding::error("zone-outside-case",
+                                        {"{} is outside of the case, whose walls and water lie between {} and {}: it "
                                          "would refine nothing",
                                          owner, place<Dim>(box.min()), place<Dim>(box.max())},
                                         {"move it to where the water is to be finer"}));

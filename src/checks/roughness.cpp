@@ -35,7 +35,7 @@ double height_without_inflow(const CaseSpec& spec, const FluidParticles<Dim>& fl
 
 Finding too_rough(const CaseLabel& label, const WallTable& wall, double roughness, double largest, Clause why) {
   return Finding::error(
-      {"{}: {} {}", label, roughness_text(wall, roughness), why},
+      "roughness-too-large", {"{}: {} {}", label, roughness_text(wall, roughness), why},
       {"give {}, and draw larger roughness elements as the shape of the wall", bound_on_key(wall, roughness, largest)});
 }
 
@@ -44,7 +44,8 @@ Findings check_side_walls(const PhysicsTable& physics) {
   const double half = 0.5 * physics.channel_width;
   if (half == 0.0 || physics.channel_roughness <= half) return {};
   return {
-      Finding::error({"{} = {:.3g} is larger than half of the channel's width, {:.3g} m, so the law of rough walls "
+      Finding::error("channel-roughness-too-large",
+                     {"{} = {:.3g} is larger than half of the channel's width, {:.3g} m, so the law of rough walls "
                       "does not hold",
                       CaseLabel("physics").with_key("channel_roughness"), Amount{physics.channel_roughness, "m"}, half},
                      {"give a roughness of at most {:.3g} m", half})};
@@ -73,7 +74,8 @@ Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary, co
       findings.push_back(too_rough(label, wall, roughness, depth, why));
     } else {
       findings.push_back(
-          Finding::warning({"{}: {} is larger than the spacing, {:.3g} m, and the law of rough walls does not hold for "
+          Finding::warning("roughness-above-spacing",
+                           {"{}: {} is larger than the spacing, {:.3g} m, and the law of rough walls does not hold for "
                             "particles between "
                             "its grains",
                             label, roughness_text(wall, roughness), dx},

@@ -15,6 +15,7 @@ Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary) 
       if (a.wall == b.wall && crosses(a, b.corners[0], b.corners[1], tolerance) &&
           crosses(b, a.corners[0], a.corners[1], tolerance)) {
         findings.push_back(Finding::error(
+            "wall-crosses-itself",
             {"{} crosses itself at {}", wall_label(boundary, a.wall), place(meet(a, b.corners[0], b.corners[1]))},
             {"correct the order of its points"}));
         if (findings.size() >= most) return findings;

@@ -19,7 +19,8 @@ void check_speed_of_end(const ChannelEnd<Dim>& end, double last, double spacing,
     const double speed = end.largest_speed(time, spacing);
     if (std::abs(speed) <= largest_speed_of_case) continue;
     findings.push_back(
-        Finding::error({"{}: at t = {:.6g} s water would enter at {:.4g}, but it is treated as incompressible, which "
+        Finding::error("inflow-too-fast",
+                       {"{}: at t = {:.6g} s water would enter at {:.4g}, but it is treated as incompressible, which "
                         "limits it to {:g} m/s",
                         end.opening.label(), time, Amount{speed, "m/s"}, largest_speed_of_case},
                        {"check the units, or make the opening larger"}));
@@ -36,7 +37,8 @@ Findings check_speeds(const CaseSpec& spec) {
     const double speed = body.drawn.linear_velocity().norm();
     if (speed <= largest_speed_of_case) continue;
     findings.push_back(
-        Finding::error({"{} is {:.4g}, but water is treated as incompressible, which limits bodies to {:g} m/s",
+        Finding::error("body-too-fast",
+                       {"{} is {:.4g}, but water is treated as incompressible, which limits bodies to {:g} m/s",
                         CaseLabel("body", body.name).with_key("velocity"), Amount{speed, "m/s"}, largest_speed_of_case},
                        {"correct it"}));
   }

@@ -122,6 +122,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
       if (reported.contains(walls) || !is_wet(f) || !is_wet(g)) continue;
       reported.insert(walls);
       findings.push_back(Finding::error(
+          "wall-too-thin",
           {"{} is only {:.3g} thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m",
            wall_label(boundary, face.wall), Amount{thickness, "m"}, place(*foot),
            face.wall == other.wall ? "the water" : wall_label(boundary, other.wall).text(), dummy_layers(spec), needed},

@@ -40,6 +40,7 @@ Findings check_height(const WaveKeys& waves, const CaseLabel& owner, double dx) 
   if (waves.waves == WaveKind::none || waves.height >= lowest_resolved_wave * dx) return {};
   if (waves.height < lowest_wave * dx) {
     return {Finding::error(
+        "waves-below-spacing",
         {"{} = {:.4g} is {:.2g} spacings: waves lower than {:g} spacings grow on their way instead of keeping their "
          "height",
          owner.with_key("height"), Amount{waves.height, "m"}, waves.height / dx, lowest_wave},
@@ -47,6 +48,7 @@ Findings check_height(const WaveKeys& waves, const CaseLabel& owner, double dx) 
          0.99 * waves.height / lowest_resolved_wave})};
   }
   return {Finding::warning(
+      "waves-few-rows",
       {"{} = {:.4g} is {:.2g} spacings: waves lower than {:g} spacings are not resolved, and their heights are not to "
        "be trusted",
        owner.with_key("height"), Amount{waves.height, "m"}, waves.height / dx, lowest_resolved_wave},
@@ -60,7 +62,8 @@ Findings check_absorption(const WaveMakerTable& maker, double gravity) {
   const double reflection = plate_reflection(maker.type, omega, gravity, maker.depth);
   if (reflection <= most_plate_reflection) return {};
   return {
-      Finding::warning({"{} sends back {:.0f} % of the waves that come to it with its period of {:.4g} (kh = {:.3g})",
+      Finding::warning("maker-reflects-waves",
+                       {"{} sends back {:.0f} % of the waves that come to it with its period of {:.4g} (kh = {:.3g})",
                         CaseLabel("wave_maker", maker.name), 100.0 * reflection, Amount{maker.period, "s"},
                         wave_number(omega, gravity, maker.depth) * maker.depth},
                        {"replace it with a [[damping]] zone, which makes and absorbs waves of any depth"})};
@@ -78,7 +81,8 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
     const std::optional<double> depth = depth_at(WavePlate<Dim>(spec, maker), fluid, dx);
     if (!depth || std::abs(*depth - maker.depth) <= std::max(most_error * maker.depth, most_columns * dx)) continue;
     findings.push_back(
-        Finding::error({"{} = {:.4g}, but the water in front of it is {:.4g} m deep at the start: its waves would not "
+        Finding::error("maker-depth-differs",
+                       {"{} = {:.4g}, but the water in front of it is {:.4g} m deep at the start: its waves would not "
                         "have the prescribed height",
                         CaseLabel("wave_maker", maker.name).with_key("depth"), Amount{maker.depth, "m"}, *depth},
                        {"correct depth or the water"}));
@@ -101,6 +105,7 @@ Findings check_wave_zones(const CaseSpec& spec) {
     if (error <= most_zone_reflection) continue;
     const double k = forecast->wave_number;
     findings.push_back(Finding::warning(
+        "damping-reflects-waves",
         {"{} is {:.3g} long, {:.2g} of the wavelength: it reflects {:.0f} % of waves of kh = {:.3g}{}", owner,
          Amount{length_of(zone), "m"}, length_of(zone) * k / (2.0 * std::numbers::pi), 100.0 * estimate.reflection,
          k * forecast->waves.depth,

@@ -25,13 +25,18 @@ inline CaseLabel fluid_label(const CaseSpec& spec, std::size_t block) {
 
 inline CaseLabel label(const ProbeTable& probe) { return CaseLabel("probe", probe.name); }
 
+/// Throws CaseError unless a `key` has Dim numbers.
+template <int Dim>
+void require_dimension(std::size_t count, const CaseLabel& key) {
+  if (count == Dim) return;
+  throw CaseError("wrong-dimension", {"{} has {} numbers but the case has {} dimensions", key, count, Dim},
+                  {"give one number per dimension"});
+}
+
 /// The point under a `key` of the `owner` as a vector. Throws CaseError when it does not have Dim numbers.
 template <int Dim>
 Vec<Dim> to_vec(const Coordinates& point, const CaseLabel& owner, std::string_view key) {
-  if (point.size() != Dim) {
-    throw CaseError({"{} has {} numbers but the case has {} dimensions", owner.with_key(key), point.size(), Dim},
-                    {"give one number per dimension"});
-  }
+  require_dimension<Dim>(point.size(), owner.with_key(key));
   return Vec<Dim>::Map(point.data());
 }
 

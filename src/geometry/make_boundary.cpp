@@ -71,7 +71,8 @@ void append_chain(const WallTable& table, int wall, const CaseLabel& owner, doub
   }
   const std::size_t least = closed ? 3 : 2;
   if (points.size() < least) {
-    throw CaseError({"{} has {} points", owner, points.size()}, {"give a {} at least {}", name_of(table.shape), least});
+    throw CaseError("wall-too-few-points", {"{} has {} points", owner, points.size()},
+                    {"give a {} at least {}", name_of(table.shape), least});
   }
   const std::size_t face_count = closed ? points.size() : points.size() - 1;
   for (std::size_t k = 0; k < face_count; ++k) {
@@ -80,11 +81,13 @@ void append_chain(const WallTable& table, int wall, const CaseLabel& owner, doub
     if (length > corner_tolerance * spacing) continue;
     const CaseLabel key = owner.with_key("points");
     if (length == 0.0) {
-      throw CaseError({"{}[{}] and points[{}] are both at {}, so the piece between them has no length", key, k, next,
+      throw CaseError("wall-points-coincide",
+                      {"{}[{}] and points[{}] are both at {}, so the piece between them has no length", key, k, next,
                        place(points[k])},
                       {"remove one of them"});
     }
-    throw CaseError({"{}[{}] and points[{}] are {:.3g} apart at {}, which is nothing beside a spacing of {:.6g} m", key,
+    throw CaseError("wall-points-too-close",
+                    {"{}[{}] and points[{}] are {:.3g} apart at {}, which is nothing beside a spacing of {:.6g} m", key,
                      k, next, Amount{length, "m"}, place(points[k]), spacing},
                     {"use a smaller spacing, or remove one of the points"});
   }
@@ -92,12 +95,13 @@ void append_chain(const WallTable& table, int wall, const CaseLabel& owner, doub
   bool fluid_is_left = table.fluid_side == FluidSide::left;
   if (table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside) {
     if (!closed) {
-      throw CaseError({"{}: a polyline has no {}", owner, name_of(table.fluid_side)},
+      throw CaseError("polyline-fluid-side", {"{}: a polyline has no {}", owner, name_of(table.fluid_side)},
                       {"set fluid_side to \"left\" or \"right\", as seen when walking along its points"});
     }
     const double area = signed_area(points);
     if (std::abs(area) <= corner_tolerance * spacing * spacing) {
-      throw CaseError({"{}: the polygon through {} encloses no area, so it has no inside", owner, place(points[0])},
+      throw CaseError("polygon-without-area",
+                      {"{}: the polygon through {} encloses no area, so it has no inside", owner, place(points[0])},
                       {"move its points apart"});
     }
     fluid_is_left = (area > 0.0) == (table.fluid_side == FluidSide::inside);
@@ -143,6 +147,7 @@ void append_box(const WallTable& table, int wall, const CaseLabel& owner, double
   for (int axis = 0; axis < Dim; ++axis) {
     if (ends[1][axis] - ends[0][axis] <= corner_tolerance * spacing) {
       throw CaseError(
+          "box-without-extent",
           {"{} has no extent in {}: its max is {} and its min {}", owner, "xyz"[axis], ends[1][axis], ends[0][axis]},
           {"give a max above min"});
     }
@@ -150,7 +155,7 @@ void append_box(const WallTable& table, int wall, const CaseLabel& owner, double
   const auto names_end = all_names.begin() + 2 * Dim;
   for (const std::string& name : table.open) {
     if (std::find(all_names.begin(), names_end, name) == names_end) {
-      throw CaseError({"{} = \"{}\" is not a face of a {}D box", owner.with_key("open"), name, Dim},
+      throw CaseError("box-unknown-face", {"{} = \"{}\" is not a face of a {}D box", owner.with_key("open"), name, Dim},
                       {"use \"{}\"", fmt::join(all_names.begin(), names_end, "\", \"")});
     }
   }
@@ -162,7 +167,8 @@ void append_box(const WallTable& table, int wall, const CaseLabel& owner, double
     }
   }
   if (faces.size() == before) {
-    throw CaseError({"{}, the box from {} to {}, has no face left", owner, place(ends[0]), place(ends[1])},
+    throw CaseError("box-without-faces",
+                    {"{}, the box from {} to {}, has no face left", owner, place(ends[0]), place(ends[1])},
                     {"shorten its list of open faces"});
   }
 }
@@ -197,6 +203,7 @@ void append_plate(const WallTable& table, int wall, const CaseLabel& owner, doub
         std::abs((corners[1] - corners[0]).normalized().dot(corners[3] - corners[0])) <= tolerance;
     if (!is_rectangle) {
       throw CaseError(
+          "plate-not-rectangle",
           {"{}: its {} points are not the corners of a rectangle, as a plate in 3D needs", owner, corners.size()},
           {"give four, in the order in which one walks around it, with right angles"});
     }
@@ -224,6 +231,7 @@ void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, co
   if (has_few_cells && filed <= most_filed_cells) return;
   const double length = box.sizes().maxCoeff();
   throw CaseError(
+      "plate-too-large",
       {"{} reaches over {:.3g}, which is {:.3g} times particles.spacing", owner, Amount{length, "m"}, length / spacing},
       {"use a larger spacing, or a smaller plate, drawn in metres"});
 }
@@ -284,7 +292,8 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     } else if (table.shape == WallShape::mesh) {
       append_mesh(spec, table, wall, owner, boundary);
     } else {
-      throw CaseError({"{} = \"{}\" exists in 2D only", owner.with_key("shape"), name_of(table.shape)},
+      throw CaseError("wall-shape-2d-only",
+                      {"{} = \"{}\" exists in 2D only", owner.with_key("shape"), name_of(table.shape)},
                       {"in 3D use shape = \"box\" or \"mesh\""});
     }
     const double reach = dummy_layers(spec) * spec.particles.spacing;
@@ -292,7 +301,8 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     // The faces of a resting mesh are found by its own tree.
     if (table.shape != WallShape::mesh || boundary.walls.back().moves()) compared += boundary.faces.size() - before;
     if (compared > most_faces) {
-      throw CaseError({"{}: with it the walls have {} pieces{}, and a case has at most {}", owner, compared,
+      throw CaseError("too-many-wall-pieces",
+                      {"{}: with it the walls have {} pieces{}, and a case has at most {}", owner, compared,
                        boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces},
                       {"draw them coarser"});
     }

@@ -53,8 +53,8 @@ class Refusal {
  public:
   Refusal(const TriangleMesh& mesh, Clause start) : mesh_(mesh), start_(std::move(start)) {}
 
-  [[noreturn]] void operator()(const Clause& problem, const Clause& remedy) const {
-    throw CaseError({"{}: {}", start_, problem}, remedy);
+  [[noreturn]] void operator()(MessageId id, const Clause& problem, const Clause& remedy) const {
+    throw CaseError(id, {"{}: {}", start_, problem}, remedy);
   }
 
   /// "triangle 7 at (0, 1, 2)": the number counts from 1, as in the file; the place is the triangle's middle in the
@@ -77,7 +77,7 @@ TriangleMesh read_mesh_of(const PlacedFile& file, const CaseLabel& owner) {
   try {
     return TriangleMesh{read_mesh(file.file)};
   } catch (const InputError& error) {
-    throw CaseError({"{}: {}", owner, error.what()}, {});
+    throw CaseError("mesh-file-not-readable", {"{}: {}", owner, error.what()}, {});
   }
 }
 
@@ -91,7 +91,8 @@ void require_triangles_with_area(const TriangleMesh& mesh, double least_height, 
     if (count++ == 0) first = t;
   }
   if (count == 0) return;
-  refuse({"{} has no area{}: its corners are equal or on a line", refuse.triangle(first),
+  refuse("mesh-triangle-without-area",
+         {"{} has no area{}: its corners are equal or on a line", refuse.triangle(first),
           count == 1 ? "" : fmt::format(", nor have {} others", count - 1)},
          {"remove degenerate triangles"});
 }
@@ -104,7 +105,7 @@ void require_no_double_triangles(const TriangleMesh& mesh, const Refusal& refuse
   std::ranges::sort(order, [&](int a, int b) { return std::pair(corners[a], a) < std::pair(corners[b], b); });
   const auto same = std::ranges::adjacent_find(order, [&](int a, int b) { return corners[a] == corners[b]; });
   if (same == order.end()) return;
-  refuse({"{} and triangle {} have the same corners", refuse.triangle(*same), same[1] + 1},
+  refuse("mesh-triangle-double", {"{} and triangle {} have the same corners", refuse.triangle(*same), same[1] + 1},
          {"remove double triangles"});
 }
 
@@ -116,12 +117,14 @@ std::vector<TriangleEdge> require_neighbours_that_agree(const std::vector<Triang
     while (end < edges.size() && edges[end].is_between_same_points(edges[k])) ++end;
     const TriangleEdge& edge = edges[k];
     if (end - k > 2) {
-      refuse({"{} belongs to {} triangles, {} among them: an edge may have two", refuse.edge(edge), end - k,
+      refuse("mesh-edge-of-many-triangles",
+             {"{} belongs to {} triangles, {} among them: an edge may have two", refuse.edge(edge), end - k,
               refuse.triangle(edge.triangle)},
              {"separate bodies that touch there, or remove inner walls"});
     }
     if (end - k == 2 && edge.runs_up == edges[k + 1].runs_up) {
-      refuse({"{} and triangle {}, which share {}, face opposite sides", refuse.triangle(edge.triangle),
+      refuse("mesh-normals-disagree",
+             {"{} and triangle {}, which share {}, face opposite sides", refuse.triangle(edge.triangle),
               edges[k + 1].triangle + 1, refuse.edge(edge)},
              {"turn one of them over (orient the normals consistently)"});
     }
@@ -173,7 +176,8 @@ void turn_outwards(TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, c
     bool is_cavity = false;
     for (int q = 0; q < count; ++q) is_cavity = is_cavity || (volume[q] > 0.0 && box[q].contains(box[p]));
     if (is_cavity) continue;
-    refuse({"the part that begins with {} is inside out, unlike the rest of the file", refuse.triangle(first[p])},
+    refuse("mesh-part-inside-out",
+           {"the part that begins with {} is inside out, unlike the rest of the file", refuse.triangle(first[p])},
            {"turn its triangles over"});
   }
 }
@@ -188,7 +192,8 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
   }
   const double upward = up.dot(sum) / area;
   if (std::abs(upward) < least_upward_share) {
-    refuse({"neither side of the mesh is above the other, because as much of it faces up as down"},
+    refuse("mesh-without-upper-side",
+           {"neither side of the mesh is above the other, because as much of it faces up as down"},
            {"give fluid_side = \"front\" or \"back\""});
   }
   if (upward < 0.0) turn_over(mesh);
@@ -204,7 +209,8 @@ class SoundMesh {
     for (const Vec<3>& x : mesh.points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
     const double round_off = file_precision * farthest * file.scale;
     if (round_off > largest_round_off * spec.particles.spacing) {
-      refuse({"its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g}, too coarse "
+      refuse("mesh-far-from-origin",
+             {"its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g}, too coarse "
               "beside a spacing of {:.6g} m",
               farthest, Amount{round_off, "m"}, spec.particles.spacing},
              {"move the mesh to the origin before it is exported, or correct scale = {:g}", file.scale});
@@ -245,7 +251,7 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
   TriangleMesh& mesh = sound.mesh;
   if (table.shape == WallShape::plate) {
     if (sound.rim.empty()) {
-      sound.refuse({"is a closed mesh, and a plate is an open sheet with water on both sides"},
+      sound.refuse("plate-mesh-closed", {"is a closed mesh, and a plate is an open sheet with water on both sides"},
                    {"give shape = \"mesh\" with its fluid_side, or export only the sheet"});
     }
     return std::move(mesh);
@@ -253,13 +259,15 @@ TriangleMesh make_wall_mesh(const CaseSpec& spec, const WallTable& table, const 
   const bool is_body = table.fluid_side == FluidSide::inside || table.fluid_side == FluidSide::outside;
   if (is_body && !sound.rim.empty()) {
     sound.refuse(
+        "mesh-side-needs-closed",
         {"is not watertight, and fluid_side = \"{}\" needs a closed mesh: {}", name_of(table.fluid_side),
          sound.rim_text()},
         {"close the mesh, or give the side of an open one (\"above\", \"below\", \"front\" or \"back\"), or draw a "
          "sheet with water on both sides with shape = \"plate\""});
   }
   if (!is_body && sound.rim.empty()) {
-    sound.refuse({"is a closed mesh, so fluid_side = \"{}\" does not fit", name_of(table.fluid_side)},
+    sound.refuse("mesh-side-of-closed",
+                 {"is a closed mesh, so fluid_side = \"{}\" does not fit", name_of(table.fluid_side)},
                  {"give \"inside\" or \"outside\""});
   }
   const Vec<3> gravity = gravity_of<3>(spec);
@@ -286,7 +294,8 @@ TriangleMesh make_water_mesh(const CaseSpec& spec, const PlacedFile& file, const
                              const Box<3>& walls) {
   SoundMesh sound(spec, file, owner);
   if (!sound.rim.empty()) {
-    sound.refuse({"is not watertight, so that no inside holds the water: {}", sound.rim_text()}, {"close the mesh"});
+    sound.refuse("mesh-not-watertight", {"is not watertight, so that no inside holds the water: {}", sound.rim_text()},
+                 {"close the mesh"});
   }
   turn_outwards(sound.mesh, sound.edges, sound.refuse);
   Box<3> box;
@@ -294,7 +303,8 @@ TriangleMesh make_water_mesh(const CaseSpec& spec, const PlacedFile& file, const
   if (walls.isEmpty()) return std::move(sound.mesh);
   const Vec<3> beyond = Vec<3>::Constant(walls.diagonal().norm());
   if (!Box<3>(Vec<3>(walls.min() - beyond), Vec<3>(walls.max() + beyond)).contains(box)) {
-    sound.refuse({"reaches from {} to {}, far beyond the walls, which stand between {} and {}", place<3>(box.min()),
+    sound.refuse("mesh-far-beyond-walls",
+                 {"reaches from {} to {}, far beyond the walls, which stand between {} and {}", place<3>(box.min()),
                   place<3>(box.max()), place<3>(walls.min()), place<3>(walls.max())},
                  {"correct scale = {:g} (0.001 for a file in millimetres) or translate", file.scale});
   }

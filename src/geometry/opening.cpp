@@ -28,7 +28,7 @@ std::array<Vec<3>, 2> edges_between(const Vec<3>& from, const Vec<3>& to, double
     if (std::abs(diagonal[axis]) > tolerance) edges.push_back(diagonal[axis] * Vec<3>::Unit(axis));
   }
   if (edges.size() != 2) {
-    throw CaseError({"{} from {} to {} is not a flat rectangle", owner, place(from), place(to)},
+    throw CaseError("opening-not-flat", {"{} from {} to {} is not a flat rectangle", owner, place(from), place(to)},
                     {"in 3D give two opposite corners that have exactly one coordinate in common"});
   }
   return {edges[0], edges[1]};
@@ -118,7 +118,8 @@ void turn_to(const Vec<Dim>& direction, Opening<Dim>& opening) {
   opening.normal = across(opening.edges);
   const double sine = opening.normal.dot(direction);
   if (std::abs(sine) < least_sine) {
-    throw CaseError({"{} at {} lies along its direction {}, so it has no outside", opening.label(),
+    throw CaseError("opening-along-direction",
+                    {"{} at {} lies along its direction {}, so it has no outside", opening.label(),
                      place(opening.corner), vector_text(direction)},
                     {"give the direction in which the water goes, such as {} or {}", vector_text(opening.normal),
                      vector_text(Vec<Dim>(-opening.normal))});
@@ -134,7 +135,8 @@ void span(const Coordinates& from_key, const Coordinates& to_key, double spacing
   const Vec<Dim> to = to_vec<Dim>(to_key, owner, "to");
   const double tolerance = corner_tolerance * spacing;
   if ((to - from).norm() <= tolerance) {
-    throw CaseError({"{} has no extent: from and to are both at {}", owner, place(from)}, {"give its two ends"});
+    throw CaseError("opening-without-extent", {"{} has no extent: from and to are both at {}", owner, place(from)},
+                    {"give its two ends"});
   }
   opening.corner = from;
   opening.edges = edges_between(from, to, tolerance, owner);
@@ -192,13 +194,15 @@ std::vector<Vec<3>> corners_of_polygon(const Section& section, const CaseLabel& 
   normal.setZero();
   for (std::size_t k = 0; k < corners.size(); ++k) normal += corners[k].cross(corners[(k + 1) % corners.size()]);
   if (normal.norm() <= spacing * spacing) {
-    throw CaseError({"{}: its polygon encloses no area", owner}, {"give the corners of a flat polygon in order"});
+    throw CaseError("opening-without-area", {"{}: its polygon encloses no area", owner},
+                    {"give the corners of a flat polygon in order"});
   }
   normal.normalize();
   for (const Vec<3>& x : corners) {
     const double off = std::abs(normal.dot(x - corners[0]));
     if (off <= flat_within * spacing) continue;
-    throw CaseError({"{}: the corner {} of its polygon is {:.3g} out of the plane of the others", owner, place(x),
+    throw CaseError("opening-corners-off-plane",
+                    {"{}: the corner {} of its polygon is {:.3g} out of the plane of the others", owner, place(x),
                      Amount{off, "m"}},
                     {"give corners that lie in a plane"});
   }
@@ -219,7 +223,8 @@ std::vector<Vec<3>> corners_through_point(const Section& section, OpeningKind ki
   corners = section_around(make_boundary<3>(walls_alone), point, outwards,
                            upright_in_plane(direction, gravity_of<3>(spec)), spec.particles.spacing);
   if (corners.empty()) {
-    throw CaseError({"{}: no walls hold water in the plane through {} at right angles to {}", owner, place(point),
+    throw CaseError("opening-finds-no-walls",
+                    {"{}: no walls hold water in the plane through {} at right angles to {}", owner, place(point),
                      vector_text(direction)},
                     {"put the point between walls that reach its height, above the bed"});
   }

@@ -55,7 +55,8 @@ void require_few_patches(const Boundary<Dim>& boundary, double longest) {
   for (const WallFace<Dim>& face : boundary.faces) {
     if (face.wall == wall) box.extend(face.box());
   }
-  throw CaseError({"{}, which reaches from {} to {}, has {:.3g} patches of {:.3g}, in which forces on walls are "
+  throw CaseError("too-many-wall-patches",
+                  {"{}, which reaches from {} to {}, has {:.3g} patches of {:.3g}, in which forces on walls are "
                    "computed, and a case has at most {:.3g}",
                    wall_label(boundary, wall), place<Dim>(box.min()), place<Dim>(box.max()), *largest,
                    Amount{longest, "m"}, most_wall_patches},

@@ -78,7 +78,8 @@ FolderLock::FolderLock(const fs::path& folder) : path_(folder / lock_file_name) 
     if (file_ < 0) throw_io_error("write", path_, errno);
     if (take_lock(file_)) continue;
     if (errno == EWOULDBLOCK) throw_busy(std::exchange(file_, -1), folder);
-    warn("the file system of '{}' has no locks ({}): see to it that no two runs write into this folder",
+    warn("folder-without-locks",
+         "the file system of '{}' has no locks ({}): see to it that no two runs write into this folder",
          folder.string(), std::generic_category().message(errno));
     break;
   } while (!is_file(file_, path_));

@@ -73,6 +73,11 @@ void keep(std::string_view text) {
   }
 }
 
+void warn_line(const std::string& line) {
+  messages().warnings.push_back(line);
+  tell("warning: {}", line);
+}
+
 std::size_t terminal_columns() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
@@ -104,10 +109,9 @@ void tell(std::string_view line) {
   if (voice != Voice::silent) keep(text);
 }
 
-void warn(const std::string& line) {
-  messages().warnings.push_back(line);
-  tell("warning: {}", line);
-}
+void warn(MessageId id, std::string_view line) { warn_line(fmt::format("{} [{}]", line, id.text())); }
+
+void warn(const Finding& finding) { warn_line(finding.line()); }
 
 void tell_error(std::string_view message, std::string_view prefix) {
   std::string text;

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "base/finding.h"
+
 namespace tailwater {
 
 /// Call before any file is opened. Standard streams that are closed become /dev/null, since a file of results would
@@ -36,12 +38,14 @@ template <class First, class... Rest>
 void tell(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
   tell(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
 }
-/// Shows "warning: LINE", and keeps the line for `warnings`.
-void warn(const std::string& line);
+/// Shows "warning: LINE [ID]", and keeps this for `warnings`, without the word "warning".
+void warn(MessageId id, std::string_view line);
 template <class First, class... Rest>
-void warn(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
-  warn(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+void warn(MessageId id, fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+  warn(id, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
 }
+/// Shows and keeps the line of a finding, with its position in the case file.
+void warn(const Finding& finding);
 /// Shows "error: PREFIX LINE" for each line of the message, because a case may have several problems. Repeated lines
 /// are shown once.
 void tell_error(std::string_view message, std::string_view prefix = "");

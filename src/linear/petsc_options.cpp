@@ -122,7 +122,8 @@ std::vector<std::string> words_of(std::string options) {
 
 void require_harmless(const PressureSolverTable& settings) {
   const auto refuse = [&](const std::string& word, const char* remedy) {
-    throw CaseError({"{} = \"{}\": {} is not allowed", options_key, settings.petsc_options, word}, {"{}", remedy});
+    throw CaseError("petsc-option-not-allowed",
+                    {"{} = \"{}\": {} is not allowed", options_key, settings.petsc_options, word}, {"{}", remedy});
   };
   for (const std::string& word : words_of(settings.petsc_options)) {
     const auto has = [&](const char* part) { return word.find(part) != word.npos; };
@@ -173,11 +174,13 @@ void take_petsc_options(const PressureSolverTable& settings) {
     check_petsc(PetscOptionsInsertString(nullptr, settings.petsc_options.c_str()));
     ask_for_all_options(settings);
   } catch (const SolverError& error) {
-    throw CaseError({"{} = \"{}\": {}", options_key, settings.petsc_options, error.what()}, {"give other options"});
+    throw CaseError("petsc-options-not-readable",
+                    {"{} = \"{}\": {}", options_key, settings.petsc_options, error.what()}, {"give other options"});
   }
   const std::vector<std::string> unused = unused_options(settings);
   if (unused.empty()) return;
   throw CaseError(
+      "petsc-option-unknown",
       {"{} = \"{}\": PETSc's solver has no option {}", options_key, settings.petsc_options, fmt::join(unused, ", ")},
       {"give options of its KSP and PC with the prefix pressure_, as in \"-pressure_ksp_type fgmres\""});
 }

@@ -32,7 +32,8 @@ std::vector<double> profile_values(Formula& formula, int parts, const CaseLabel&
     const double share = (k + 0.5) / parts;
     values.push_back(formula.at(std::array{share}));
     if (!std::isfinite(values.back())) {
-      throw CaseError({"{} has no finite value at s = {:.4g}", owner.with_key("profile"), share},
+      throw CaseError("inlet-profile-not-finite",
+                      {"{} has no finite value at s = {:.4g}", owner.with_key("profile"), share},
                       {"give an expression that has one everywhere from the bed, s = 0, to the surface, s = 1"});
     }
   }
@@ -54,13 +55,15 @@ std::vector<double> tabulated_profile(const std::optional<Varying>& profile, con
   const double mean = mean_of(values);
   if (mean <= 0.0) {
     throw CaseError(
+        "inlet-profile-mean",
         {"{} has the mean {:.4g}; a discharge or a velocity below 0 lets water out", owner.with_key("profile"), mean},
         {"give one whose mean is above 0"});
   }
   const double finer = mean_of(profile_values(formula, 2 * profile_parts, owner));
   if (std::abs(finer - mean) > most_change_of_mean * mean) {
     const bool at_bed = std::abs(values.front()) > std::abs(values.back());
-    throw CaseError({"{} grows without bound towards s = {}, so that it has no mean", owner.with_key("profile"),
+    throw CaseError("inlet-profile-unbounded",
+                    {"{} grows without bound towards s = {}, so that it has no mean", owner.with_key("profile"),
                      at_bed ? "0, the bed" : "1, the surface"},
                     {"give an expression with an end there, such as min(10, ...)"});
   }

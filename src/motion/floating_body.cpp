@@ -138,6 +138,29 @@ std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec) {
   return moorings;
 }
 
+namespace {
+
+/// Speed that a unit impulse gives the place x of a body as drawn, at most [1/kg].
+template <int Dim>
+double mobility_at(const FloatingBody<Dim>& body, const Vec<Dim>& x) {
+  const auto is_turn = [](int entry) { return entry >= Dim; };
+  const bool turns_at_all = std::ranges::any_of(body.free, is_turn);
+  const bool goes = !std::ranges::all_of(body.free, is_turn);
+  return (goes ? 1.0 / body.mass : 0.0) +
+         (turns_at_all ? (x - body.drawn.centre).squaredNorm() / body.inertia.minCoeff() : 0.0);
+}
+
+}  // namespace
+
+template <int Dim>
+double frequency_of(const Mooring<Dim>& mooring, const std::vector<FloatingBody<Dim>>& bodies) {
+  double mobility = mobility_at<Dim>(bodies[mooring.body], mooring.at);
+  if (mooring.to_body >= 0) mobility += mobility_at<Dim>(bodies[mooring.to_body], mooring.anchor);
+  return std::sqrt(mooring.stiffness * mobility);
+}
+
+template double frequency_of<2>(const Mooring<2>&, const std::vector<FloatingBody<2>>&);
+template double frequency_of<3>(const Mooring<3>&, const std::vector<FloatingBody<3>>&);
 template struct BodyState<2>;
 template struct BodyState<3>;
 template struct FloatingBody<2>;

@@ -114,4 +114,11 @@ std::vector<int> bodies_of_walls(const std::vector<FloatingBody<Dim>>& bodies, s
 template <int Dim>
 std::vector<Mooring<Dim>> make_moorings(const CaseSpec& spec);
 
+/// Longest step over 1/frequency of a line or spring with its load: its force is that of the start of the step.
+inline constexpr double longest_step_of_springs = 0.5;
+
+/// Largest angular frequency [1/s] of a line with the bodies at its ends as drawn; 0 if none of them gives way to it.
+template <int Dim>
+double frequency_of(const Mooring<Dim>& mooring, const std::vector<FloatingBody<Dim>>& bodies);
+
 }  // namespace tailwater

@@ -57,10 +57,8 @@ typename WrittenMotion<Dim>::Component WrittenMotion<Dim>::make_component(const 
 template <int Dim>
 WrittenMotion<Dim>::WrittenMotion(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner)
     : rotation_(make_component(spec, table.rotation)) {
-  if (!table.displacement.empty() && table.displacement.size() != Dim) {
-    throw CaseError({"{} has {} components but the case has {} dimensions", owner.with_key("displacement"),
-                     table.displacement.size(), Dim},
-                    {"give one per dimension"});
+  if (!table.displacement.empty()) {
+    require_dimension<Dim>(table.displacement.size(), owner.with_key("displacement"));
   }
   for (const Varying& component : table.displacement) displacement_.push_back(make_component(spec, component));
 }

@@ -50,7 +50,8 @@ WaveField::WaveField(const WaveKeys& waves, const CaseLabel& owner, double depth
   if (waves.waves == WaveKind::regular) {
     const std::optional<RegularWave> wave = RegularWave::solve({waves.height, waves.period, depth, gravity, transport});
     if (!wave) {
-      throw CaseError({"{} of {:.4g} is too much for the period of {:.4g} s in water {:.4g} m deep: such waves break",
+      throw CaseError("zone-waves-break",
+                      {"{} of {:.4g} is too much for the period of {:.4g} s in water {:.4g} m deep: such waves break",
                        owner.with_key("height"), Amount{waves.height, "m"}, waves.period, depth},
                       {"give a smaller height, or a longer period"});
     }

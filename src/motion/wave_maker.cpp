@@ -183,24 +183,27 @@ WavePlate<Dim>::WavePlate(const CaseSpec& spec, const WaveMakerTable& maker)
   const Vec<Dim> to = to_vec<Dim>(maker.to, owner, "to");
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.norm() == 0.0) {
-    throw CaseError({"{}: without gravity there are no waves", owner}, {"give physics.gravity"});
+    throw CaseError("maker-without-gravity", {"{}: without gravity there are no waves", owner},
+                    {"give physics.gravity"});
   }
   up = -gravity.normalized();
   const auto side = static_cast<int>(maker.side);
   forward = (side % 2 == 0 ? 1.0 : -1.0) * Vec<Dim>::Unit(side / 2);
   if (std::abs(forward.dot(up)) > 1e-9) {
-    throw CaseError({"{} lies flat, but a plate that makes waves stands upright", owner},
+    throw CaseError("maker-lies-flat", {"{} lies flat, but a plate that makes waves stands upright", owner},
                     {"give `from` and `to` on an upright {}", Dim == 2 ? "segment" : "rectangle"});
   }
   if (up.dot(to - from) < depth) {
-    throw CaseError({"{}: its top is {:.4g} above its foot, below the still water's level of {:.4g} m", owner,
+    throw CaseError("maker-below-level",
+                    {"{}: its top is {:.4g} above its foot, below the still water's level of {:.4g} m", owner,
                      Amount{up.dot(to - from), "m"}, depth},
                     {"give a higher `to`, the foot as `from`, or correct depth"});
   }
   if (maker.waves == WaveKind::regular) {
     const double highest = breaking_height(2.0 * std::numbers::pi / maker.period, gravity.norm(), depth);
     if (maker.height > highest) {
-      throw CaseError({"{} of {:.4g} is too much for its period of {:.4g} s: such waves break at {:.4g} m",
+      throw CaseError("maker-waves-break",
+                      {"{} of {:.4g} is too much for its period of {:.4g} s: such waves break at {:.4g} m",
                        owner.with_key("height"), Amount{maker.height, "m"}, maker.period, highest},
                       {"give a smaller height, or a longer period"});
     }

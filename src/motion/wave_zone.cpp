@@ -149,13 +149,15 @@ WaveZone<Dim>::WaveZone(const CaseSpec& spec, const DampingTable& table)
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   const std::optional<ZoneWaves> waves = waves_at(spec, table);
   if (strength_ == 0.0 && (!waves || gravity.norm() == 0.0)) {
-    throw CaseError({"{}: without a strength, the zone needs the period and the depth of its waves", owner},
+    throw CaseError("damping-without-strength",
+                    {"{}: without a strength, the zone needs the period and the depth of its waves", owner},
                     {"give strength, or period and depth"});
   }
   if (strength_ == 0.0) strength_ = strength_of(table, *waves, gravity.norm());
   if (table.waves == WaveKind::none) return;
   if (gravity.norm() == 0.0 || std::abs(gravity[axis_]) > 1e-9 * gravity.norm()) {
-    throw CaseError({"{}: its waves run along gravity", owner}, {"give a horizontal direction in towards"});
+    throw CaseError("damping-along-gravity", {"{}: its waves run along gravity", owner},
+                    {"give a horizontal direction in towards"});
   }
   up_ = -gravity.normalized();
   bed_ = table.level - waves->depth;

@@ -53,6 +53,7 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
     const std::string label = end.opening.label().text();
     if (state.miss.since >= 0.0 && is_first(label + ": level")) {
       tailwater::warn(
+          "level-not-held",
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
           "spacing of {:.3g} m; remedy: make the opening wider or deeper, or change levels and discharges more slowly",
           label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", end.spacing);
@@ -61,7 +62,8 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
     const double columns = columns_that_wait * end.spacing * end.area_below(state.depth);
     const bool falls_short = std::abs(missing) > most_missing * state.asked_total + columns;
     if (end.flow.feeds() && falls_short && is_first(label + ": discharge")) {
-      tailwater::warn("{}", discharge_warning(label, flow.state.time, missing, state.asked, end.circuit >= 0));
+      tailwater::warn("discharge-not-met", "{}",
+                      discharge_warning(label, flow.state.time, missing, state.asked, end.circuit >= 0));
     }
   }
 }
@@ -74,7 +76,8 @@ void OpenEnds<Dim>::warn_at_end(const Flow<Dim>& flow) const {
     const std::string now =
         miss.lasts > 0.0 ? fmt::format("still {:.3g} m too {}", std::abs(miss.mean), miss.mean < 0.0 ? "low" : "high")
                          : "within a spacing again";
-    tailwater::warn("at t = {:.4g} s the level at {}, not held for {:.3g} s and off by {:.3g} m at the most, is {}",
+    tailwater::warn("level-off-at-end",
+                    "at t = {:.4g} s the level at {}, not held for {:.3g} s and off by {:.3g} m at the most, is {}",
                     flow.state.time, ends_[e].opening.label(), miss.total, std::abs(miss.most), now);
   }
 }

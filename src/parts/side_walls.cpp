@@ -18,7 +18,8 @@ void require_wide_channel(const SideWallLaw& law, const TimeStepRule& rule) {
   const double step = rule.largest(0.0, 0.0);
   const double least = std::sqrt(12.0 * law.viscosity * step);  // 12 nu/b^2 dt = 1
   if (law.width >= least) return;
-  throw CaseError({"{} = {:.6g}: between side walls so near to each other water comes to rest within a time step of "
+  throw CaseError("channel-too-narrow",
+                  {"{} = {:.6g}: between side walls so near to each other water comes to rest within a time step of "
                    "{:.3g} s",
                    CaseLabel("physics").with_key("channel_width"), Amount{law.width, "m"}, step},
                   {"give at least {:.3g} m, or 0 for none", least});

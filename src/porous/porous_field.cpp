@@ -89,6 +89,7 @@ PorousField<Dim>::PorousField(const CaseSpec& spec, const Boundary<Dim>& boundar
   for (const std::int64_t along : count_) nodes *= static_cast<double>(along);
   if (nodes > most_nodes) {
     throw CaseError(
+        "porous-layers-too-large",
         {"porous layers reach from {} to {}, which makes {:.3g} cells of half of particles.spacing = {:.6g} "
          "m; at most {:.3g} are kept",
          place<Dim>(box.min()), place<Dim>(box.max()), nodes, spec.particles.spacing, most_nodes},

@@ -40,6 +40,7 @@ void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim
       for (const Vec<Dim>& edge : opening.edges) x += next_share(edge.norm()) * edge;
       if (field.porosity_at(x) == 1.0) continue;
       throw CaseError(
+          "porous-layer-beyond-opening",
           {"{}: a porous layer is at {}, beyond the opening, where water enters and leaves as in open water",
            opening.label(), place<Dim>(x)},
           {"end the layer at the opening"});
@@ -56,7 +57,8 @@ void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary)
   for (const PorousTable& table : spec.porous) {
     const Box<Dim> layer = PorousRegion<Dim>(spec, table).box();
     if (box.intersects(layer)) continue;
-    throw CaseError({"{} reaches from {} to {}, outside of the walls, which stand between {} and {}",
+    throw CaseError("porous-layer-outside-walls",
+                    {"{} reaches from {} to {}, outside of the walls, which stand between {} and {}",
                      CaseLabel("porous", table.name), place<Dim>(layer.min()), place<Dim>(layer.max()),
                      place<Dim>(box.min()), place<Dim>(box.max())},
                     {"move it"});

@@ -15,7 +15,8 @@ std::size_t number_of_body(const ProbeTable& probe, const CaseSpec& spec) {
   if (body != spec.bodies.end()) return static_cast<std::size_t>(body - spec.bodies.begin());
   std::vector<std::string_view> names;
   for (const BodyTable& table : spec.bodies) names.push_back(table.name);
-  throw CaseError({"{} = \"{}\": there is no such body", label(probe).with_key("body"), probe.body},
+  throw CaseError("probe-body-unknown",
+                  {"{} = \"{}\": there is no such body", label(probe).with_key("body"), probe.body},
                   {"{}", unknown_name_hint(probe.body, names)});
 }
 

@@ -27,7 +27,8 @@ std::vector<std::uint8_t> named_walls(const ProbeTable& probe, const Boundary<Di
   for (const std::string& name : probe.walls) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
-      throw CaseError({"{} has \"{}\", and no wall of the case has this name", label(probe).with_key("walls"), name},
+      throw CaseError("probe-wall-unknown",
+                      {"{} has \"{}\", and no wall of the case has this name", label(probe).with_key("walls"), name},
                       {"{}", unknown_name_hint(name, known)});
     }
     named[static_cast<std::size_t>(found - known.begin())] = 1;
@@ -58,7 +59,8 @@ ChosenWalls<Dim>::ChosenWalls(const ProbeTable& probe, const CaseSpec& spec, con
 template <int Dim>
 std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary,
                                   std::span<const WallPatch<Dim>> patches) {
-  if (patches.empty()) throw CaseError({"{}: the case has no wall", label(probe)}, {"remove the probe"});
+  if (patches.empty())
+    throw CaseError("probe-without-wall", {"{}: the case has no wall", label(probe)}, {"remove the probe"});
   const ChosenWalls<Dim> chosen(probe, spec, boundary);
   const double spacing = spec.particles.spacing;
   std::vector<double> shares(patches.size(), 0.0);
@@ -80,7 +82,8 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
     for (const WallFace<Dim>& face : boundary.faces) {
       if (chosen.is_named(face.wall)) box.extend(face.box());
     }
-    throw CaseError({"{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn",
+    throw CaseError("probe-region-without-wall",
+                    {"{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn",
                      label(probe), place<Dim>(box.min()), place<Dim>(box.max())},
                     {"choose region_min and region_max around the part you mean"});
   }

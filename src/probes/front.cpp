@@ -70,7 +70,8 @@ Reading<Dim> front_reading(const ProbeTable& probe) {
   Vec<Dim> direction = Vec<Dim>::UnitX();
   if (!probe.direction.empty()) direction = to_vec<Dim>(probe.direction, label(probe), "direction");
   if (direction.norm() == 0.0) {
-    throw CaseError({"{} = {} has no length", label(probe).with_key("direction"), vector_text(direction)},
+    throw CaseError("probe-direction-zero",
+                    {"{} = {} has no length", label(probe).with_key("direction"), vector_text(direction)},
                     {"give the direction of the front, as (1, 0)"});
   }
   direction.normalize();

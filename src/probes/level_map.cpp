@@ -35,7 +35,8 @@ struct LevelMap {
     double places_asked_for = 1.0;
     for (int d = 0; d < Dim - 1; ++d) {
       if (from[d] == to[d]) {
-        throw CaseError({"{}: from and to have the same {}, so the map has no extent", label(probe), "xy"[d]},
+        throw CaseError("level-map-without-extent",
+                        {"{}: from and to have the same {}, so the map has no extent", label(probe), "xy"[d]},
                         {"give two corners"});
       }
       places_asked_for *= std::max(1.0, std::abs(to[d] - from[d]) / step);

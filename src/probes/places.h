@@ -13,7 +13,8 @@ namespace tailwater {
 inline double step_of(const ProbeTable& probe, double spacing) {
   constexpr double least = 0.1;  // dx
   if (probe.step > 0.0 && probe.step < least * spacing) {
-    throw CaseError({"{} = {} is below {} dx = {:.4g} m, which particles cannot resolve", label(probe).with_key("step"),
+    throw CaseError("probe-step-too-small",
+                    {"{} = {} is below {} dx = {:.4g} m, which particles cannot resolve", label(probe).with_key("step"),
                      Amount{probe.step, "m"}, least, least * spacing},
                     {"make it larger"});
   }
@@ -26,7 +27,8 @@ inline constexpr double most_places = 1e6;
 /// Throws CaseError if there are too many places, before memory is requested for them.
 inline void require_few_places(const ProbeTable& probe, double places) {
   if (places <= most_places) return;
-  throw CaseError({"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places, most_places},
+  throw CaseError("probe-too-many-places",
+                  {"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places, most_places},
                   {"give a larger step, or a smaller part of the channel"});
 }
 

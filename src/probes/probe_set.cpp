@@ -50,7 +50,7 @@ Reading<Dim> volume_reading(const ProbeTable& probe) {
 template <int Dim>
 Reading<Dim> pockets_reading(const ProbeTable& probe, const CaseSpec& spec) {
   if (spec.air.pockets == AirPockets::none) {
-    throw CaseError({"{} reads enclosed air, which this case does not compute", label(probe)},
+    throw CaseError("probe-needs-air", {"{} reads enclosed air, which this case does not compute", label(probe)},
                     {"give pockets = \"{}\" in [air], or remove the probe", name_of(AirPockets::adiabatic)});
   }
   return {columns_of(probe, Dim), [](const ProbeContext<Dim>& context) -> std::vector<Row> {

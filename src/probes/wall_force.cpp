@@ -350,7 +350,8 @@ struct ForceMemory {
 void require_reactions(const ProbeTable& probe, const CaseSpec& spec) {
   const std::string_view why = traits_of(spec).no_reaction;
   if (why.empty()) return;
-  throw CaseError({"{} = \"force\" does not go with this formulation: {}", label(probe).with_key("type"), why},
+  throw CaseError("force-needs-robust",
+                  {"{} = \"force\" does not go with this formulation: {}", label(probe).with_key("type"), why},
                   {"choose scheme.formulation = \"robust\", or measure with type = \"wall-pressure-mean\""});
 }
 

@@ -30,7 +30,8 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   const double support = traits_of(spec).support * spec.particles.spacing;
   const NearestWall<Dim> nearest = boundary.nearest(x, support);
   if (nearest.face < 0) {
-    throw CaseError({"{}: no wall within {:.4g} m (the kernel's support) of {}", label(probe), support, place(x)},
+    throw CaseError("probe-off-wall",
+                    {"{}: no wall within {:.4g} m (the kernel's support) of {}", label(probe), support, place(x)},
                     {"move it onto a wall"});
   }
   const int wall = boundary.faces[nearest.face].wall;
@@ -39,6 +40,7 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
     const double tolerance = corner_tolerance * spec.particles.spacing;
     if (nearest.signed_distance <= tolerance) {
       throw CaseError(
+          "probe-on-plate",
           {"{}: {} is on {}, a plate that has water on both sides", label(probe), place(x), wall_label(boundary, wall)},
           {"move it by a millimetre to the side that is meant"});
     }
@@ -48,11 +50,13 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
   const Drive& drive = spec.walls[wall].drive;
   if (drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active) {
     throw CaseError(
-        {"{}: {} gives way to waves, and a probe cannot follow it", label(probe), wall_label(boundary, wall)},
+        "probe-on-absorbing-wall",
+        {"{}: {} absorbs waves by moving, and a probe cannot follow it", label(probe), wall_label(boundary, wall)},
         {"move the probe, or give absorption = \"none\""});
   }
   if (drive.by == Drive::By::body) {
-    throw CaseError({"{}: {} belongs to body '{}', which the water moves, and a probe cannot follow it", label(probe),
+    throw CaseError("probe-on-body",
+                    {"{}: {} belongs to body '{}', which the water moves, and a probe cannot follow it", label(probe),
                      wall_label(boundary, wall), spec.bodies[drive.index].name},
                     {"move the probe, or take type = \"force\" with a region"});
   }
@@ -107,7 +111,8 @@ std::vector<Vec<Dim>> places_on_strip(const ProbeTable& probe, const CaseSpec& s
   std::vector<Vec<Dim>> line = places_between<Dim>(probe, step);
   if (probe.width == 0.0) return line;
   if constexpr (Dim == 2) {
-    throw CaseError({"{} = {}: a wall in 2D has no width", label(probe).with_key("width"), Amount{probe.width, "m"}},
+    throw CaseError("probe-width-in-2d",
+                    {"{} = {}: a wall in 2D has no width", label(probe).with_key("width"), Amount{probe.width, "m"}},
                     {"leave it out"});
   } else {
     const Vec<3> along = to_vec<3>(probe.to, label(probe), "to") - to_vec<3>(probe.from, label(probe), "from");

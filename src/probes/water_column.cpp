@@ -40,7 +40,8 @@ std::shared_ptr<const WallPath<Dim>> path_of_bed(const ProbeTable& probe, const 
   const bool gives_way =
       drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active;
   if (gives_way || drive.by == Drive::By::body) {
-    throw CaseError({"{}: its bed is {}, which the water moves, and a probe cannot follow it", label(probe),
+    throw CaseError("probe-bed-moves",
+                    {"{}: its bed is {}, which the water moves, and a probe cannot follow it", label(probe),
                      wall_label(boundary, wall)},
                     {"move the probe"});
   }
@@ -149,7 +150,8 @@ template <int Dim>
 Vec<Dim> upwards(const ProbeTable& probe, const CaseSpec& spec) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.norm() == 0.0) {
-    throw CaseError({"{} measures depths against gravity, but physics.gravity is 0", label(probe)},
+    throw CaseError("depth-without-gravity",
+                    {"{} measures depths against gravity, but physics.gravity is 0", label(probe)},
                     {"set gravity or remove the probe"});
   }
   return -gravity.normalized();
@@ -166,7 +168,8 @@ UprightGauge<Dim>::UprightGauge(const ProbeTable& probe, const Vec<Dim>& at, con
   const auto is_bed = [&](const Crossing<Dim>& crossing) { return crossing.normal.dot(drawn_.up) > 0.0; };
   const auto bed = std::find_if(drawn_.crossings.rbegin(), drawn_.crossings.rend(), is_bed);  // the lowest
   if (bed == drawn_.crossings.rend()) {
-    throw CaseError({"{}: the vertical line through {} meets no wall that faces up", label(probe), place(at)},
+    throw CaseError("depth-without-bed",
+                    {"{}: the vertical line through {} meets no wall that faces up", label(probe), place(at)},
                     {"move it over a bed"});
   }
   path_ = path_of_bed(probe, spec, boundary, bed->wall);

@@ -48,7 +48,8 @@ Box<Dim> box_of(const CaseSpec& spec, const RefinementTable& table, const Bounda
     return {to_vec<Dim>(table.min, owner, "min"), to_vec<Dim>(table.max, owner, "max")};
   }
   if (spec.fluid.empty()) {
-    throw CaseError({"{} follows the surface of the water, and there is no water at the start", owner},
+    throw CaseError("zone-without-surface",
+                    {"{} follows the surface of the water, and there is no water at the start", owner},
                     {"give shape = \"box\""});
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -69,7 +69,7 @@ void ResultLimits::check(Limit& limit, double time, double error, double harmles
   }
   if (limit.warning > 0.0 && error > std::max(limit.warning, harmless) && limit.told == 0.0) {
     limit.told = growth;
-    warn(describe("warning", limit.warning));
+    warn("balance-limit-passed", describe("warning", limit.warning));
   }
 }
 
@@ -77,7 +77,7 @@ void ResultLimits::warn_of_largest() {
   for (Limit* limit : {&energy_, &volume_}) {
     if (limit->told == 0.0 || limit->largest <= worth_telling * limit->told) continue;
     limit->told = limit->largest;
-    warn("until t = {:.4f} s {}, the most in this run", limit->time_of_largest,
+    warn("balance-worst", "until t = {:.4f} s {}, the most in this run", limit->time_of_largest,
          fmt::format(fmt::runtime(limit->most), 100.0 * limit->largest));
   }
 }

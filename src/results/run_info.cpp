@@ -211,7 +211,11 @@ Json read_summary(const fs::path& run) {
   const fs::path path = run / summary_name;
   std::ifstream file = open_input_file(path);
   if (!file) {
-    throw IoError("cannot read '{}'; is '{}' the folder of a run?", path.string(), run.string());
+    std::error_code ignored;
+    if (fs::exists(run / effective_case_name, ignored)) throw IoError("cannot read '{}'", path.string());
+    throw InputError(
+        "'{}' is not the folder of a run: it has no {}; remedy: name the folder that a run was given by --out",
+        run.string(), summary_name);
   }
   Json summary = Json::parse(file, nullptr, false);
   if (summary.is_discarded()) throw IoError("'{}' is not valid JSON", path.string());
@@ -276,7 +280,7 @@ std::vector<InfoLine> summary_digest(const Json& summary) {
 Json run_info(const fs::path& run) {
   try {
     return info_from(run, read_summary(run));
-  } catch (const IoError&) {
+  } catch (const UserError&) {
   } catch (const Json::exception&) {
   }
   return {{"state", "waiting"},

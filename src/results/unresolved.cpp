@@ -54,7 +54,7 @@ double coarsest_at(const Setup<Dim>& setup, const ProbeTable& probe) {
 }  // namespace
 
 template <int Dim>
-std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder, const Setup<Dim>& setup) {
+Findings unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder, const Setup<Dim>& setup) {
   const auto makes_waves = [](const WaveKeys& waves) { return waves.waves != WaveKind::none; };
   const bool has_waves =
       std::ranges::any_of(spec.wave_makers, makes_waves) || std::ranges::any_of(spec.damping, makes_waves);
@@ -72,18 +72,18 @@ std::vector<std::string> unresolved_surfaces(const CaseSpec& spec, const RunFold
       waves.add(probe.name, motion, dx);
     }
   }
-  std::vector<std::string> lines;
-  const auto add_line = [&](const Gauges& gauges, std::string_view what, std::string_view thing) {
+  Findings findings;
+  const auto add = [&](const Gauges& gauges, std::string_view what, std::string_view thing) {
     if (gauges.names.empty()) return;
-    lines.push_back(fmt::format(
-        "at {} {} {:.3g} m or less, {:.2g} spacings: {} of less than {:g} spacings are not resolved; remedy: use a "
-        "spacing of at most {:.3g} m",
-        gauges.text(), what, gauges.largest, gauges.rows, thing, lowest_resolved_wave,
-        0.99 * gauges.largest / lowest_resolved_wave));
+    findings.push_back(
+        Finding::warning("surface-not-resolved",
+                         {"at {} {} {:.3g} m or less, {:.2g} spacings: {} of less than {:g} spacings are not resolved",
+                          gauges.text(), what, gauges.largest, gauges.rows, thing, lowest_resolved_wave},
+                         {"remedy: use a spacing of at most {:.3g} m", 0.99 * gauges.largest / lowest_resolved_wave}));
   };
-  add_line(waves, "the surface moved by", "waves");
-  add_line(films, "the largest depth was", "films");
-  return lines;
+  add(waves, "the surface moved by", "waves");
+  add(films, "the largest depth was", "films");
+  return findings;
 }
 
 TAILWATER_IN_2D_AND_3D(unresolved_surfaces);

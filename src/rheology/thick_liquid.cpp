@@ -236,6 +236,7 @@ void ThickLiquid<Dim>::warn(const Flow<Dim>& flow) {
   has_warned_ = true;
   const auto thickest = std::ranges::max_element(liquids_, {}, viscosity_at_rest);
   tailwater::warn(
+      "viscous-solve-not-converged",
       "the viscous forces at {:.6g} s did not converge within {} iterations; remedy: give liquid '{}' a smaller "
       "rest_viscosity",
       flow.state.time, max_iterations, thickest->name);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/box.h"
 #include "base/error.h"
 #include "base/for_each.h"
 #include "case/formulation.h"
@@ -125,10 +126,26 @@ double particles_of_zones(const CaseSpec& spec, const Boundary<Dim>& boundary, d
   return std::min(most, fluid / power<Dim>(field.finest()));
 }
 
-/// A hint for a case with a mesh, which may be drawn in another unit.
+/// m; cases that are longer and do not fit into memory are probably drawn in millimetres.
+constexpr double longest_of_flumes = 100.0;
+
+/// m; the longest extent of the water at the start and of the walls.
 template <int Dim>
-Clause length_of_longest_mesh(const Boundary<Dim>& boundary) {
+double length_of_case(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  Box<Dim> box = box_around(boundary.faces);
+  for (const FluidTable& block : spec.fluid) {
+    for (const Coordinates& corner : {block.min, block.max}) {
+      if (corner.size() == Dim) box.extend(Vec<Dim>(Vec<Dim>::Map(corner.data())));
+    }
+  }
+  return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+}
+
+/// A hint for a case that may be drawn in another unit.
+template <int Dim>
+Clause hint_of_unit(const Boundary<Dim>& boundary, double length_of_all) {
   Clause hint;
+  if (length_of_all > longest_of_flumes) hint = {", or divide all lengths by 1000 if they are in millimetres"};
   if constexpr (Dim == 3) {
     double longest = 0.0;
     for (const WallMesh& mesh : boundary.meshes) {
@@ -163,12 +180,14 @@ Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, doubl
   // The particles' memory is proportional to dx^-Dim.
   const double too_much = (needed - program_memory) / std::max(available - program_memory, 1.0);
   const double fitting = spec.particles.spacing * std::pow(too_much, 1.0 / Dim);
+  const double length = length_of_case(spec, boundary);
   return {Finding::error(
-      {"{} = {:.6g} makes {:.3g} fluid and {:.3g} wall particles, which need {:.3g} GB of memory, and "
-       "only {:.3g} GB are free",
-       CaseLabel("particles").with_key("spacing"), Amount{spec.particles.spacing, "m"}, count.fluid, count.wall,
+      "too-little-memory",
+      {"{} = {:.6g} makes {:.3g} fluid and {:.3g} wall particles in a case that is {:.4g} m long, which need {:.3g} GB "
+       "of memory, and only {:.3g} GB are free",
+       CaseLabel("particles").with_key("spacing"), Amount{spec.particles.spacing, "m"}, count.fluid, count.wall, length,
        needed / 1e9, available / 1e9},
-      {"use a spacing of at least {:.3g} m, or smaller shapes{}", fitting, length_of_longest_mesh(boundary)})};
+      {"use a spacing of at least {:.3g} m, or smaller shapes{}", fitting, hint_of_unit(boundary, length)})};
 }
 
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
@@ -176,7 +195,8 @@ void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
   // No quotient is used, since it may overflow for a mistyped end time.
   if (spec.time.end > most_steps * largest_step) {
     throw CaseError(
-        {"{} = {:g} is out of reach: steps of at most {:.3g} s make more than {:g} of them",
+        "end-out-of-reach",
+        {"{} = {:g} is out of reach: with time steps of at most {:.3g} s the run takes more than {:g} steps",
          CaseLabel("time").with_key("end"), Amount{spec.time.end, "s"}, largest_step, most_steps},
         {"give the end in seconds, at most {:.3g}, or a larger particles.spacing", most_steps * largest_step});
   }

@@ -55,7 +55,7 @@ std::optional<SealedFile> find_checkpoint(const RunOptions& options, fs::path& f
   for (const fs::path& path : checkpoints_in(options.out)) {
     try {
       SealedFile file = read_sealed_file(path);
-      if (!problems.empty()) warn("{}; going on from '{}'", problems, path.string());
+      if (!problems.empty()) warn("checkpoint-damaged", "{}; going on from '{}'", problems, path.string());
       found = path;
       return file;
     } catch (const IoError& error) {
@@ -78,7 +78,8 @@ void require_readable_format(const SealedFile& file, const fs::path& path) {
 /// Warns if another program wrote the checkpoint: it computes the same flow with other last digits.
 void tell_of_another_writer(const SealedFile& file) {
   if (file.writer == version_line()) return;
-  warn("the checkpoint was written by {}, and this is {}: perhaps not bit for bit the same", file.writer,
+  warn("checkpoint-of-other-version",
+       "the checkpoint was written by {}, and this is {}: the last digits of results may differ", file.writer,
        version_line());
 }
 

@@ -120,7 +120,7 @@ void require_sound_geometry_in(const CaseSpec& spec, const Communicator& ranks, 
     if (finding.severity == Severity::error) {
       errors.push_back(finding);
     } else if (warnings == CaseWarnings::told) {
-      warn(finding.line());
+      warn(finding);
     }
   }
   if (!errors.empty()) throw CaseError(errors);

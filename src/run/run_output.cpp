@@ -276,6 +276,7 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
   if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
   warn(
+      "water-left-walls",
       "at t = {:.4f} s {} fluid particle(s) left the walls for good; they are computed until they are below all walls, "
       "and counted in summary.json. Remedy: higher walls",
       flow.state.time, outside);
@@ -290,7 +291,7 @@ void RunOutput<Dim>::finish(const Flow<Dim>& flow, ExitCode code) {
   limits_.warn_of_largest();
   for (const auto& part : flow.parts) part->warn_at_end(flow);
   do_on_root(ranks_, [&] {
-    for (const std::string& line : unresolved_surfaces(spec_, folder_, flow.setup)) warn(line);
+    for (const Finding& finding : unresolved_surfaces(spec_, folder_, flow.setup)) warn(finding);
   });
   write_summary(flow, code == ExitCode::done ? "done" : "interrupted", code, "");
   tell_water(flow);

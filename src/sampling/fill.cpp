@@ -95,16 +95,18 @@ class Fill {
 
   void require_sound_seed() const {
     if (seed_[Dim - 1] >= level_) {
-      throw CaseError({"{}: seed {} is not below level = {:.6g}", owner_, place(seed_), level_},
+      throw CaseError("fill-seed-above-level",
+                      {"{}: seed {} is not below level = {:.6g}", owner_, place(seed_), level_},
                       {"put it into the water, or raise the level"});
     }
     const NearestWall<Dim> wall = boundary_.nearest(seed_, std::numeric_limits<double>::infinity());
     if (wall.face < 0) {
-      throw CaseError({"{} = \"fill\" needs walls that hold the water", owner_.with_key("shape")},
+      throw CaseError("fill-without-walls", {"{} = \"fill\" needs walls that hold the water", owner_.with_key("shape")},
                       {"draw them, or use a box"});
     }
     if (wall.signed_distance < 0.0) {
-      throw CaseError({"{}: seed {} is in {}, {:.6g} behind its surface at {}", owner_, place(seed_),
+      throw CaseError("fill-seed-in-wall",
+                      {"{}: seed {} is in {}, {:.6g} behind its surface at {}", owner_, place(seed_),
                        wall_label(boundary_, boundary_.faces[wall.face].wall), Amount{-wall.signed_distance, "m"},
                        place(wall.point)},
                       {"move it into the water, or give the wall the other fluid_side"});
@@ -149,7 +151,8 @@ class Fill {
       reached_.add(*first);
       return *first;
     }
-    throw CaseError({"{}: there is no space for a particle of spacing {:.6g} m at seed {}", owner_, dx_, place(seed_)},
+    throw CaseError("fill-seed-without-space",
+                    {"{}: there is no space for a particle of spacing {:.6g} m at seed {}", owner_, dx_, place(seed_)},
                     {"move it away from the walls, or use a smaller spacing"});
   }
 
@@ -158,6 +161,7 @@ class Fill {
     if (box_.exteriorDistance(x) <= tolerance_) return;
     const NearestWall<Dim> wall = boundary_.nearest(last, std::numeric_limits<double>::infinity());
     throw CaseError(
+        "fill-runs-out",
         {"{}: water at level = {:.6g} runs out of the case at {}, near {}: the level is above the rim there, "
          "or the walls have a gap",
          owner_, level_, place(last), wall_label(boundary_, boundary_.faces[wall.face].wall)},

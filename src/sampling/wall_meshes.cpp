@@ -91,6 +91,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
                    WallParticleCollector<3>& collector) {
   if (layers.starts_on_wall && !body.meshes.empty()) {
     throw CaseError(
+        "mesh-needs-robust",
         {"{} is a mesh, and wall particles stand behind a mesh, not on it", wall_label(body, body.meshes[0].wall)},
         {"choose scheme.formulation = \"robust\""});
   }

@@ -28,7 +28,7 @@ Box<Dim> box_around(const FluidTable& block, const CaseLabel& owner) {
   Box<Dim> box;
   if (block.shape == BlockShape::polygon) {
     if constexpr (Dim == 3) {
-      throw CaseError({"{} = \"polygon\" exists in 2D only", owner.with_key("shape")},
+      throw CaseError("block-shape-2d-only", {"{} = \"polygon\" exists in 2D only", owner.with_key("shape")},
                       {"in 3D use shape = \"box\", \"mesh\" or \"fill\""});
     } else {
       for (const Vec<2>& corner : outline_of(block, owner)) box.extend(corner);
@@ -39,7 +39,8 @@ Box<Dim> box_around(const FluidTable& block, const CaseLabel& owner) {
   }
   for (int axis = 0; axis < Dim; ++axis) {
     if (box.max()[axis] > box.min()[axis]) continue;
-    throw CaseError({"{} has no extent in {}: it starts at {} and ends at {}", owner, "xyz"[axis], box.min()[axis],
+    throw CaseError("block-without-extent",
+                    {"{} has no extent in {}: it starts at {} and ends at {}", owner, "xyz"[axis], box.min()[axis],
                      box.max()[axis]},
                     {"give an end that is greater than the start"});
   }

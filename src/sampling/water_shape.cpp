@@ -18,7 +18,7 @@ std::vector<Vec<2>> outline_of(const FluidTable& block, const CaseLabel& owner) 
     outline.push_back(to_vec<2>(block.points[k], owner, fmt::format("points[{}]", k)));
   }
   if (outline.size() < 3) {
-    throw CaseError({"{} has {} points", owner, outline.size()}, {"give a polygon at least 3"});
+    throw CaseError("block-too-few-points", {"{} has {} points", owner, outline.size()}, {"give a polygon at least 3"});
   }
   return outline;
 }

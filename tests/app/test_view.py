@@ -443,8 +443,8 @@ class OfACase(Viewed):
         self.assertEqual(wrong["findings"][0]["severity"], "error")
         self.assertIsNotNone(wrong["drawing"])
         thin = self.post("api/check", text.replace("max = [1, 0.5]", "max = [1, 0.05]"))["findings"][0]
-        self.assertEqual([thin[name] for name in ("table", "index", "key", "places", "value", "unit")],
-                         ["fluid", 0, "fluid", [[0, 0]], 0.05, "m"])
+        self.assertEqual([thin[name] for name in ("id", "table", "index", "key", "places", "value", "unit")],
+                         ["block-thinner-than-spacing", "fluid", 0, "fluid", [[0, 0]], 0.05, "m"])
         self.assertTrue(thin["message"].endswith(f"; {thin['remedy']}"), thin)
         self.assertEqual(text.splitlines()[thin["line"] - 1], "[[fluid]]")
         self.assertEqual(self.post("api/check", "[case")["findings"][0]["line"], 1)

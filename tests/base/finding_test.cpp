@@ -17,7 +17,8 @@ TEST(CaseLabel, UsesTheNameOrElseTheNumber) {
 TEST(Finding, TakesItsDataFromTheArgumentsOfTheProblem) {
   const MarkedPlace first{{0.5, 1e-13, 0.0}, 2};
   const Clause second{"{}", MarkedPlace{{1.0, 2.0, 0.0}, 2}};
-  const Finding finding = Finding::error({"{} is {:.2g} too thin at {} and {}, beside {}", bed.with_key("points"),
+  const Finding finding = Finding::error("bed-too-thin",
+                                         {"{} is {:.2g} too thin at {} and {}, beside {}", bed.with_key("points"),
                                           Amount{0.0123, "m"}, first, second, CaseLabel("fluid", "pond")},
                                          {"make it at least {} m thick", 0.5});
   EXPECT_EQ(finding.message(),
@@ -33,26 +34,27 @@ TEST(Finding, TakesItsDataFromTheArgumentsOfTheProblem) {
   EXPECT_EQ(finding.remedy, "make it at least 0.5 m thick");
 }
 
-TEST(Finding, BeginsWithItsPosition) {
-  Finding finding = Finding::warning({"the bed is dry"}, {});
-  EXPECT_EQ(finding.line(), "the bed is dry");
+TEST(Finding, BeginsWithItsPositionAndEndsWithItsId) {
+  Finding finding = Finding::warning("bed-dry", {"the bed is dry"}, {});
+  EXPECT_EQ(finding.line(), "the bed is dry [bed-dry]");
   finding.position = {"case.toml", 3};
-  EXPECT_EQ(finding.line(), "case.toml:3: the bed is dry");
+  EXPECT_EQ(finding.line(), "case.toml:3: the bed is dry [bed-dry]");
   finding.position.column = 7;
-  EXPECT_EQ(finding.line(), "case.toml:3:7: the bed is dry");
+  EXPECT_EQ(finding.line(), "case.toml:3:7: the bed is dry [bed-dry]");
 }
 
 TEST(CaseError, ShowsTheFirstFiftyFindings) {
-  const CaseError error(Findings(52, Finding::error({"the bed is dry"}, {"add water"})));
+  const CaseError error(Findings(52, Finding::error("bed-dry", {"the bed is dry"}, {"add water"})));
   const std::string text = error.what();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 49);
-  EXPECT_TRUE(text.ends_with("the bed is dry; add water (and 2 more problems)"));
+  EXPECT_TRUE(text.ends_with("the bed is dry; add water [bed-dry] (and 2 more problems)"));
   EXPECT_EQ(error.findings().size(), 52u);
 }
 
 TEST(MergeAlike, NamesAllTablesThatHaveTheSameFinding) {
   const auto hose = [](const std::string& name, double x, double depth) {
     return Finding::warning(
+        "bed-wet",
         {"{} is {:.2g} deep at {}", CaseLabel("inlet", name), Amount{depth, "m"}, MarkedPlace{{x, 0.0, 0.0}, 2}},
         {"use a smaller spacing"});
   };

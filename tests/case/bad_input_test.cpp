@@ -816,5 +816,17 @@ TEST(BadInput, ReportsAllProblemsInTheOrderOfTheFile) {
   }
 }
 
+TEST(BadInput, ReportsAnUnknownWallBesideTheProblemsOfOtherTables) {
+  const std::string message =
+      message_of(required_keys +
+                 "[[fluid]]\nmin = [0, 0]\nmax = [1, 1]\n[[wall]]\nname = \"hull\"\nshape = "
+                 "\"box\"\nfluid_side = \"outside\"\nmin = [0, 0]\nmax = [1, 1]\n[[body]]\nwalls = "
+                 "[\"hul\"]\nmass = 1\ncentre = [0.5, 0.5]\ninertia = [1]\n[physics]\ndensity = -1\n");
+  EXPECT_EQ(line_count(message), 2) << message;
+  EXPECT_NE(message.find("there is no wall \"hul\""), std::string::npos) << message;
+  EXPECT_NE(message.find("[name-unknown]"), std::string::npos) << message;
+  EXPECT_NE(message.find("physics.density"), std::string::npos) << message;
+}
+
 }  // namespace bad_input_test
 }  // namespace tailwater

@@ -181,7 +181,8 @@ TEST(CaseReader, LocatesFindingsByTableNameAndKey) {
                            "[[wall]]\nname = \"bed\"\npoints = [[0, 0],\n [1, 0]]\n# the end\n";
   const CaseSpec spec = read_case_text(text, "case.toml", {"time.end=2"});
   const auto position_of = [&](const CaseLabel& label) {
-    const Findings found = spec.sources.located({Finding::error({"{} is wrong", label}, {"correct it"})});
+    const Findings found =
+        spec.sources.located({Finding::error("label-wrong", {"{} is wrong", label}, {"correct it"})});
     return found[0].position.text() + (found[0].about.index ? fmt::format(" [{}]", *found[0].about.index) : "");
   };
   const CaseLabel bed("wall", "bed");

@@ -235,8 +235,9 @@ CaseSpec box_between_walls(double left, double right) {
 
 TEST(Check, BodyThatLetsNoWaterPass) {
   const CaseSpec narrow = box_between_walls(0.02, 1.98);
-  expect_only(check_body_gaps<2>(narrow, make_boundary<2>(narrow)), Severity::error,
-              {"body 'b' has gaps", "together 0.04 m", "wall 'wall1'", "0.8 spacings", "leave 0.152 m", "0.0132 m"});
+  expect_only(
+      check_body_gaps<2>(narrow, make_boundary<2>(narrow)), Severity::error,
+      {"both sides of body 'b'", "together 0.04 m", "wall 'wall1'", "0.8 spacings", "leave 0.152 m", "0.0132 m"});
   CaseSpec touching = box_between_walls(0.0, 2.0);
   expect_only(check_body_gaps<2>(touching, make_boundary<2>(touching)), Severity::error,
               {"together 0 m", "leave 0.152 m"});
@@ -648,6 +649,53 @@ TEST(Check, SpringsAndDampersOfFixedMotionsAreReported) {
   spec.bodies[0].damping.clear();
   spec.bodies[0].extra_mass = {0, 0, 2};
   expect_among(check(spec), Severity::warning, {"body 'boat': extra_mass has 2 for rotation"});
+}
+
+TEST(Check, SpringsThatNeedManyMoreStepsThanTheWaterAreReported) {
+  CaseSpec spec = tank_with_boat();
+  const auto slow = [&] { return check_springs<2>(spec, make_fluid_particles<2>(spec, make_boundary<2>(spec))); };
+  spec.bodies[0].springs = {0, 1e6, 0};  // period 0.063 s
+  EXPECT_TRUE(slow().empty()) << listed(slow());
+  spec.bodies[0].springs = {0, 1e12, 0};
+  expect_only(slow(), Severity::warning,
+              {"body 'boat': springs = 1e+12 swings its body with a period of 6.3e-05 s", "times as many steps"});
+  spec.bodies[0].free = {"x"};
+  EXPECT_TRUE(slow().empty()) << "the spring has no effect";
+  MooringTable line;
+  line.name = "chain";
+  line.bodies = {"boat"};
+  line.at = {0.5, 0.4};
+  line.anchor = {0.0, 0.0};
+  line.stiffness = 1e12;
+  spec.moorings = {line};
+  expect_only(slow(), Severity::warning, {"mooring 'chain': stiffness", "6.3e-05 s"});
+}
+
+TEST(Check, AFillThatLeavesASealedSpaceDryIsReported) {
+  CaseSpec spec = tank();
+  spec.particles.spacing = 0.02;
+  WallTable bell;
+  bell.name = "bell";
+  bell.shape = WallShape::polygon;
+  bell.fluid_side = FluidSide::outside;
+  bell.points = {{0.3, 0.0}, {0.4, 0.0}, {0.4, 0.2}, {0.6, 0.2}, {0.6, 0.0}, {0.7, 0.0}, {0.7, 0.3}, {0.3, 0.3}};
+  spec.walls.push_back(bell);
+  FluidTable& water = spec.fluid[0];
+  water.shape = BlockShape::fill;
+  water.seed = {0.1, 0.1};
+  water.level = 0.4;
+  const auto sealed = [&] {
+    const Boundary<2> boundary = make_boundary<2>(spec);
+    return check_sealed_space<2>(spec, boundary, make_fluid_particles<2>(spec, boundary));
+  };
+  expect_only(sealed(), Severity::warning, {"fluid 'fluid1' leaves 0.04 m^2 at (0.4", "wall 'bell'"});
+  spec.fluid.push_back(spec.fluid[0]);
+  spec.fluid[1].name = "below";
+  spec.fluid[1].seed = {0.5, 0.1};
+  EXPECT_TRUE(sealed().empty()) << listed(sealed());
+  spec.fluid.pop_back();
+  for (Coordinates& corner : spec.walls[1].points) corner[1] += 0.1;  // off the bed
+  EXPECT_TRUE(sealed().empty()) << listed(sealed());
 }
 
 TEST(Check, AMooringIsFastenedToItsBody) {

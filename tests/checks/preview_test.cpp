@@ -100,11 +100,13 @@ TEST(Preview, OfAFineMeshDoesNotDrawItsFaces) {
 TEST(BrokenCase, MarksThePlacesThatTheFindingNames) {
   const Clause edge{"the edge from {} to {}", place(Vec<3>(0.0, -1.5, 2e-5)), place(Vec<3>(1.0, 2.0, 3.25))};
   const CaseLabel wall("wall", "(4, 5, 6)");  // a name is no place
-  const auto found = places_of<3>({Finding::error({"{}: {} leaves triangle {}", wall, edge, 3}, {"turn it over"})});
+  const auto found =
+      places_of<3>({Finding::error("edge-open", {"{}: {} leaves triangle {}", wall, edge, 3}, {"turn it over"})});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0], Vec<3>(0.0, -1.5, 2e-5));
   EXPECT_EQ(found[1], Vec<3>(1.0, 2.0, 3.25));
-  EXPECT_TRUE(places_of<2>({Finding::error({"too much memory"}, {"use a larger spacing"})}).empty());
+  EXPECT_TRUE(
+      places_of<2>({Finding::error("too-little-memory", {"too much memory"}, {"use a larger spacing"})}).empty());
 }
 
 TEST(BrokenCase, ShowsTheTrianglesOfAMeshThatCannotBeAWall) {

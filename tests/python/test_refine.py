@@ -85,6 +85,7 @@ class Refine(unittest.TestCase):
         self.assertIn("--case FILE", self.command(self.run_folder)[2])
         self.assertIn("is not the folder of a run", self.command(self.folder, "--case", self.case)[2])
         self.assertEqual(self.command(self.folder / "no.toml")[0], 4)
+        self.assertEqual(self.command(self.folder / "nowhere")[0], 2)
         for words in (("--level", 5), ("--zones", 0)):
             with self.assertRaises(SystemExit) as end, contextlib.redirect_stderr(io.StringIO()):
                 refine.main([str(self.case), *map(str, words)])
@@ -96,7 +97,7 @@ class Refine(unittest.TestCase):
                          '[[liquid]]\nname = "mud"\nviscosity = 1.0\n')
         code, _, err = self.command(thick)
         self.assertEqual(code, 2)
-        self.assertIn("thick.toml: zones of refinement do not work with other liquids than water; ", err)
+        self.assertIn("thick.toml: zones of refinement do not work with other liquids than water; remedy: refine the whole case", err)
         self.assertFalse(Path("thick_coarse").exists())
 
     def test_water_that_is_thin_everywhere_needs_another_spacing(self):

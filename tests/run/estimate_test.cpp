@@ -46,6 +46,13 @@ TEST(CheckMemory, ATinySpacingIsAnErrorBeforeAnythingIsMade) {
                    {"particles.spacing = 1e-12 m", "1 GB are free", "at least"});
 }
 
+TEST(CheckMemory, ACaseThatIsDrawnInMillimetresIsToldSo) {
+  CaseSpec spec = tank();
+  spec.fluid = {box_fluid({0, 0}, {1000, 400})};
+  spec.particles.spacing = 0.001;
+  expect_one_error(check_memory(spec, make_boundary<2>(spec), 1e9), {"a case that is 1000 m long", "in millimetres"});
+}
+
 TEST(CheckMemory, TheSpacingItProposesFits) {
   CaseSpec spec = empty_case(1e-4);
   spec.fluid = {box_fluid({0, 0}, {1, 1})};

@@ -244,6 +244,7 @@ export interface Spec {
 
 export interface Finding {
   severity: "error" | "warning" | "note";
+  id?: string;
   line: number;
   column: number;
   end_column?: number;

@@ -154,6 +154,7 @@ function Found({ check, word, go }: { check: Check | null; word: string; go: (li
             <button disabled={f.line < 1} onClick={() => go(f.line)}>
               <strong>{f.severity}</strong>
               {f.line >= 1 ? `, line ${f.line}` : ""}: {f.message}
+              {f.id ? ` [${f.id}]` : ""}
             </button>
           </li>
         ))}
