@@ -21,10 +21,11 @@ For users who look up an error or a warning. Every error about a case and every 
     case.toml:9:1: the gap of 0.03 m between wall 'bed' and wall 'pier' at (1, 0) counts as closed, because it is
     narrower than half a spacing; let them touch, or for water that passes use a spacing of at most 0.006 m [gap-closed]
 
-Search this page for the id. An error stops the command, and a warning does not. `tailwater check --json` has the id
-under `id`, and the lines under `warnings` in `summary.json` end with it. `…` stands for names, places and numbers, and
-`key` for a key of the case file. [Troubleshooting](../guide/troubleshooting.md) explains the most frequent messages.
-`scripts/message_reference.py` writes this page from the source.
+Search this page for the id. An error stops the command, and a warning does not. Errors of the command line, of files
+and of the solver have no id. `tailwater check --json` has the id under `id`, and the lines under `warnings` in
+`summary.json` end with it. `…` stands for names, places and numbers, and `key` for a key of the case file.
+[Troubleshooting](../guide/troubleshooting.md) explains the most frequent messages. `scripts/message_reference.py`
+writes this page from the source.
 """
 # Title of a group: {file or folder of the source: its tables}, in the order of the page.
 GROUPS = {
