@@ -11,7 +11,7 @@ import sys
 from dataclasses import dataclass
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SOURCE = ROOT / "src"
+SOURCES = ROOT / "src", ROOT / "python"
 PAGE = ROOT / "docs" / "reference" / "messages.md"
 HEAD = """\
 # Messages
@@ -62,7 +62,7 @@ GROUPS = {
     "Cost, solver and machine": {"run/estimate": "`[particles]`, `[time]`", "linear/petsc_options": "`[pressure_solver]`",
                                  "app/ranks": "", "app/pictures": "", "app/check_command": "", "io/folder_lock": "",
                                  "run/resume": ""},
-    "During a run": {"results": "`[limits]`, `[[probe]]`", "run/run_output": "`[[wall]]`"},
+    "During a run": {"results": "`[limits]`, `[[probe]]`", "run/run_output": "`[[wall]]`", "module": ""},
 }
 # Messages that pass on another text.
 PASSED = {"case-not-readable": "the case cannot be read", "expression-invalid": "the place in the expression and its fault",
@@ -161,7 +161,8 @@ def message_at(found, source):
 
 
 def group_of(file):
-    name = str(file.relative_to(SOURCE).with_suffix(""))
+    source = next(folder for folder in SOURCES if file.is_relative_to(folder))
+    name = str(file.relative_to(source).with_suffix(""))
     for title, files in GROUPS.items():
         for key in (name, name.partition("/")[0]):
             if key in files:
@@ -172,7 +173,7 @@ def group_of(file):
 def collect():
     """{group: {id: (message, tables)}}. Throws SystemExit for an id or a message that is not unique."""
     groups, of_id, of_message = {title: {} for title in GROUPS}, {}, {}
-    for file in sorted([*SOURCE.rglob("*.cpp"), *SOURCE.rglob("*.h")]):
+    for file in sorted(file for folder in SOURCES for end in ("cpp", "h") for file in folder.rglob(f"*.{end}")):
         source = file.read_text(encoding="utf-8")
         for found in MADE.finditer(source):
             message, name = message_at(found, source), found["id"]

@@ -212,10 +212,10 @@ void PythonSimulation<Dim>::tell_of_script() {
   script_is_told_ = true;
   log_line(fmt::format("a script acts on the flow from t = {:.4f} s on", state().time));
   if (!output_) return;
-  warn(
-      fmt::format("a script acts on the flow from t = {:.4f} s on: the case file alone does not give these results, "
-                  "and tailwater resume goes on without the script",
-                  state().time));
+  warn("script-acts-on-flow",
+       "a script acts on the flow from t = {:.4f} s on: the case file alone does not give these results, and tailwater "
+       "resume goes on without the script",
+       state().time);
 }
 
 template class PythonSimulation<2>;

@@ -107,21 +107,25 @@ Findings check_carried(const CaseSpec& spec, const Boundary<Dim>& boundary, int 
   const CaseLabel by = wall_label(boundary, carrier);
   for (const WallProperties& wall : boundary.walls) {
     if (wall.body == boundary.walls[carrier].body || std::ranges::count(table.walls, wall.name) == 0) continue;
-    findings.push_back(Finding::error("zone-walls-move-apart", {"{} moves with {}, and '{}' does not move with that wall", owner, by, wall.name},
+    findings.push_back(Finding::error("zone-walls-move-apart",
+                                      {"{} moves with {}, and '{}' does not move with that wall", owner, by, wall.name},
                                       {"name walls of one body only, or give shape = \"box\""}));
   }
   if (spec.refinement.size() > 1) {
-    findings.push_back(Finding::error("moving-zone-not-alone", {"{} moves with {}: a zone that moves must be the only one", owner, by},
+    findings.push_back(Finding::error("moving-zone-not-alone",
+                                      {"{} moves with {}: a zone that moves must be the only one", owner, by},
                                       {"remove the others, or give a box that contains its path"}));
   }
   bool repeats = false;
   for (int axis = 0; axis < Dim; ++axis) repeats = repeats || !periodic_range(spec.domain, axis).empty();
   if (repeats) {
-    findings.push_back(Finding::error("moving-zone-in-periodic-domain", {"{} moves with {} in a domain that repeats", owner, by},
+    findings.push_back(Finding::error("moving-zone-in-periodic-domain",
+                                      {"{} moves with {} in a domain that repeats", owner, by},
                                       {"give shape = \"box\" with a box that contains its path"}));
   }
   if (const double least = clearance * spec.particles.spacing * std::exp2(-table.level); table.distance < least) {
-    findings.push_back(Finding::error("moving-zone-too-narrow", {"{} = {:.4g} is narrower than the supports beside walls that move",
+    findings.push_back(Finding::error("moving-zone-too-narrow",
+                                      {"{} = {:.4g} is narrower than the supports beside walls that move",
                                        owner.with_key("distance"), Amount{table.distance, "m"}},
                                       {"give at least {:.4g}", least}));
   }
@@ -202,7 +206,8 @@ Findings check_way(const CaseSpec& spec, const Boundary<Dim>& boundary, const Sp
   if (spec.walls[field.carrier()].drive.by == Drive::By::body) path.resize(1);
   const auto refuse_near = [&](const Box<Dim>& box, const CaseLabel& what) {
     if (!comes_near<Dim>(spec, zone, path, box)) return;
-    findings.push_back(Finding::error({"{} moves and comes within {:g} spacings of {}", owner, clearance, what},
+    findings.push_back(Finding::error("moving-zone-near-part",
+                                      {"{} moves and comes within {:g} spacings of {}", owner, clearance, what},
                                       {"reduce its distance, or give a box that contains both"}));
   };
   for (std::size_t w = 0; w < boundary.walls.size(); ++w) {
