@@ -7,6 +7,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "geometry/wall_label.h"
+#include "motion/floating_body.h"
 #include "refinement/zone_depth.h"
 
 namespace tailwater {
