@@ -8,8 +8,8 @@
 #include <span>
 
 #include "geometry/from_spec.h"
-#include "geometry/mesh_surface.h"
 #include "parallel/at_start.h"
+#include "sampling/cutter.h"
 
 namespace tailwater {
 namespace {
@@ -23,132 +23,6 @@ constexpr double max_misfit = 5e-3;
 
 /// [dx]; greatest depth behind a wall from which a particle is moved in front of it.
 constexpr double max_depth = 0.25;
-
-template <int Dim>
-Vec<Dim> centre_of(const Lattice<Dim>& lattice, const Cell<Dim>& cell) {
-  Vec<Dim> x;
-  for (int axis = 0; axis < Dim; ++axis) x[axis] = lattice[axis].centre(static_cast<int>(cell[axis]));
-  return x;
-}
-
-template <int Dim>
-Vec<Dim> edges_of(const Lattice<Dim>& lattice, const Cell<Dim>& cell) {
-  Vec<Dim> edge;
-  for (int axis = 0; axis < Dim; ++axis) edge[axis] = lattice[axis].width(static_cast<int>(cell[axis]));
-  return edge;
-}
-
-/// Computes how walls, and the surface of a block, cut cells.
-template <int Dim>
-class Cutter {
- public:
-  explicit Cutter(const BlockToFit<Dim>& block)
-      : boundary_(block.boundary),
-        shape_(block.shape),
-        lattice_(block.lattice.axes),
-        reach_(2.0 * block.spec.particles.spacing) {
-    plain_.walls = boundary_.walls;
-    boundary_.visit_plain_faces([&](int f) {
-      const WallFace<Dim>& face = boundary_.faces[f];
-      if (boundary_.plate_of(face.wall) >= 0) return;
-      plain_.faces.push_back(face);
-      cuts_.push_back(adapts_to_wall(block.spec, block.table, face));
-    });
-    plain_.file_faces(reach_);
-  }
-
-  /// Fraction of a cell that is in the block and in front of all walls, which count as flat over each part of the cell.
-  double fraction_of_water(const Cell<Dim>& cell) const {
-    return share(cell, [&](const Vec<Dim>& x, auto&& visit) {
-      visit_walls(x, visit);
-      visit_shape(x, visit);
-    });
-  }
-
-  /// Fraction of a cell that is in the block, without regard to walls. `holds_centre`: whether the cell's centre is in
-  /// it.
-  double fraction_of_shape(const Cell<Dim>& cell, bool holds_centre) const {
-    const double half = half_diagonal(cell);
-    bool is_near = false;
-    visit_shape(centre_of<Dim>(lattice_, cell),
-                [&](const Vec<Dim>&, double height) { is_near = std::abs(height) < half; });
-    if (!is_near) return holds_centre ? 1.0 : 0.0;
-    return share(cell, [&](const Vec<Dim>& x, auto&& visit) { visit_shape(x, visit); });
-  }
-
-  /// Height [m] of a cell's centre above the walls and the surface, negative behind any of them, infinite far from all.
-  double least_height(const Cell<Dim>& cell) const {
-    const Vec<Dim> x = centre_of<Dim>(lattice_, cell);
-    double least = std::numeric_limits<double>::infinity();
-    const auto see = [&](const Vec<Dim>&, double height) { least = std::min(least, height); };
-    visit_walls(x, see);
-    visit_shape(x, see);
-    return least;
-  }
-
-  double half_diagonal(const Cell<Dim>& cell) const { return 0.5 * edges_of<Dim>(lattice_, cell).norm(); }
-
- private:
-  template <class VisitNear>
-  double share(const Cell<Dim>& cell, VisitNear&& visit_near) const {
-    const Vec<Dim> centre = centre_of<Dim>(lattice_, cell);
-    const Vec<Dim> edge = edges_of<Dim>(lattice_, cell);
-    double least = std::numeric_limits<double>::infinity();
-    const auto share_of_part = [&](const Vec<Dim>& x, const Vec<Dim>& part) {
-      double share = 1.0;
-      visit_near(x, [&](const Vec<Dim>& normal, double height) {
-        share = std::min(share, part_in_front<Dim>(part, normal, height).share);
-        least = std::min(least, height);
-      });
-      return share;
-    };
-    const double whole = share_of_part(centre, edge);
-    if (whole <= 0.0 || least >= 0.5 * edge.norm()) return whole;
-    double sum = 0.0;
-    for_each_part<Dim>(centre, edge, [&](const Vec<Dim>& x, const Vec<Dim>& part) { sum += share_of_part(x, part); });
-    return sum / parts_of_cell<Dim>;
-  }
-
-  /// Calls visit(normal, height) for a surface, where `point` is its nearest point to x and `height` [m] that of x
-  /// above it.
-  template <class Visit>
-  void tell(const Vec<Dim>& x, const Vec<Dim>& point, double height, const Vec<Dim>& normal, Visit&& visit) const {
-    const bool is_on_it = std::abs(height) < corner_tolerance * reach_;
-    visit(is_on_it ? normal : Vec<Dim>((x - point) / height), height);
-  }
-
-  /// Calls visit(normal, height) for the nearest wall that is not a mesh, and for each mesh. A point behind a mesh may
-  /// be nearer to another wall, in front of it.
-  template <class Visit>
-  void visit_walls(const Vec<Dim>& x, Visit&& visit) const {
-    if (const NearestWall<Dim> wall = plain_.nearest(x, reach_); wall.face >= 0 && cuts_[wall.face]) {
-      tell(x, wall.point, wall.signed_distance, plain_.faces[wall.face].normal, visit);
-    }
-    if constexpr (Dim == 3) {
-      for (const WallMesh& mesh : boundary_.meshes) {
-        const Vec<3> moved = boundary_.displacement_of(mesh);
-        const SurfacePlace place = mesh.surface->nearest(x - moved, reach_);
-        if (place.triangle < 0 || place.is_on_rim) continue;
-        tell(x, place.point + moved, place.signed_distance, boundary_.faces[mesh.first_face + place.triangle].normal,
-             visit);
-      }
-    }
-  }
-
-  template <class Visit>
-  void visit_shape(const Vec<Dim>& x, Visit&& visit) const {
-    shape_.visit_surface(x, reach_, [&](const Vec<Dim>& point, double height, const Vec<Dim>& normal) {
-      tell(x, point, height, normal, visit);
-    });
-  }
-
-  const Boundary<Dim>& boundary_;
-  const WaterShape<Dim>& shape_;
-  const Lattice<Dim>& lattice_;
-  double reach_;            ///< m
-  Boundary<Dim> plain_;     ///< without meshes and plates
-  std::vector<bool> cuts_;  ///< for each face of `plain_`
-};
 
 }  // namespace
 
@@ -220,21 +94,22 @@ void take_levels(std::span<typename FittedCells<Dim>::Cut> alike, double wanted)
   }
 }
 
-/// Takes cells with the largest fractions until they have the volume (m^Dim). Cells of equal fraction, such as mirror
-/// images in a symmetric case, are all taken or all left out, whichever is nearer, if the error in volume is at most
-/// `max_missed` (m^Dim). Otherwise whole levels of them are taken.
+/// Takes cells or parts with the largest fractions until they have the volume (m^Dim). Cells of equal fraction, such as
+/// mirror images in a symmetric case, are all taken or all left out, whichever is nearer, if the error in volume is at
+/// most `max_missed` (m^Dim). Otherwise whole levels of them are taken.
 template <int Dim>
-void take_cells(const Lattice<Dim>& lattice, double volume, double max_missed,
-                std::vector<typename FittedCells<Dim>::Cut>& cells) {
+void take_cells(double volume, double max_missed, std::vector<typename FittedCells<Dim>::Cut>& cells) {
   using Cut = typename FittedCells<Dim>::Cut;
-  std::ranges::sort(cells, [](const Cut& a, const Cut& b) {
-    return a.share != b.share ? a.share > b.share : is_before<Dim>(a.cell, b.cell);
-  });
+  const auto precedes = [](const Cut& a, const Cut& b) {
+    return a.cell != b.cell ? is_before<Dim>(a.cell, b.cell) : a.part < b.part;
+  };
+  std::ranges::sort(
+      cells, [&](const Cut& a, const Cut& b) { return a.share != b.share ? a.share > b.share : precedes(a, b); });
   for (std::size_t k = 0; k < cells.size() && cells[k].share > 0.0 && volume > 0.0;) {
     const std::size_t begin = k;
     double of_alike = 0.0;
     do {
-      of_alike += edges_of<Dim>(lattice, cells[k++].cell).prod();
+      of_alike += cells[k++].volume;
     } while (k < cells.size() && cells[k - 1].share - cells[k].share < same_fraction);
     double wanted = std::min(1.0, volume / of_alike);
     const double nearer = std::round(wanted);
@@ -242,7 +117,7 @@ void take_cells(const Lattice<Dim>& lattice, double volume, double max_missed,
     take_levels<Dim>(std::span(cells).subspan(begin, k - begin), wanted);
     volume -= of_alike;
   }
-  std::ranges::sort(cells, [](const Cut& a, const Cut& b) { return is_before<Dim>(a.cell, b.cell); });
+  std::ranges::sort(cells, precedes);
 }
 
 /// Whether a neighbouring cell is reached by water.
@@ -278,20 +153,23 @@ struct ClassifiedCell {
 /// Classifies a cell whose centre is reached by water.
 template <int Dim>
 ClassifiedCell classify_reached(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const Cell<Dim>& cell) {
-  const double fraction = cutter.fraction_of_water(cell);
+  const CellBox<Dim> box(block.lattice.axes, cell);
+  const double fraction = cutter.fraction_of_water(box);
   if (fraction > 1.0 - same_fraction) return {CellUse::whole, true, fraction};
-  return {block.has_room(cell) ? CellUse::cut : CellUse::no_room, true, fraction};
+  return {block.has_room(box.centre, block.spec.particles.spacing) ? CellUse::cut : CellUse::no_room, true, fraction};
 }
 
 template <int Dim>
 ClassifiedCell classify(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const Cell<Dim>& cell) {
   if (block.is_reached(cell)) return classify_reached<Dim>(block, cutter, cell);
-  const double height = cutter.least_height(cell);
-  const bool is_cut = height < 0.0 && height > -cutter.half_diagonal(cell);
+  const CellBox<Dim> box(block.lattice.axes, cell);
+  const double height = cutter.least_height(box.centre);
+  const bool is_cut = height < 0.0 && height > -box.half_diagonal();
   if (!is_cut || !is_beside_water<Dim>(block, cell)) return {CellUse::dry};
-  const double fraction = cutter.fraction_of_water(cell);
+  const double fraction = cutter.fraction_of_water(box);
   if (fraction < same_fraction) return {CellUse::dry};
-  const bool can_be_particle = height > -max_depth * block.spec.particles.spacing && block.has_room(cell);
+  const double dx = block.spec.particles.spacing;
+  const bool can_be_particle = height > -max_depth * dx && block.has_room(box.centre, dx);
   return {can_be_particle ? CellUse::cut : CellUse::behind, false, fraction};
 }
 
@@ -304,6 +182,24 @@ void count(const ClassifiedCell& cell, double volume, RowSums& sums) {
   sums.volume_whole += volume;
 }
 
+/// Counts the parts of a cell that is cut, and appends them to `cut`.
+template <int Dim>
+void visit_parts(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const Cell<Dim>& cell, RowSums& sums,
+                 std::vector<typename FittedCells<Dim>::Cut>& cut) {
+  const CellBox<Dim> whole(block.lattice.axes, cell);
+  const double dx = block.spec.particles.spacing;
+  int number = 0;
+  divide_cell<Dim>(*block.field, dx, whole.centre, whole.edges, [&](const Vec<Dim>& centre, const Vec<Dim>& edges) {
+    const CellBox<Dim> part(centre, edges);
+    const double fraction = cutter.fraction_of_water(part);
+    sums.volume_of_water += fraction * part.volume();
+    const double local = dx * block.field->at(centre);
+    const bool can_be_particle =
+        fraction > same_fraction && cutter.least_height(centre) > -max_depth * local && block.has_room(centre, local);
+    cut.push_back({cell, number++, can_be_particle ? fraction : 0.0, part.volume(), false});
+  });
+}
+
 /// Classifies and counts the cells of a row. Appends those that may be taken, and those where no particle fits, to
 /// `cut`.
 template <int Dim>
@@ -311,15 +207,21 @@ RowSums visit_cells(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, std
                     std::vector<typename FittedCells<Dim>::Cut>& cut) {
   RowSums sums;
   block.lattice.visit_row(row, [&](const Cell<Dim>& cell) {
-    const double volume = edges_of<Dim>(block.lattice.axes, cell).prod();
+    const CellBox<Dim> box(block.lattice.axes, cell);
     if (block.shape.has_surface()) {
-      const bool holds_centre = block.shape.holds(cell, centre_of<Dim>(block.lattice.axes, cell));
-      sums.volume_in_shape += cutter.fraction_of_shape(cell, holds_centre) * volume;
+      const bool holds_centre = block.shape.holds(cell, box.centre);
+      sums.volume_in_shape += cutter.fraction_of_shape(box, holds_centre) * box.volume();
     }
     const ClassifiedCell classified = classify<Dim>(block, cutter, cell);
-    count(classified, volume, sums);
-    if (classified.use == CellUse::cut) cut.push_back({cell, classified.fraction, false});
-    if (classified.use == CellUse::no_room) cut.push_back({cell, 0.0, false});
+    const bool is_cut = classified.use != CellUse::whole && classified.use != CellUse::dry;
+    if (is_cut && block.field != nullptr) {
+      sums.reached += classified.is_reached ? 1.0 : 0.0;
+      visit_parts<Dim>(block, cutter, cell, sums, cut);
+      return;
+    }
+    count(classified, box.volume(), sums);
+    if (classified.use == CellUse::cut) cut.push_back({cell, 0, classified.fraction, box.volume(), false});
+    if (classified.use == CellUse::no_room) cut.push_back({cell, 0, 0.0, box.volume(), false});
   });
   return sums;
 }
@@ -350,15 +252,16 @@ double volume_of_water(const WaterShape<Dim>& shape, const RowSums& all) {
 /// fraction of their cells.
 template <int Dim>
 void take_cut_cells(const LatticeBlock<Dim>& lattice, const RowSums& all, double water, FittedCells<Dim>& fitted) {
-  take_cells<Dim>(lattice.axes, water - all.volume_whole, max_misfit * water, fitted.cut);
+  take_cells<Dim>(water - all.volume_whole, max_misfit * water, fitted.cut);
   double of_cells = all.volume_whole;
   double in_cells = all.volume_whole;
+  const Cell<Dim>* last = nullptr;  // that is taken, or parts of it
   for (const auto& cut : fitted.cut) {
     if (!cut.is_taken) continue;
-    const double volume = edges_of<Dim>(lattice.axes, cut.cell).prod();
-    of_cells += volume;
-    in_cells += cut.share * volume;
-    fitted.in_row[lattice.row_of(cut.cell)] += 1.0;
+    of_cells += cut.volume;
+    in_cells += cut.share * cut.volume;
+    if (last == nullptr || *last != cut.cell) fitted.in_row[lattice.row_of(cut.cell)] += 1.0;
+    last = &cut.cell;
   }
   if (of_cells > 0.0) fitted.share = water / of_cells;
   if (all.volume_of_water > 0.0) fitted.missed = 1.0 - in_cells / all.volume_of_water;

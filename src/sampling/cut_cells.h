@@ -11,6 +11,7 @@
 #include "geometry/boundary.h"
 #include "geometry/point_grid.h"
 #include "parallel/communicator.h"
+#include "refinement/spacing_field.h"
 #include "sampling/lattice_axis.h"
 #include "sampling/water_shape.h"
 
@@ -85,14 +86,16 @@ struct LatticeBlock {
 /// The cells of a block that become particles.
 template <int Dim>
 struct FittedCells {
-  /// A cell that a wall or the surface cuts.
+  /// A cell that a wall or the surface cuts, or a part of one.
   struct Cut {
     Cell<Dim> cell;
-    double share;  ///< fraction of its volume that is water; 0 if no particle fits there
+    int part;       ///< in the order of divide_cell
+    double share;   ///< fraction of its volume that is water; 0 if no particle fits there
+    double volume;  ///< m^Dim
     bool is_taken;
   };
 
-  std::vector<double> in_row;  ///< number of taken cells in each row
+  std::vector<double> in_row;  ///< number of cells in each row that are taken, or parts of them
   std::vector<Cut> cut;        ///< in their order
   double share = 1.0;          ///< volume of a particle as a fraction of its cell's
   double missed = 0.0;         ///< fraction of the water that is in cells that are not taken
@@ -110,14 +113,17 @@ struct BlockToFit {
   WaterShape<Dim>& shape;
   const LatticeBlock<Dim>& lattice;
   CellTest<Dim> is_reached;  ///< whether the centre of a cell is in the water
-  CellTest<Dim> has_room;    ///< whether the particle of a cut cell fits in front of all walls
+  /// Whether the particle of a cut cell with this centre fits in front of all walls at a spacing [m].
+  std::function<bool(const Vec<Dim>& centre, double spacing)> has_room;
+  const SpacingField<Dim>* field;  ///< by which cut cells are divided before they are fitted; null: they are not
 };
 
 /// Fits the cells of a block to the volume of its water. Takes cells with the largest fractions of water, as many as
 /// match that volume best; water in unreached cells beside reached ones counts as well. Cells with equal fractions are
 /// all taken or all left out, or taken by whole levels where the error would be too large, so that a symmetric case
-/// starts symmetric. Where nothing cuts a cell, all reached cells are taken with their own volumes. Each rank visits
-/// its part of the rows, and all get the same result. Collective.
+/// starts symmetric. In zones of refinement the parts of cut cells are fitted. Where nothing cuts a cell, all reached
+/// cells are taken with their own volumes. Each rank visits its part of the rows, and all get the same result.
+/// Collective.
 template <int Dim>
 FittedCells<Dim> fit_cells(const BlockToFit<Dim>& block, const Communicator& ranks);
 

@@ -10,18 +10,15 @@
 #include <span>
 #include <unordered_set>
 #include <utility>
-#include <variant>
 
 #include "base/box.h"
-#include "base/number_range.h"
 #include "base/random.h"
 #include "case/formulation.h"
-#include "case/named_numbers.h"
 #include "geometry/from_spec.h"
-#include "geometry/largest_speed.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/polygon.h"
 #include "sampling/cut_cells.h"
+#include "sampling/start_velocity.h"
 #include "sampling/wall_particles.h"
 #include "sampling/water_lattice.h"
 #include "sampling/water_shape.h"
@@ -34,56 +31,6 @@ constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
 /// Largest fraction of a mesh's volume that may be in cells without particles. At a surface, half of the cut cells are
 /// left out, with a quarter of their volume: for a ball of three spacings in diameter, 0.3 of its volume.
 constexpr double largest_misfit = 0.4;
-
-/// The initial velocity of one block.
-template <int Dim>
-class StartVelocity {
- public:
-  StartVelocity(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner) : owner_(owner) {
-    if (!block.velocity.empty()) require_dimension<Dim>(block.velocity.size(), owner.with_key("velocity"));
-    for (std::size_t axis = 0; axis < block.velocity.size(); ++axis) {
-      if (const auto* number = std::get_if<double>(&block.velocity[axis])) {
-        constant_[axis] = *number;
-      } else {
-        const std::string& text = std::get<std::string>(block.velocity[axis]);
-        varying_.push_back(
-            {static_cast<int>(axis), text, Formula(text, named_numbers(spec), std::span(position_names).first(Dim))});
-      }
-    }
-  }
-
-  Vec<Dim> at(const Vec<Dim>& x) {
-    Vec<Dim> velocity = constant_;
-    for (Component& component : varying_) {
-      velocity[component.axis] = component.formula.at({x.data(), Dim});
-      if (!(std::abs(velocity[component.axis]) <= largest_number)) {  // also when it is not a number
-        throw CaseError(
-            "velocity-not-finite",
-            {"{}[{}] = \"{}\" is {} at {}", owner_.with_key("velocity"), component.axis, component.text,
-             velocity[component.axis], place(x)},
-            {"give an expression that is a number of at most {:g} wherever the block has particles", largest_number});
-      }
-    }
-    if (const double speed = velocity.norm(); speed > largest_speed_of_case) {
-      throw CaseError("velocity-too-large",
-                      {"{} is {:.4g} at {}, but water is treated as incompressible, which limits it to {:g} m/s",
-                       owner_.with_key("velocity"), Amount{speed, "m/s"}, place(x), largest_speed_of_case},
-                      {"correct its velocity"});
-    }
-    return velocity;
-  }
-
- private:
-  struct Component {
-    int axis;
-    std::string text;
-    Formula formula;
-  };
-
-  CaseLabel owner_;
-  Vec<Dim> constant_ = Vec<Dim>::Zero();
-  std::vector<Component> varying_;
-};
 
 /// Whether no fluid particle may stand at the lattice point `x`, because a wall particle stands there or because the
 /// point is behind the wall.
@@ -137,7 +84,7 @@ class BlockWater {
 
   /// Collective.
   BlockWater(const CaseSpec& spec, std::size_t index, const Boundary<Dim>& boundary, const Bodies<Dim>& bodies,
-             const Communicator& ranks, const List& earlier)
+             StartVelocities velocities, const Communicator& ranks, const List& earlier)
       : spec_(spec),
         block_(spec.fluid[index]),
         boundary_(boundary),
@@ -147,7 +94,9 @@ class BlockWater {
         axes_(make_lattice<Dim>(spec, index, boundary)),
         shape_(spec, index, boundary, axes_),
         velocity_(spec, block_, owner_),
+        velocities_(velocities),
         field_(spec, boundary),
+        is_divided_(!field_.is_uniform() && velocities != StartVelocities::left_out),
         lattice_{axes_, {}},
         stands_on_walls_(traits_of(spec).walls.on_wall) {
     for (int axis = 0; axis < Dim; ++axis) {
@@ -161,8 +110,9 @@ class BlockWater {
       fitted_.in_row = count_in_rows<Dim>(lattice_, is_reached, ranks);
       return;
     }
-    const CellTest<Dim> has_room = [&](const Cell<Dim>& cell) { return leaves_room(cell); };
-    fitted_ = fit_cells<Dim>({spec, block_, boundary, shape_, lattice_, is_reached, has_room}, ranks);
+    const auto has_room = [&](const Vec<Dim>& centre, double local) { return leaves_room(centre, local); };
+    fitted_ = fit_cells<Dim>(
+        {spec, block_, boundary, shape_, lattice_, is_reached, has_room, is_divided_ ? &field_ : nullptr}, ranks);
     if (block_.shape == BlockShape::mesh) require_room(index);
   }
 
@@ -173,7 +123,7 @@ class BlockWater {
   /// Calls put(position, velocity, volume, id) for the particles of the cells `from` to `to` - 1 of this block. `first`
   /// is the number of its first cell among the cells of all blocks.
   template <class Put>
-  void make(std::int64_t from, std::int64_t to, std::int64_t first, StartVelocities velocities, Put&& put) {
+  void make(std::int64_t from, std::int64_t to, std::int64_t first, Put&& put) {
     std::int64_t number = 0;
     for (std::int64_t row = 0; row < lattice_.rows() && number < to; ++row) {
       const std::int64_t in_row = std::llround(fitted_.in_row[row]);
@@ -184,34 +134,47 @@ class BlockWater {
       lattice_.visit_row(row, [&](const Cell<Dim>& cell) {
         if (!takes(cell)) return;
         const std::int64_t n = number++;
-        if (n < from || n >= to) return;
-        Vec<Dim> edges;
-        for (int axis = 0; axis < Dim; ++axis) edges[axis] = axes_[axis].width(static_cast<int>(cell[axis]));
-        const bool is_whole = field_.is_uniform() || velocities == StartVelocities::left_out;
-        const auto put_part = [&](const Vec<Dim>& centre, const Vec<Dim>& part, std::int64_t id) {
-          const double relative = is_whole ? 1.0 : field_.at(centre);
-          const Vec<Dim> x = place_of(centre, spec_.particles.spacing * relative, id);
-          double volume = fitted_.share;
-          for (int axis = 0; axis < Dim; ++axis) volume *= part[axis];
-          put(x, velocities == StartVelocities::found ? velocity_.at(x) : Vec<Dim>(Vec<Dim>::Zero()), volume, id);
-        };
-        if (is_whole) {
-          put_part(at(cell), edges, first + n);
-          return;
-        }
-        std::int64_t parts = 0;
-        // A cell that a wall cuts is divided off the wall, so that its parts do not crowd in front of it.
-        const Vec<Dim> middle = kept_off_walls(spec_, boundary_, block_, spec_.particles.spacing, at(cell));
-        divide_cell<Dim>(
-            field_, spec_.particles.spacing, middle, edges, [&](const Vec<Dim>& centre, const Vec<Dim>& part) {
-              const std::int64_t id_of_part = first_id_of_parts + (first + n) * ids_per_cell(field_) + parts;
-              put_part(centre, part, parts++ == 0 ? first + n : id_of_part);
-            });
+        if (n >= from && n < to) make_cell(cell, first + n, put);
       });
     }
   }
 
  private:
+  /// Puts the particles of a cell with this number, which is the id of the first of them.
+  template <class Put>
+  void make_cell(const Cell<Dim>& cell, std::int64_t number, const Put& put) {
+    Vec<Dim> edges;
+    for (int axis = 0; axis < Dim; ++axis) edges[axis] = axes_[axis].width(static_cast<int>(cell[axis]));
+    const auto put_part = [&](const Vec<Dim>& centre, const Vec<Dim>& part, std::int64_t id) {
+      const double relative = is_divided_ ? field_.at(centre) : 1.0;
+      const Vec<Dim> x = place_of(centre, spec_.particles.spacing * relative, id);
+      double volume = fitted_.share;
+      for (int axis = 0; axis < Dim; ++axis) volume *= part[axis];
+      put(x, velocities_ == StartVelocities::found ? velocity_.at(x) : Vec<Dim>(Vec<Dim>::Zero()), volume, id);
+    };
+    if (!is_divided_) {
+      put_part(at(cell), edges, number);
+      return;
+    }
+    const std::span<const Cut> cut = cuts_of(cell);
+    std::size_t part = 0;
+    std::int64_t made = 0;
+    divide_cell<Dim>(field_, spec_.particles.spacing, at(cell), edges,
+                     [&](const Vec<Dim>& centre, const Vec<Dim>& edges_of_part) {
+                       if (!cut.empty() && !cut[part++].is_taken) return;
+                       const std::int64_t id_of_part = first_id_of_parts + number * ids_per_cell(field_) + made;
+                       put_part(centre, edges_of_part, made++ == 0 ? number : id_of_part);
+                     });
+  }
+
+  using Cut = typename FittedCells<Dim>::Cut;
+
+  /// The parts of a cell that is cut; none of others.
+  std::span<const Cut> cuts_of(const Cell<Dim>& cell) const {
+    const auto range = std::ranges::equal_range(fitted_.cut, cell, is_before<Dim>, &Cut::cell);
+    return {range.begin(), range.end()};
+  }
+
   /// Position of the particle of a cell with this centre and spacing.
   Vec<Dim> place_of(const Vec<Dim>& centre, double spacing, std::int64_t id) const {
     const double jitter = spec_.particles.jitter * spacing;
@@ -253,19 +216,18 @@ class BlockWater {
            !is_taken_by_wall(spec_, boundary_, block_, x) && !bodies_.hold(x);
   }
 
-  /// Whether the particle of a cut cell fits in front of all walls, and beside the blocks before this one.
-  bool leaves_room(const Cell<Dim>& cell) const {
-    const auto is_taken_by = [&](const auto& block) { return block->has_particle_at(at(cell)); };
+  /// Whether the particle of a cut cell with this centre fits in front of all walls at the spacing dx [m], and beside
+  /// the blocks before this one.
+  bool leaves_room(const Vec<Dim>& centre, double dx) const {
+    const auto is_taken_by = [&](const auto& block) { return block->has_particle_at(centre); };
     if (std::ranges::any_of(earlier_, is_taken_by)) return false;
-    const double dx = spec_.particles.spacing;
-    const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, dx, at(cell)), dx);
+    const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, dx, centre), dx);
     return wall.face == -1 || wall.signed_distance > (least_wall_distance - corner_tolerance) * dx;
   }
 
   bool takes(const Cell<Dim>& cell) {
-    const auto cut = std::ranges::lower_bound(fitted_.cut, cell, is_before<Dim>, &FittedCells<Dim>::Cut::cell);
-    if (cut != fitted_.cut.end() && cut->cell == cell) return cut->is_taken;
-    return reaches(cell);
+    const std::span<const Cut> cut = cuts_of(cell);
+    return cut.empty() ? reaches(cell) : std::ranges::any_of(cut, &Cut::is_taken);
   }
 
   /// Leaves out every second point on the outline of a polygon, in order, because half of their cells is inside.
@@ -309,7 +271,9 @@ class BlockWater {
   Lattice<Dim> axes_;
   WaterShape<Dim> shape_;
   StartVelocity<Dim> velocity_;
+  StartVelocities velocities_;
   SpacingField<Dim> field_;
+  bool is_divided_;
   LatticeBlock<Dim> lattice_;
   bool stands_on_walls_;
   std::array<double, Dim> share_{};  ///< position of a point within its cell, as a fraction of the edge
@@ -360,7 +324,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
   FluidParticles<Dim> fluid;
   fluid.ranks = ranks;
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
-    blocks.push_back(std::make_unique<BlockWater<Dim>>(spec, b, boundary, bodies, ranks, blocks));
+    blocks.push_back(std::make_unique<BlockWater<Dim>>(spec, b, boundary, bodies, velocities, ranks, blocks));
     fluid.of_blocks.push_back(blocks.back()->particles());
     fluid.all += fluid.of_blocks.back();
   }
@@ -380,7 +344,7 @@ FluidParticles<Dim> make_fluid_particles(const CaseSpec& spec, const Boundary<Di
       fluid.volume.push_back(volume);
       fluid.block.push_back(static_cast<int>(b));
     };
-    blocks[b]->make(fluid.first - first, end - first, first, velocities, put);
+    blocks[b]->make(fluid.first - first, end - first, first, put);
     first += blocks[b]->particles();
   }
   return fluid;

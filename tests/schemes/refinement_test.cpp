@@ -209,6 +209,41 @@ TEST(RefinementTest, AZoneMovesWithItsBlock) {
   EXPECT_NEAR(in_zone, fine, 0.3 * std::abs(coarse - fine)) << coarse << ' ' << in_zone << ' ' << fine;
 }
 
+/// Largest speed within 0.1 s of still water 0.5 m deep before a beach of 1 : 5.
+double speed_before_beach(const CaseSpec& spec) {
+  Flow<2> flow = make_flow<2>(spec);
+  tailwater::start(flow);
+  double speed = 0.0;
+  while (flow.state.time < 0.1) {
+    advance_steps(flow, 1);
+    speed = std::max(speed, measure(flow).largest_speed);
+  }
+  return speed;
+}
+
+TEST(RefinementTest, WaterOnABeachInAZoneStartsAsInAFineRun) {
+  CaseSpec spec;
+  spec.particles.spacing = dx;
+  FluidTable water;
+  water.shape = BlockShape::fill;
+  water.seed = {0.1, 0.1};
+  water.level = 0.5;
+  WallTable bed;
+  bed.points = {{0.0, 1.0}, {0.0, 0.0}, {2.0, 0.0}, {7.0, 1.0}, {7.0, 1.5}};
+  bed.fluid_side = FluidSide::left;
+  spec.fluid = {water};
+  spec.walls = {bed};
+  RefinementTable zone;
+  zone.min = {1.0, -1.0};
+  zone.max = {9.0, 9.0};
+  spec.refinement = {zone};
+  const double in_zone = speed_before_beach(spec);
+  spec.refinement.clear();
+  spec.particles.spacing = 0.5 * dx;
+  // Cells of the case, divided after they have been fitted to the beach, start three times as fast.
+  EXPECT_LT(in_zone, 1.5 * speed_before_beach(spec));
+}
+
 TEST(RefinementTest, WaterComesToRestBesideABorder) {
   CaseSpec spec = tank_case<2>(dx, 1.0, 0.5);
   RefinementTable zone;
