@@ -232,6 +232,47 @@ struct LevelsOfCells {
   }
 };
 
+/// The walls that are neither meshes nor plates.
+template <int Dim>
+Boundary<Dim> plain_walls(const Boundary<Dim>& boundary) {
+  Boundary<Dim> plain;
+  plain.walls = boundary.walls;
+  boundary.visit_plain_faces([&](int f) {
+    if (boundary.plate_of(boundary.faces[f].wall) < 0) plain.faces.push_back(boundary.faces[f]);
+  });
+  return plain;
+}
+
+/// The rows of dummies of one spacing behind plain walls. Parts of coarser rows take over their normals, which differ
+/// beside edges of walls. Every rank makes all of them.
+template <int Dim>
+class RowsOfSpacing {
+ public:
+  RowsOfSpacing(const Boundary<Dim>& plain, double spacing, int layers)
+      : rows_(sample_bodies<Dim>(plain, WallLayers{spacing, layers, false, {}}, Lattice<Dim>{})),
+        places_(0.5 * spacing) {
+    for (const Vec<Dim>& x : rows_.position) places_.add(x);
+  }
+
+  /// Gives the last of `parts` the normals of the row that is nearest to it, if one of its wall is near.
+  void give_normals(WallParticles<Dim>& parts) const {
+    const Vec<Dim>& x = parts.position.back();
+    int nearest = -1;
+    places_.visit_near(x, [&](int row) {
+      if (rows_.wall[row] != parts.wall.back() || rows_.is_beyond_end[row] != 0) return;
+      if (nearest < 0 || (rows_.position[row] - x).norm() < (rows_.position[nearest] - x).norm()) nearest = row;
+    });
+    if (nearest < 0) return;
+    parts.normal.back() = rows_.normal[nearest];
+    parts.blocked.back() = rows_.blocked[nearest];
+    parts.beyond_edges.back() = rows_.beyond_edges[nearest];
+  }
+
+ private:
+  WallParticles<Dim> rows_;
+  PointGrid<Dim> places_;
+};
+
 /// Appends particles of a level on the finer lattice in the cells of that level.
 template <int Dim>
 void append_level(const LevelsOfCells<Dim>& levels, int level, const WallLayers& layers, WallParticles<Dim>& all) {
@@ -280,6 +321,11 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
   const std::int64_t parts_of_row = std::llround(power<Dim>(1.0 / field.finest()));
   const std::vector<bool> on_lattice = walls_on_lattice(boundary);
   const LevelsOfCells<Dim> levels{field, boundary, spacing, lattice};
+  const Boundary<Dim> plain = plain_walls(boundary);
+  std::vector<RowsOfSpacing<Dim>> finer;
+  for (int level = 1; level <= std::lround(-std::log2(field.finest())); ++level) {
+    finer.emplace_back(plain, spacing / (1 << level), layers);
+  }
   WallParticles<Dim> divided;
   divided.numbers = particles.numbers * parts_of_row;
   divided.numbers_on_wall = particles.numbers_on_wall * parts_of_row;
@@ -288,7 +334,9 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
     const bool is_on_lattice = on_lattice[particles.wall[row]];
     if (is_on_lattice && levels.at(x) > 0) continue;  // sampled below
     const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
-    const int per_edge = is_on_lattice ? 1 : 1 << level_at(field, boundary, wall, x);
+    const int level = is_on_lattice ? 0 : level_at(field, boundary, wall, x);
+    const int per_edge = 1 << level;
+    const bool has_sides = boundary.walls[particles.wall[row]].is_plate || particles.is_beyond_end[row] != 0;
     const Mat<Dim> axes = axes_at_wall(boundary, wall);
     const double edge = spacing / per_edge;
     // Where the spacing is the same all around, no water reaches parts behind the layers of this spacing.
@@ -303,6 +351,7 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
       if (may_leave_out && boundary.nearest(place, layers * edge).face < 0) continue;
       append_part(divided, particles, row, place, particles.share[row] / power<Dim>(per_edge),
                   particles.number[row] * parts_of_row + part);
+      if (level > 0 && !has_sides) finer[level - 1].give_normals(divided);
     }
   }
   if (std::ranges::find(on_lattice, true) != on_lattice.end()) {

@@ -467,5 +467,34 @@ TEST(SharesOfSpace, HaveAllParticlesOfBoxesThatTouchIn3D) {
   }
 }
 
+// A block with sharp edges, in a zone of twice as many particles per length.
+TEST(WallParticlesInAZone, HaveTheNormalsOfTheFinerSpacingBesideEdges) {
+  CaseSpec spec = empty_case(0.1);
+  spec.fluid = {box_fluid({-2.0, -2.0}, {2.0, 2.0})};
+  spec.walls = {polyline({{-1.0, -2.0}, {-1.0, 1.0}, {1.0, 1.0}, {1.0, -2.0}})};
+  RefinementTable zone;
+  zone.min = {-9.0, -9.0};
+  zone.max = {9.0, 9.0};
+  spec.refinement = {zone};
+  Boundary<2> boundary = make_boundary<2>(spec);
+  WallParticles<2> divided = dummies_behind(boundary, 0.1);
+  boundary.ends.clear();
+  divide_wall_particles<2>(SpacingField<2>(spec, boundary), boundary, 0.1, 3, {}, {}, divided);
+  const WallParticles<2> fine = dummies_behind(boundary, 0.05);
+  int compared = 0;
+  int at_edges = 0;
+  for (std::size_t i = 0; i < divided.size(); ++i) {
+    const int same = find_at<2>(fine, divided.position[i]);
+    if (same < 0) continue;
+    ++compared;
+    at_edges += fine.beyond_edges[same].isZero(0.0) ? 0 : 1;
+    EXPECT_NEAR((divided.normal[i] - fine.normal[same]).norm(), 0.0, round_off) << divided.position[i];
+    EXPECT_NEAR((divided.blocked[i] - fine.blocked[same]).cwiseAbs().maxCoeff(), 0.0, round_off);
+    EXPECT_NEAR((divided.beyond_edges[i] - fine.beyond_edges[same]).cwiseAbs().maxCoeff(), 0.0, round_off);
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(at_edges, 10);
+}
+
 }  // namespace wall_particles_test
 }  // namespace tailwater
