@@ -39,7 +39,9 @@ FixedHulls<Dim>::FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hull
     const auto is_near = [&](const ContactSurface<Dim>& surface) {
       return surface.hull != hull && surface.boundary.nearest(patch.centre(boundary), reach).face >= 0;
     };
-    if (hull >= 0 && (moves || std::ranges::any_of(surfaces_, is_near))) patches_.push_back(patch);
+    if (hull < 0) continue;
+    whole_.push_back(patch);
+    if (moves || std::ranges::any_of(surfaces_, is_near)) patches_.push_back(patch);
   }
 }
 
@@ -48,13 +50,15 @@ template <int Dim>
 void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
   if (std::ranges::any_of(boundary.walls, &WallProperties::moves)) return;
-  const NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
+  const NarrowGaps<Dim> gaps(flow, hulls(patches_), flow.state.time);
   std::vector<bool> faces_wall;
   for (std::size_t k = 0; k < hulls_.size(); ++k) faces_wall.push_back(gaps.wall_across(static_cast<int>(k)) >= 0);
   can_seal_ = gaps.can_seal();
-  std::erase_if(patches_, [&](const WallPatch<Dim>& patch) {
+  const auto is_alone = [&](const WallPatch<Dim>& patch) {
     return !faces_wall[static_cast<std::size_t>(hull_of_wall_[boundary.faces[patch.face].wall])];
-  });
+  };
+  std::erase_if(patches_, is_alone);
+  std::erase_if(whole_, is_alone);
 }
 
 template <int Dim>
@@ -71,7 +75,7 @@ void FixedHulls<Dim>::write_rows(Flow<Dim>& flow) {
 template <int Dim>
 int FixedHulls<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
   if (!has_hulls() || !can_seal_) return 0;
-  NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
+  NarrowGaps<Dim> gaps(flow, hulls(patches_), flow.state.time);
   gaps.measure({});
   sealed_ = gaps.find_sealed(flow.state.particles.pressure);
   let_through_films(sealed_, flow);
@@ -88,7 +92,7 @@ template <int Dim>
 void FixedHulls<Dim>::report(Flow<Dim>& flow) {
   has_report_ = false;
   if (!has_probes_ || !has_hulls() || !air_of(flow).state.pockets.empty()) return;
-  NarrowGaps<Dim> gaps(flow, hulls(), flow.state.time);
+  NarrowGaps<Dim> gaps(flow, hulls(whole_), flow.state.time);
   gaps.measure(gaps.find_stagnant());
   for (std::size_t k = 0; k < hulls_.size(); ++k) {
     const int beside = gaps.wall_across(static_cast<int>(k));

@@ -41,11 +41,11 @@ class FixedHulls final : public Part<Dim> {
   void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
 
  private:
-  Hulls<Dim> hulls() const {
+  Hulls<Dim> hulls(std::span<const WallPatch<Dim>> patches) const {
     return {.count = static_cast<int>(hulls_.size()),
             .of_wall = hull_of_wall_,
             .surfaces = surfaces_,
-            .patches = patches_,
+            .patches = patches,
             .can_stand = true,
             .reach = reach_of_shares};
   }
@@ -56,7 +56,8 @@ class FixedHulls final : public Part<Dim> {
   std::vector<int> hulls_;         ///< wall of each
   std::vector<int> hull_of_wall_;  ///< of each wall, or -1
   std::vector<ContactSurface<Dim>> surfaces_;
-  std::vector<WallPatch<Dim>> patches_;
+  std::vector<WallPatch<Dim>> whole_;    ///< all patches of the hulls
+  std::vector<WallPatch<Dim>> patches_;  ///< near other walls
   bool has_probes_ = false;
   bool can_seal_ = true;     ///< whether a hull touches another wall, or a film can be between them
   SealedWater sealed_;       ///< in this step

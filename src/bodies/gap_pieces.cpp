@@ -1,9 +1,11 @@
 // The pieces of hulls beside other walls, and the gaps between them.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bodies/contacts.h"
 #include "bodies/narrow_gaps.h"
+#include "geometry/screen.h"
 
 namespace tailwater {
 namespace {
@@ -23,6 +25,13 @@ constexpr double longest_part = 0.1;
 /// Least value of -cos of the angle between the normals of a piece and of the wall that it faces.
 constexpr double least_opposite = 0.5;
 
+/// Sum of w W over the water from which on a piece counts as wet. In a right angle between a hull and a bed the sum is
+/// 1/4, beside a row of particles in a gap of dx it is 0.3.
+constexpr double weight_beside_water = 0.15;
+
+/// [dx]; distance of the places at which the wall that faces a piece is looked for.
+constexpr double step_across = 0.5;
+
 }  // namespace
 
 template <int Dim>
@@ -33,29 +42,48 @@ void NarrowGaps<Dim>::find_pieces(double time) {
   }
   std::vector<std::uint8_t> is_flat;
   if (hulls_.can_stand) is_flat = find_flat_contacts();
-  for (const WallPatch<Dim>& patch : hulls_.patches) {
+  for (std::size_t k = 0; k < hulls_.patches.size(); ++k) {
+    const WallPatch<Dim>& patch = hulls_.patches[k];
     const int hull = hulls_.of_wall[boundary.faces[patch.face].wall];
     const Vec<Dim> x = patch.centre(boundary);
     const double dx = spacing_at(x);
     const OtherWall wall = other_wall(hull, x, hulls_.reach * dx);
-    if (wall.distance >= hulls_.reach * dx) continue;
-    const double measure = hulls_.can_stand ? wetted_measure(patch, wall, is_flat[hull] != 0) : patch.measure;
+    if (wall.distance >= hulls_.reach * dx && !hulls_.can_stand) continue;
+    const double measure = hulls_.can_stand ? wetted_measure(patch, wall, is_flat[k] != 0) : patch.measure;
     if (measure == 0.0) {
       contacts_.push_back({hull, x, dx});
       continue;
     }
-    const double gap = std::max(0.0, wall.distance);
-    const double facing = -boundary.faces[patch.face].normal.dot(wall.normal);
+    const Vec<Dim>& normal = boundary.faces[patch.face].normal;
+    const OtherWall across = wall.wall >= 0 ? wall_across(hull, x, normal, wall) : wall;
+    const bool faces = -normal.dot(across.normal) >= least_opposite;
+    const double gap = std::max(0.0, across.distance);
     pieces_.push_back({.hull = hull,
-                       .other_wall = wall.wall,
+                       .other_wall = across.wall,
                        .x = x,
                        .spacing = dx,
-                       .towards_hull = wall.normal,
+                       .towards_hull = across.normal,
                        .gap = gap,
-                       .surface = -measure * boundary.faces[patch.face].normal,
-                       .faces = facing >= least_opposite,
-                       .film = facing < least_opposite ? 0.0 : film_share(gap / dx)});
+                       .surface = -measure * normal,
+                       .faces = faces,
+                       .film = faces ? film_share(gap / dx) : 0.0});
   }
+}
+
+/// Beside the end of a pipe between two side walls, a side wall is nearer than the bed below the pipe.
+template <int Dim>
+typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::wall_across(int hull, const Vec<Dim>& x, const Vec<Dim>& normal,
+                                                                 const OtherWall& nearest) const {
+  const double dx = spacing_at(x);
+  OtherWall wall = nearest;
+  for (double way = 0.0; way <= widest_film() * dx; way += step_across * dx) {
+    if (way > 0.0) wall = other_wall(hull, x + way * normal, widest_film() * dx);
+    const double facing = -normal.dot(wall.normal);
+    if (wall.wall < 0 || facing < least_opposite) continue;
+    wall.distance += facing * way;
+    return wall;
+  }
+  return nearest;
 }
 
 template <int Dim>
@@ -64,23 +92,37 @@ bool NarrowGaps<Dim>::is_flush(const WallPatch<Dim>& patch, const OtherWall& wal
          -flow_.walls.boundary.faces[patch.face].normal.dot(wall.normal) > flush_cosine;
 }
 
-/// A round hull that is drawn with straight sides may lie on one of them. So narrow a contact counts as a line.
+/// A round hull that is drawn with straight sides may lie on one of them. So narrow a contact counts as a line. Each
+/// plane counts apart: the ends of a pipe lie flat on side walls, its lowest side on the bed.
 template <int Dim>
 std::vector<std::uint8_t> NarrowGaps<Dim>::find_flat_contacts() const {
-  std::vector<double> measure(static_cast<std::size_t>(hulls_.count), 0.0);
-  std::vector<Box<Dim>> box(measure.size());
-  for (const WallPatch<Dim>& patch : hulls_.patches) {
-    const int hull = hulls_.of_wall[flow_.walls.boundary.faces[patch.face].wall];
+  struct Plane {
+    int hull;
+    Vec<Dim> normal;
+    double measure = 0.0;
+    Box<Dim> box = {};
+  };
+  std::vector<Plane> planes;
+  std::vector<int> plane_of(hulls_.patches.size(), -1);
+  const double dx = flow_.setup.scale.spacing;
+  for (std::size_t k = 0; k < hulls_.patches.size(); ++k) {
+    const WallPatch<Dim>& patch = hulls_.patches[k];
+    const WallFace<Dim>& face = flow_.walls.boundary.faces[patch.face];
+    const int hull = hulls_.of_wall[face.wall];
     const Vec<Dim> x = patch.centre(flow_.walls.boundary);
-    if (!is_flush(patch, other_wall(hull, x, flush_gap * flow_.setup.scale.spacing))) continue;
-    measure[hull] += patch.measure;
-    box[hull].extend(x);
+    if (!is_flush(patch, other_wall(hull, x, flush_gap * dx))) continue;
+    auto plane = std::ranges::find_if(
+        planes, [&](const Plane& other) { return other.hull == hull && other.normal.dot(face.normal) > flush_cosine; });
+    if (plane == planes.end()) plane = planes.insert(plane, Plane{hull, face.normal});
+    plane->measure += patch.measure;
+    plane->box.extend(x);
+    plane_of[k] = static_cast<int>(plane - planes.begin());
   }
-  std::vector<std::uint8_t> is_flat(measure.size(), 0);
-  for (std::size_t k = 0; k < measure.size(); ++k) {
-    if (measure[k] == 0.0) continue;
-    const double length = std::max(box[k].sizes().norm(), flow_.setup.scale.spacing);
-    is_flat[k] = measure[k] > widest_line * flow_.setup.scale.spacing * (Dim == 2 ? 1.0 : length);
+  std::vector<std::uint8_t> is_flat(plane_of.size(), 0);
+  for (std::size_t k = 0; k < plane_of.size(); ++k) {
+    if (plane_of[k] < 0) continue;
+    const Plane& plane = planes[static_cast<std::size_t>(plane_of[k])];
+    is_flat[k] = plane.measure > widest_line * dx * (Dim == 2 ? 1.0 : std::max(plane.box.sizes().norm(), dx));
   }
   return is_flat;
 }
@@ -130,8 +172,37 @@ typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int hull, const 
   return nearest;
 }
 
+template <int Dim>
+void NarrowGaps<Dim>::look_at_water() {
+  const Particles<Dim>& particles = flow_.state.particles;
+  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(flow_.setup.domain);
+  std::vector<double> sums(pieces_.size(), 0.0);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    Piece& piece = pieces_[n];
+    const double relative = piece.spacing / flow_.setup.scale.spacing;
+    const double reach = kernel_radius(flow_.setup.scale.kernel) * relative;
+    for (const Vec<Dim>& shift : shifts) {
+      const Vec<Dim> x = flow_.neighbourhood.wrapped(piece.x) - shift;
+      flow_.neighbourhood.grid().for_each_near(x, [&](std::int32_t j) {
+        const auto i = static_cast<std::size_t>(j);
+        if (i >= particles.owned || !particles.is_fluid(i) || is_stagnant_[i] != 0.0) return;
+        const double distance = (particles.position[i] - x).norm();
+        if (distance >= reach) return;
+        piece.water.push_back(i);
+        piece.places.push_back(particles.position[i] - x + piece.x);
+        const double W = kernel_value(flow_.setup.scale.kernel, distance / relative) / power<Dim>(relative);
+        piece.weights.push_back(particles.volume[i] * W);
+      });
+    }
+    sums[n] = std::accumulate(piece.weights.begin(), piece.weights.end(), 0.0);
+  }
+  flow_.setup.ranks.sum_of_each(sums);
+  for (std::size_t n = 0; n < pieces_.size(); ++n) pieces_[n].wetness = std::min(1.0, sums[n] / weight_beside_water);
+}
+
 #define TAILWATER_INSTANTIATE(Dim)                                       \
   template void NarrowGaps<Dim>::find_pieces(double);                    \
+  template void NarrowGaps<Dim>::look_at_water();                        \
   template double NarrowGaps<Dim>::width_at(int, const Vec<Dim>&) const; \
   template typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int, const Vec<Dim>&, double) const;
 TAILWATER_INSTANTIATE(2)

@@ -8,6 +8,8 @@
 // where s = 1 beside a gap narrower than dx, and 0 beside one of 1.75 dx or more, in which rows of particles transmit
 // the pressure.
 //
+// A fixed hull has s = 1 on all pieces if its narrowest gap is at most 1.5 dx, and 0 from 2 dx on.
+//
 // p is the pressure of the water beside the piece. In a gap too narrow for a row of particles it is that of a film.
 // Water hardly flows there, so p - rho g.x is harmonic in the gap (Reynolds). At its rim it is that of the water or air
 // there. Each place of the gap has the mean over the rim with weights 1/r^(Dim-1), which is the harmonic function
@@ -61,7 +63,7 @@ class NarrowGaps {
     for (std::size_t n = 0; n < pieces_.size(); ++n) {
       const double on_piece = p[static_cast<Eigen::Index>(n)];
       const Piece& piece = pieces_[n];
-      if (on_piece > 0.0)
+      if (on_piece != 0.0)
         push(piece.hull, piece.x, Vec<Dim>(on_piece * piece.area), Turn<Dim>(on_piece * piece.couple));
     }
   }
@@ -158,13 +160,15 @@ class NarrowGaps {
   double spacing_at(const Vec<Dim>& x) const { return flow_.setup.scale.spacing * flow_.setup.relative_spacing(x); }
   void find_pieces(double time);
   OtherWall other_wall(int hull, const Vec<Dim>& x, double reach) const;
+  /// The wall that faces a place on a hull with this normal within the widest film, else the `nearest` wall.
+  OtherWall wall_across(int hull, const Vec<Dim>& x, const Vec<Dim>& normal, const OtherWall& nearest) const;
   /// [dx]; width of a gap at which the effect of a film without water in it ends.
   double widest_film() const;
   /// Film fraction of a place where a gap is `width` [dx] wide: 1 in a gap too narrow for a row of particles.
   double film_share(double width) const;
   /// Whether the patch lies on the wall.
   bool is_flush(const WallPatch<Dim>& patch, const OtherWall& wall) const;
-  /// By hull, whether it lies flat on other walls.
+  /// By patch, whether the hull lies flat on another wall there.
   std::vector<std::uint8_t> find_flat_contacts() const;
   /// Measure of the part of a patch that is in front of other walls and does not lie on them.
   double wetted_measure(const WallPatch<Dim>& patch, const OtherWall& wall, bool is_flat_there) const;
@@ -174,6 +178,7 @@ class NarrowGaps {
   void look_at_water();
   void measure_pairs();
   void find_shares();
+  void find_pieces_beyond();
   bool is_film(const Piece& piece) const;
   /// Width [m] of the gap between a hull and another wall at x, at most that of the widest film.
   double width_at(int hull, const Vec<Dim>& x) const;
@@ -200,12 +205,14 @@ class NarrowGaps {
 
   const Flow<Dim>& flow_;
   Hulls<Dim> hulls_;
-  std::vector<AffineMap<Dim>> placements_;  ///< of the surfaces
-  std::vector<Piece> pieces_;               ///< identical on all ranks, except for the water
-  std::vector<Contact> contacts_;           ///< identical on all ranks
-  std::vector<std::size_t> films_;          ///< pieces whose pressure is that of a film
-  std::vector<std::size_t> rim_;            ///< pieces beside films
-  Eigen::MatrixXd shares_;                  ///< weight of each piece of the rim in the head of each film
+  std::vector<AffineMap<Dim>> placements_;        ///< of the surfaces
+  std::vector<Piece> pieces_;                     ///< identical on all ranks, except for the water
+  std::vector<Contact> contacts_;                 ///< identical on all ranks
+  std::vector<std::size_t> films_;                ///< pieces whose pressure is that of a film
+  std::vector<std::size_t> rim_;                  ///< pieces beside films
+  std::vector<std::vector<std::size_t>> beyond_;  ///< for each piece of the rim, pieces whose head it passes on
+  Eigen::MatrixXd shares_;                        ///< weight of each piece of the rim in the head of each film
+  std::vector<double> narrowest_;                 ///< dx; of each hull, its narrowest gap
   std::vector<WaterInGap> water_;
   std::int32_t gap_count_ = 0;
   std::vector<std::size_t> stagnant_;  ///< owned

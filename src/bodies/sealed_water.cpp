@@ -27,6 +27,9 @@ constexpr double share_of_row = 0.2;
 /// C/C_0; water with less is at a surface, or beside air.
 constexpr double least_inside = 0.8;
 
+/// dx; water is between particles that are farther apart, or a wall, or a film.
+constexpr double longest_pair = 2.0;
+
 constexpr double none = std::numeric_limits<double>::lowest();
 constexpr double anywhere = std::numeric_limits<double>::max();
 
@@ -54,7 +57,8 @@ class Waters {
       }
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
         const auto j = static_cast<std::size_t>(pairs.j[k]);
-        if (counts(j)) parent_[root_of(j)] = root_of(i);
+        if (counts(j) && pairs.d(i, k).norm() < longest_pair * flow.setup.scale.spacing)
+          parent_[root_of(j)] = root_of(i);
       }
     }
     join_ranks();
