@@ -21,11 +21,7 @@ template <int Dim>
 class StartVelocity {
  public:
   StartVelocity(const CaseSpec& spec, const FluidTable& block, const CaseLabel& owner) : owner_(owner) {
-    if (!block.velocity.empty() && block.velocity.size() != Dim) {
-      throw CaseError({"{} has {} components but the case has {} dimensions", owner.with_key("velocity"),
-                       block.velocity.size(), Dim},
-                      {"give one per dimension"});
-    }
+    if (!block.velocity.empty()) require_dimension<Dim>(block.velocity.size(), owner.with_key("velocity"));
     for (std::size_t axis = 0; axis < block.velocity.size(); ++axis) {
       if (const auto* number = std::get_if<double>(&block.velocity[axis])) {
         constant_[axis] = *number;
@@ -42,7 +38,8 @@ class StartVelocity {
     for (Component& component : varying_) {
       velocity[component.axis] = component.formula.at({x.data(), Dim});
       if (!(std::abs(velocity[component.axis]) <= largest_number)) {  // also when it is not a number
-        throw CaseError("velocity-not-finite",
+        throw CaseError(
+            "velocity-not-finite",
             {"{}[{}] = \"{}\" is {} at {}", owner_.with_key("velocity"), component.axis, component.text,
              velocity[component.axis], place(x)},
             {"give an expression that is a number of at most {:g} wherever the block has particles", largest_number});
@@ -50,7 +47,7 @@ class StartVelocity {
     }
     if (const double speed = velocity.norm(); speed > largest_speed_of_case) {
       throw CaseError("velocity-too-large",
- {"{} is {:.4g} at {}, but water is treated as incompressible, which limits it to {:g} m/s",
+                      {"{} is {:.4g} at {}, but water is treated as incompressible, which limits it to {:g} m/s",
                        owner_.with_key("velocity"), Amount{speed, "m/s"}, place(x), largest_speed_of_case},
                       {"correct its velocity"});
     }
