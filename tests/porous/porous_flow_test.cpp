@@ -75,8 +75,9 @@ class PluggedChannel : public testing::TestWithParam<Integrator> {};
 
 // Steady flow: 1 m/s^2 over 1 m is the head g (a v + b v^2) that 0.5 m of the plug take. At 1 cm/s the dynamic head of
 // the water is 1e-4 of that, so nothing but the law counts. One projection leaves a divergence at the surfaces of the
-// plug, before the density source sees it: 1.2 % of the flow (0.8 % with the shifts before 2026-11-29). A quarter of the resistance is in these surfaces (2 x 0.06
-// m of 0.5 m), and the sum of the resistance is the force, so the flow in the plug is off by a quarter of 1 %.
+// plug, before the density source sees it: 1.2 % of the flow (0.8 % with the shifts before 2026-11-29). A quarter of
+// the resistance is in these surfaces (2 x 0.06 m of 0.5 m), and the sum of the resistance is the force, so the flow in
+// the plug is off by a quarter of 1 %.
 TEST_P(PluggedChannel, TakesTheHeadOfItsLaw) {
   struct Law {
     double linear, quadratic;
