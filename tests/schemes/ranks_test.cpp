@@ -146,6 +146,23 @@ TYPED_TEST(RanksTest, AZoneOfRefinementAcrossTheCuts) {
   expect_same<Dim>(spec, 0.3, as_it_is);
 }
 
+TEST(RanksTest, AZoneThatMovesWithABlock) {
+  CaseSpec spec = tank_case<2>(0.05, 1.4, 0.7);
+  WallTable block;
+  block.name = "block";
+  block.shape = WallShape::polygon;
+  block.points = {{0.4, 0.25}, {0.6, 0.25}, {0.6, 0.45}, {0.4, 0.45}};
+  block.fluid_side = FluidSide::outside;
+  block.displacement = {"0.5*t", 0.0};
+  spec.walls.push_back(block);
+  RefinementTable zone;
+  zone.shape = ZoneShape::walls;
+  zone.walls = {"block"};
+  zone.distance = 0.2;
+  spec.refinement = {zone};
+  expect_same<2>(spec, 0.7, as_it_is);
+}
+
 TEST(RanksTest, ParticlesSplitAndMergeOnAllRanks) {
   CaseSpec spec = zhou_case(0.05, Integrator::explicit_projection);
   RefinementTable zone;

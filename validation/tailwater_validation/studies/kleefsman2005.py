@@ -15,6 +15,7 @@ from .. import panels
 from ..curves import arrival_time, differences
 from ..metric import Metric, measure
 from ..reading import summary
+from ..study import AllChecks
 from .laboratory import laboratory_study, measured_curves
 
 NAME = "kleefsman2005"
@@ -133,9 +134,10 @@ def height_of_passage(position, velocity, gravity):
 
 def lost_through_walls(run):
     """Particles that are gone or outside at the end, less those that were seen to leave over the tank's rim, as water does in
-    the laboratory."""
+    the laboratory. In zones of refinement particles also go because they merge."""
     if summary("volume", "outside_the_walls_end", run) == 0:
         return 0
+    merge = bool(run.case.get("refinement"))
     all_of_them, over_the_rim = None, set()
     for entry in list_frames(run.path):
         frame = read_frame(*entry)
@@ -144,7 +146,8 @@ def lost_through_walls(run):
         outside = ((frame.position[:, :2] < 0) | (frame.position[:, :2] > TANK[:2])).any(axis=1)
         heights = height_of_passage(frame.position[outside], frame.fields["velocity"][outside], run.gravity)
         over_the_rim.update(ids[outside][heights > TANK[2]])
-    return len(all_of_them - set(ids[~outside]) - over_the_rim)
+    missing = set(ids[outside]) if merge else all_of_them - set(ids[~outside])
+    return len(missing - over_the_rim)
 
 
 def of_health(run):
@@ -185,6 +188,19 @@ def box_run(plan, count, end):
                     plan.integrators[0])
 
 
+def zone_run(plan):
+    """H/15, with a zone of H/30 around the box, until the end of the impact."""
+    return plan.run(f"{NAME}_zone", f"{NAME}/zone.toml", (), 110, plan.integrators[0])
+
+
+def zone_checks(plan):
+    """The zone is to give the impulses of the uniform fine run, which the tier fine has."""
+    if plan.level != "fine":
+        return ()
+    return (AllChecks(f"{NAME}.zone", metrics, (zone_run(plan),), keep=lambda name: name[:7] in ("arrival", "impulse"),
+                      suffix=", zone of H/30 in H/15"),)
+
+
 def study(plan):
     counts, end = plan.at((11,), (11, 15), (15, 30)), plan.at(1.0, END, END)
     return laboratory_study(
@@ -194,4 +210,4 @@ def study(plan):
         "Sensors drift by 50 Pa before the impact; a door that a weight pulls up lets the water go.",
         tuple(box_run(plan, count, end) for count in counts),
         tuple((gauge, f"mean error {gauge}") for gauge in GAUGES), "mean error of heights (% of H)",
-        keep=lambda name: not name.endswith("highest"), shown=None)  # in 3D, too large for a report of one file
+        keep=lambda name: not name.endswith("highest"), more_checks=zone_checks(plan), shown=None)  # in 3D, too large for a report of one file
