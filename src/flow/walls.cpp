@@ -1,6 +1,7 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
 #include "motion/wall_motion.h"
+#include "operators/graded_sums.h"
 #include "walls/turning_walls.h"
 #include "walls/wall_model.h"
 
