@@ -1071,7 +1071,7 @@ struct ProbeTable {
     v.number("interval", self.interval, "s", Range::at_least(0.0), "Time between two readings; 0: every step");
     v.number("averaging_time", self.averaging_time, "s", Range::at_least(0.0),
              "Largest pressures in the summary are means over this time, for instance the rise time of the sensor; 0: "
-             "3 dx over the speed sqrt(2 g H), with the depth H of the water");
+             "3 dx or a tenth of the depth H of the water, whichever is longer, over the speed sqrt(2 g H)");
   }
 };
 

@@ -100,8 +100,8 @@ std::string probe_reference_markdown() {
       "name the\n  column, without its unit: `force_x`. A measurement without `column` is compared with the default "
       "(the first of several\n  columns).\n"
       "- *Results* are printed at the end of a run and by `tailwater info`; they are in `summary.json`, in `results`.\n"
-      "  Largest pressures at first contacts converge with the spacing only for an `averaging_time` that the case "
-      "gives.\n"
+      "  Compare largest pressures at first contacts over the same `averaging_time`. The default is the same from\n"
+      "  dx = H/30 on.\n"
       "- *Totals* are numbers of the whole run in `summary.json`, in `probes`.\n";
   for (std::size_t k = 0; k < choices<ProbeType>.size(); ++k) text += section_of(info_of(static_cast<ProbeType>(k)));
   return text;

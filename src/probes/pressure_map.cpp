@@ -60,7 +60,9 @@ struct PressureMap {
       mean += patches[k].measure / area * p;
       if (pressure[k].is_wet) wet += patches[k].measure / area;
     }
-    update_largest(context.time, averaging_time(averaging_time_of_probe, context.spacing, context.speed), pressure);
+    update_largest(context.time,
+                   averaging_time(averaging_time_of_probe, context.spacing, context.speed, context.gravity.norm()),
+                   pressure);
     const std::size_t highest = first_of_highest([&](std::size_t k) { return pressure[k].value; });
     Row row{pressure[highest].value};
     const Vec<Dim> place = patches[highest].centre(context.boundary);

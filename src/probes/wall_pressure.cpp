@@ -1,5 +1,6 @@
 #include "probes/wall_pressure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -174,10 +175,13 @@ Reading<Dim> mean_over(const std::vector<Vec<Dim>>& places, const ProbeTable& pr
 
 }  // namespace
 
-double averaging_time(double key, double spacing, double speed) {
-  constexpr double rows = 3.0;  // dx
+double averaging_time(double key, double spacing, double speed, double gravity) {
+  constexpr double rows = 3.0;           // dx
+  constexpr double part_of_depth = 0.1;  // H
   if (key > 0.0) return key;
-  return speed > 0.0 ? rows * spacing / speed : 0.0;
+  if (speed <= 0.0 || gravity <= 0.0) return 0.0;
+  const double depth = speed * speed / (2.0 * gravity);
+  return std::max(rows * spacing, part_of_depth * depth) / speed;
 }
 
 template <int Dim>

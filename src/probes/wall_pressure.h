@@ -19,10 +19,11 @@
 
 namespace tailwater {
 
-/// Time [s] over which the largest pressures of a probe are means: the key of the probe, with the dx and the speed
-/// [m/s] of the case. If the key is 0, it is the time in which water crosses the kernel's radius: rows of particles
-/// that arrive at a wall are then averaged (docs/theory/probes.md). 0 without gravity.
-double averaging_time(double key, double spacing, double speed);
+/// Time [s] over which the largest pressures of a probe are means: the key of the probe, with the dx, the speed [m/s]
+/// and the gravity [m/s^2] of the case. If the key is 0, it is the time in which water crosses the kernel's radius, so
+/// that rows of particles that arrive at a wall are averaged, or a tenth of the depth, whichever is longer: the time
+/// must not vanish with dx (docs/theory/probes.md). 0 without gravity.
+double averaging_time(double key, double spacing, double speed, double gravity);
 
 /// The sums of this formula and of c, over all or some particles.
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "case/probe_columns.h"
 #include "probes/discharge.h"
@@ -15,6 +16,12 @@ namespace tailwater {
 namespace {
 
 constexpr const char* second_half = "mean of the second half";
+
+double averaging_time_of(const ProbeTable& probe, const CaseSpec& spec, double speed) {
+  const double gravity = std::sqrt(
+      std::inner_product(spec.physics.gravity.begin(), spec.physics.gravity.end(), spec.physics.gravity.begin(), 0.0));
+  return averaging_time(probe.averaging_time, spec.particles.spacing, speed, gravity);
+}
 
 Quantity quantity_of(const DeclaredResult& declared, Measure measure, const ColumnDigest& column, double last_time,
                      const ProbeTable& probe, const CaseSpec& spec, double speed) {
@@ -36,7 +43,7 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
     case Statistic::max_mean: {
       const LargestMean& largest =
           declared.statistic == Statistic::max_rate ? column.largest_rate : column.largest_mean;
-      const double over = std::max(averaging_time(probe.averaging_time, spec.particles.spacing, speed), largest.over());
+      const double over = std::max(averaging_time_of(probe, spec, speed), largest.over());
       if (over == 0.0) return quantity(largest.value(), at(largest.time()));
       return quantity(largest.value(), fmt::format("{}, mean over {:.2g} s", at(largest.time()), over));
     }
@@ -94,8 +101,8 @@ std::string ProbeResult::words() const {
 std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& folder, double time, double speed) {
   std::vector<ProbeResult> results;
   for (const ProbeTable& probe : spec.probes) {
-    const TableDigest table = digest_probe_table(folder.probe(probe.name), 0.5 * time,
-                                                 averaging_time(probe.averaging_time, spec.particles.spacing, speed));
+    const TableDigest table =
+        digest_probe_table(folder.probe(probe.name), 0.5 * time, averaging_time_of(probe, spec, speed));
     ProbeResult result{probe.name, std::string(name_of(probe.type)), {}};
     const std::vector<OutputColumn> columns = columns_of(probe, spec.general.dimension);
     for (const DeclaredResult& declared : info_of(probe.type).results) {

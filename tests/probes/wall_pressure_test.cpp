@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "probes/tank.h"
@@ -173,4 +174,14 @@ TYPED_TEST(WallPressureTest, RefusesAPlaceFarFromWalls) {
 }
 
 }  // namespace
+
+/// The default averages three rows of particles that arrive at sqrt(2 g H), and does not vanish with dx.
+TEST(AveragingTime, IsThreeRowsOrATenthOfTheDepth) {
+  const double gravity = 9.81, depth = 0.6, speed = std::sqrt(2.0 * gravity * depth);
+  EXPECT_NEAR(averaging_time(0.0, 0.04, speed, gravity), 0.12 / speed, 1e-12);
+  EXPECT_NEAR(averaging_time(0.0, 0.001, speed, gravity), 0.06 / speed, 1e-12);
+  EXPECT_EQ(averaging_time(0.5, 0.001, speed, gravity), 0.5);
+  EXPECT_EQ(averaging_time(0.0, 0.001, 0.0, 0.0), 0.0);
+}
+
 }  // namespace tailwater
