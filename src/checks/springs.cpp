@@ -11,7 +11,7 @@ namespace {
 
 /// Steps of a spring that are shorter than those of the water by this factor are reported.
 constexpr double worth_a_warning = 10.0;
-/// Of the default formulations: near enough to the case's own for a factor of ten.
+/// The default formulations have it, which is near enough for a factor of ten.
 constexpr double usual_courant = 0.25;
 
 /// Warns of springs that need much shorter steps than the water, whose longest is `step` [s].

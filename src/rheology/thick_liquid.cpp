@@ -28,7 +28,7 @@ constexpr int max_iterations = 500;
 constexpr int max_passes = 3;
 constexpr double reduction_of_pass = 0.03;
 /// A pass that changes less than this fraction of the change of the step is the last one.
-constexpr double change_of_last_pass = 0.2;
+constexpr double change_of_last_pass = 0.05;
 
 /// The guess of a step repeats the change of the last one if this differed by less than this fraction of itself from
 /// the change before. Near rest changes are noise, and repeating them would add to it.
