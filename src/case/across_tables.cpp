@@ -131,7 +131,7 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
                              (wall->shape == WallShape::box && wall->open.empty());
       if (const auto [first, is_new] = body_of_wall.emplace(name, body.name); !is_new) {
         wrong("body-wall-shared",
-              fmt::format("wall '{}' is of body '{}' already; remove it from one of them", name, first->second));
+              fmt::format("wall '{}' already belongs to body '{}'; remove it from one of them", name, first->second));
       } else if (is_moved) {
         wrong("body-wall-moves",
               fmt::format("wall '{}' has a motion of its own; remove its displacement, rotation and motion", name));
@@ -311,9 +311,10 @@ void check_liquids(const CaseSpec& spec, const toml::table& root, Problems& prob
   if (!problems.none()) return;
   for (std::size_t k = 0; k < spec.liquids.size(); ++k) {
     if (std::ranges::count(spec.fluid, spec.liquids[k].name, &FluidTable::liquid) > 0) continue;
-    problems.add("liquid-without-block", &root["liquid"][k].node()->source(), CaseLabel("liquid", k),
-                 fmt::format("liquid[{}]: no [[fluid]] is of \"{}\"; give a block liquid = \"{}\", or remove the table",
-                             k, spec.liquids[k].name, spec.liquids[k].name));
+    problems.add(
+        "liquid-without-block", &root["liquid"][k].node()->source(), CaseLabel("liquid", k),
+        fmt::format("liquid[{}]: no [[fluid]] has liquid \"{}\"; give a block liquid = \"{}\", or remove the table", k,
+                    spec.liquids[k].name, spec.liquids[k].name));
   }
   if (const LiquidTable* const liquid = liquid_of(spec)) {
     check_surroundings_of_liquid(spec, root, *liquid, problems);

@@ -68,11 +68,12 @@ void check(const WaveMakerTable& maker, TableReader& reader) {
   check_plate(maker.from, maker.to, maker.side, "a wave maker", reader);
   if (maker.waves == WaveKind::none && maker.absorption == Absorption::none && !reader.is_wrong("absorption")) {
     reader.missing("maker-without-waves", "absorption",
-                   "a plate that makes no waves would rest; give absorption = \"active\", or other waves");
+                   "without waves or absorption the plate would rest; give waves, or absorption = \"active\"");
   }
   const bool is_long = maker.waves == WaveKind::solitary || maker.waves == WaveKind::n_wave;
   if (maker.type == MakerType::flap && is_long && !reader.is_wrong("type")) {
-    reader.wrong("flap-long-wave", "type", "such a long wave moves the water evenly over the depth; use a piston");
+    reader.wrong("flap-long-wave", "type",
+                 "such a long wave moves the water evenly over the depth, and a flap does not; use a piston");
   }
   check_waves(maker, maker.depth, "maker", reader);
 }
@@ -135,8 +136,9 @@ void check(const MooringTable& mooring, TableReader& reader) {
     }
   }
   if (mooring.stiffness == 0.0 && (mooring.damping == 0.0 || mooring.length > 0.0) && !reader.is_wrong("stiffness")) {
-    reader.wrong("mooring-without-stiffness", "stiffness",
-                 "a line without stiffness is a damper, which needs damping above 0 and no length");
+    reader.wrong(
+        "mooring-without-stiffness", "stiffness",
+        "a line without stiffness is a damper, which needs damping above 0; give damping, and remove the length");
   }
   if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
     reader.wrong("mooring-without-length", "anchor",
@@ -148,7 +150,7 @@ void check(const DampingTable& damping, TableReader& reader) {
   check_box(damping.min, damping.max, reader);
   if (const toml::node* node = reader.given("towards");
       node != nullptr && reader.dimension() == 2 && damping.towards >= AxisDirection::minus_z) {
-    reader.wrong("direction-in-2d", "towards", "a case of two dimensions has no z; give a direction in x or y");
+    reader.wrong("direction-in-2d", "towards", "a 2D case has no z; give a direction in x or y");
   }
   if (reader.dimension() == 2 && damping.direction != 0.0 && !reader.is_wrong("direction")) {
     reader.wrong("wave-direction-in-2d", "direction",
@@ -159,7 +161,7 @@ void check(const DampingTable& damping, TableReader& reader) {
                  "waves of a case of two dimensions have one direction; leave it out");
   }
   if (damping.waves != WaveKind::none && !has_period(damping.waves) && !reader.is_wrong("waves")) {
-    reader.wrong("damping-waves", "waves", "a zone makes no solitary waves and no N-waves; use a piston");
+    reader.wrong("damping-waves", "waves", "a damping zone cannot make solitary waves or N-waves; use a piston");
   } else if (damping.waves != WaveKind::none) {
     check_waves(damping, damping.depth, "zone", reader);
   }

@@ -49,7 +49,7 @@ class NamedNumbersReader {
     while (!open_.empty()) {
       const std::string name = one_in_a_circle();
       report("parameter-circular", name, *open_.at(name),
-             "depends on itself through other numbers; give one of them a number");
+             "depends on itself through other parameters; give one of them a number");
       close(name, unknown);
     }
     for (const auto& [name, value] : context_.numbers) {
@@ -68,7 +68,7 @@ class NamedNumbersReader {
     constexpr std::size_t most = 1000;  // their names are compared with each unknown one
     if (table->size() > most) {
       report("parameters-too-many", "", *node,
-             fmt::format("has {} parameters; a case has at most {}", table->size(), most));
+             fmt::format("has {} parameters, and a case has at most {}; remove some", table->size(), most));
       return;
     }
     for (const auto& [key, value] : *table) {
@@ -182,8 +182,9 @@ void read_foundations(CaseSpec& spec, Context& context, const toml::table& root)
   general.read_ahead(spec.general, {"format", "dimension"});
   if (spec.general.format > case_format) {
     // Other apparent errors may be valid in that format.
-    general.wrong("case-format-newer", "format", *general.given("format"),
-                  fmt::format("this program reads case files up to format {}; use a newer version of it", case_format));
+    general.wrong(
+        "case-format-newer", "format", *general.given("format"),
+        fmt::format("this version reads case files up to format {}; use a newer version of Tailwater", case_format));
     throw CaseError(context.problems.findings());
   }
   context.dimension = general.is_wrong("dimension") ? 0 : spec.general.dimension;

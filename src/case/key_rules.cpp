@@ -69,7 +69,7 @@ void check_turning_in_3d(const WallTable& wall, std::string_view key, TableReade
                  "in three dimensions only walls of shape = \"box\" turn; draw boxes, or let the wall keep its angle");
   } else if (!has_axis && !reader.is_wrong("axis")) {
     reader.wrong("wall-turns-without-axis", key,
-                 "needs the axis about which the wall turns; give axis, such as [0, 1, 0], and pivot, a point of it");
+                 "needs the axis about which the wall turns; give axis, such as [0, 1, 0], and pivot, a point on it");
   }
 }
 

@@ -94,9 +94,10 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
   };
   const auto missing = std::ranges::find_if_not(measurement.series.time, is_taken);
   if (missing == measurement.series.time.end()) return;
-  reporter.wrong("measurement-off-times", "file",
-                 fmt::format("{} has values at t = {:.9g} s, when probe \"{}\" takes no profile; add this to its times",
-                             measurement.file, *missing, probe->name));
+  reporter.wrong(
+      "measurement-off-times", "file",
+      fmt::format("{} has values at t = {:.9g} s, but probe \"{}\" takes no profile then; add this time to its times",
+                  measurement.file, *missing, probe->name));
 }
 
 }  // namespace

@@ -282,7 +282,7 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
   }
   if (std::abs(*value) > largest_number) {
     wrong("number-too-large", key, node,
-          fmt::format("its size is beyond {:g}, which no quantity of a flow reaches in SI units; give a number{}",
+          fmt::format("its magnitude is above {:g}, which no quantity of a flow reaches in SI units; give a number{}",
                       largest_number, in_unit(unit)),
           place);
     return std::nullopt;

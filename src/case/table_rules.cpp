@@ -191,7 +191,7 @@ void check_wall_motion(const WallTable& wall, TableReader& reader) {
   if (!wall.motion.empty() && !is_zero(wall.rotation)) refuse("rotation");
   const bool has_axis = std::ranges::any_of(wall.axis, [](double c) { return c != 0.0; });
   if (reader.dimension() == 2 && has_axis) {
-    reader.wrong("axis-in-2d", "axis", "in two dimensions walls turn about their pivot only; remove the key");
+    reader.wrong("axis-in-2d", "axis", "in 2D walls turn only about their pivot; remove the key");
   }
   if (reader.dimension() != 3 || wall.rotation == Varying(0.0)) return;
   check_turning_in_3d(wall, "rotation", reader);
@@ -218,7 +218,7 @@ void check(const WallTable& wall, TableReader& reader) {
   if (const toml::node* node = reader.given("open"); node != nullptr && reader.dimension() == 2) {
     for (const std::string& face : wall.open) {
       if (face.ends_with('z')) {
-        reader.wrong("face-in-2d", "open", "a box of two dimensions has no face \"{}\"; remove it", face);
+        reader.wrong("face-in-2d", "open", "a 2D box has no face \"{}\"; remove it", face);
       }
     }
   }
@@ -342,7 +342,7 @@ void check(const DomainTable& domain, TableReader& reader) {
     } else if (range[0] >= range[1]) {
       reader.wrong("range-empty", key, "is empty; give [low, high] with low below high, in m");
     } else if (reader.dimension() != 0 && reader.dimension() < least_dimension) {
-      reader.wrong("period-z-in-2d", key, "a case of two dimensions has no z; remove the key");
+      reader.wrong("period-z-in-2d", key, "a 2D case has no z; remove the key");
     }
   };
   check_period("periodic_x", domain.periodic_x, 2);

@@ -26,7 +26,7 @@ bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, 
         {"{} is not where it is drawn at t = 0: its point {} has moved by {} m, but displacement and "
          "rotation{} must begin with 0",
          wall_label(drawn, wall), place(face.corners[0]), vector_text(displacement), file_of(spec, wall)},
-        {"subtract their start, or draw the wall elsewhere"}));
+        {"subtract their values at t = 0, or move the drawing of the wall"}));
     return false;
   }
   return true;

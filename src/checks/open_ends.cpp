@@ -136,7 +136,7 @@ void check_rim(const CaseSpec& spec, const Boundary<Dim>& boundary, const Openin
                         wall.signed_distance > 0.0 ? "leaves a gap to the walls" : "reaches behind the walls", place(x),
                         wall_label(boundary, boundary.faces[wall.face].wall), place(wall.point),
                         Amount{std::abs(wall.signed_distance), "m"}},
-                       {"put its end on the wall there"}));
+                       {"move the edge of the opening onto the wall there"}));
     return;
   }
 }

@@ -19,7 +19,7 @@ Findings walls_longer_than(double period, int axis, const CaseSpec& spec, const 
     findings.push_back(Finding::error(
         "wall-longer-than-period",
         {"{} is {:.6g} long in {}, in which the case repeats itself every {:.6g} m (domain.periodic_{}), "
-         "so it would lie in itself",
+         "so it would overlap itself",
          wall_label(boundary, static_cast<int>(w)), Amount{length, "m"}, "xyz"[axis], period, "xyz"[axis]},
         {"draw one period of it"}));
   }

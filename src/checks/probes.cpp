@@ -86,11 +86,11 @@ void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const Pr
   const NearestWall<Dim> wall = drawn.nearest(at, std::numeric_limits<double>::infinity());
   const double away = (at - wall.point).norm();
   if (wall.face < 0 || away <= spec.particles.spacing) return;
-  findings.push_back(Finding::warning(
-      "probe-far-from-wall",
-      {"{} at {} reads the pressure on the nearest wall, at {}, {:.4g} away", label(probe), place(at),
-       place(wall.point), Amount{away, "m"}},
-      {"move it onto the wall that is meant, or take type = \"pressure\" for the pressure in the water"}));
+  findings.push_back(
+      Finding::warning("probe-far-from-wall",
+                       {"{} at {} reads the pressure on the nearest wall, at {}, {:.4g} away", label(probe), place(at),
+                        place(wall.point), Amount{away, "m"}},
+                       {"move the probe onto its wall, or use type = \"pressure\" for the pressure in the water"}));
 }
 
 }  // namespace

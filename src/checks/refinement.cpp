@@ -94,8 +94,8 @@ Findings check_depth(const CaseSpec& spec, const Box<Dim>& all, const typename S
   if (deepest >= zone.border - spec.particles.spacing) return {};
   return {Finding::error(
       "zone-too-thin",
-      {"{} is at most {:.4g} deep behind its edges, but the spacing needs {:.4g} m to fall by its level: nowhere would "
-       "it be as fine as asked",
+      {"{} is at most {:.4g} deep behind its edges, but the transition to its spacing takes {:.4g} m: no part of the "
+       "zone would be as fine as prescribed",
        owner, Amount{deepest, "m"}, zone.border},
       {"make the polygon wider, let it reach beyond the outermost walls, or use a lower level"})};
 }
@@ -115,7 +115,7 @@ Findings check_carried(const CaseSpec& spec, const Boundary<Dim>& boundary, int 
   if (spec.refinement.size() > 1) {
     findings.push_back(Finding::error("moving-zone-not-alone",
                                       {"{} moves with {}: a zone that moves must be the only one", owner, by},
-                                      {"remove the others, or give a box that contains its path"}));
+                                      {"remove the other zones, or give a fixed box that contains its path"}));
   }
   bool repeats = false;
   for (int axis = 0; axis < Dim; ++axis) repeats = repeats || !periodic_range(spec.domain, axis).empty();
@@ -146,8 +146,8 @@ Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename S
     if (high - low >= needed - corner_tolerance * spec.particles.spacing) continue;
     return {Finding::error(
         "zone-too-narrow",
-        {"{} is {:.4g} long in {}, but the spacing needs {:.4g} m to fall by its level behind each face: nowhere would "
-         "it be as fine as asked",
+        {"{} is {:.4g} long in {}, but the transition to its spacing takes {:.4g} m behind each face: no part of the "
+         "zone would be as fine as prescribed",
          owner, Amount{high - low, "m"}, "xyz"[axis], zone.border},
         {"make the zone at least {:.4g} m long, let it reach to the outermost walls, or use a lower level", needed})};
   }

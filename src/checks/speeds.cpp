@@ -40,7 +40,7 @@ Findings check_speeds(const CaseSpec& spec) {
         Finding::error("body-too-fast",
                        {"{} is {:.4g}, but water is treated as incompressible, which limits bodies to {:g} m/s",
                         CaseLabel("body", body.name).with_key("velocity"), Amount{speed, "m/s"}, largest_speed_of_case},
-                       {"correct it"}));
+                       {"give a lower velocity"}));
   }
   for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
     if (end.flow.feeds()) check_speed_of_end(end, spec.time.end, spec.particles.spacing, findings);

@@ -49,8 +49,8 @@ Findings check_height(const WaveKeys& waves, const CaseLabel& owner, double dx) 
   }
   return {Finding::warning(
       "waves-few-rows",
-      {"{} = {:.4g} is {:.2g} spacings: waves lower than {:g} spacings are not resolved, and their heights are not to "
-       "be trusted",
+      {"{} = {:.4g} is {:.2g} spacings: waves lower than {:g} spacings are not resolved, and their heights are "
+       "unreliable",
        owner.with_key("height"), Amount{waves.height, "m"}, waves.height / dx, lowest_resolved_wave},
       {"use a spacing of at most {:.3g} m, better a tenth of the height", 0.99 * waves.height / lowest_resolved_wave})};
 }
@@ -61,12 +61,11 @@ Findings check_absorption(const WaveMakerTable& maker, double gravity) {
   const double omega = 2.0 * std::numbers::pi / maker.period;
   const double reflection = plate_reflection(maker.type, omega, gravity, maker.depth);
   if (reflection <= most_plate_reflection) return {};
-  return {
-      Finding::warning("maker-reflects-waves",
-                       {"{} sends back {:.0f} % of the waves that come to it with its period of {:.4g} (kh = {:.3g})",
-                        CaseLabel("wave_maker", maker.name), 100.0 * reflection, Amount{maker.period, "s"},
-                        wave_number(omega, gravity, maker.depth) * maker.depth},
-                       {"replace it with a [[damping]] zone, which makes and absorbs waves of any depth"})};
+  return {Finding::warning("maker-reflects-waves",
+                           {"{} reflects {:.0f} % of incoming waves of its own period, {:.4g} (kh = {:.3g})",
+                            CaseLabel("wave_maker", maker.name), 100.0 * reflection, Amount{maker.period, "s"},
+                            wave_number(omega, gravity, maker.depth) * maker.depth},
+                           {"replace it with a [[damping]] zone, which makes and absorbs waves of any depth"})};
 }
 
 }  // namespace
@@ -85,7 +84,7 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
                        {"{} = {:.4g}, but the water in front of it is {:.4g} m deep at the start: its waves would not "
                         "have the prescribed height",
                         CaseLabel("wave_maker", maker.name).with_key("depth"), Amount{maker.depth, "m"}, *depth},
-                       {"correct depth or the water"}));
+                       {"set depth to the depth of the water, or change the water level"}));
   }
   return findings;
 }

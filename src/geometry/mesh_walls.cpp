@@ -178,7 +178,7 @@ void turn_outwards(TriangleMesh& mesh, const std::vector<TriangleEdge>& edges, c
     if (is_cavity) continue;
     refuse("mesh-part-inside-out",
            {"the part that begins with {} is inside out, unlike the rest of the file", refuse.triangle(first[p])},
-           {"turn its triangles over"});
+           {"reverse its triangles"});
   }
 }
 

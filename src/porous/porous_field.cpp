@@ -90,10 +90,10 @@ PorousField<Dim>::PorousField(const CaseSpec& spec, const Boundary<Dim>& boundar
   if (nodes > most_nodes) {
     throw CaseError(
         "porous-layers-too-large",
-        {"porous layers reach from {} to {}, which makes {:.3g} cells of half of particles.spacing = {:.6g} "
-         "m; at most {:.3g} are kept",
+        {"the porous layers from {} to {} need {:.3g} cells, each half of particles.spacing = {:.6g} m wide, "
+         "but a case has at most {:.3g}",
          place<Dim>(box.min()), place<Dim>(box.max()), nodes, spec.particles.spacing, most_nodes},
-        {"draw them in metres, and not far beyond the walls"});
+        {"give their coordinates in metres, and end them at the walls"});
   }
   nodes_.resize(static_cast<std::size_t>(nodes));
   for (std::size_t k = 0; k < nodes_.size(); ++k) {

@@ -77,7 +77,7 @@ void ResultLimits::warn_of_largest() {
   for (Limit* limit : {&energy_, &volume_}) {
     if (limit->told == 0.0 || limit->largest <= worth_telling * limit->told) continue;
     limit->told = limit->largest;
-    warn("balance-worst", "until t = {:.4f} s {}, the most in this run", limit->time_of_largest,
+    warn("balance-worst", "until t = {:.4f} s {}, the largest value in this run", limit->time_of_largest,
          fmt::format(fmt::runtime(limit->most), 100.0 * limit->largest));
   }
 }

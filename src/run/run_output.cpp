@@ -275,11 +275,10 @@ template <int Dim>
 void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside) {
   if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
-  warn(
-      "water-left-walls",
-      "at t = {:.4f} s {} fluid particle(s) left the walls for good; they are computed until they are below all walls, "
-      "and counted in summary.json. Remedy: higher walls",
-      flow.state.time, outside);
+  warn("water-left-walls",
+       "at t = {:.4f} s {} fluid particle(s) passed the walls and cannot return; they are computed until they are "
+       "below all walls, and counted in summary.json. Remedy: raise the walls",
+       flow.state.time, outside);
 }
 
 template <int Dim>

@@ -97,7 +97,7 @@ class Fill {
     if (seed_[Dim - 1] >= level_) {
       throw CaseError("fill-seed-above-level",
                       {"{}: seed {} is not below level = {:.6g}", owner_, place(seed_), level_},
-                      {"put it into the water, or raise the level"});
+                      {"move the seed below the level, or raise the level"});
     }
     const NearestWall<Dim> wall = boundary_.nearest(seed_, std::numeric_limits<double>::infinity());
     if (wall.face < 0) {

@@ -328,7 +328,7 @@ class Messages(ProgramTest):
         loud = self.call("run", "small.toml", "--out", "loud", *Books.OVER_THE_RIM)
         self.assertGreater(self.summary("loud")["volume"]["outside_the_walls_most"], 0)
         self.assertIn("warning: ", loud.stderr)
-        self.assertIn("Remedy: higher walls", loud.stderr)
+        self.assertIn("Remedy: raise the walls", loud.stderr)
         quiet = self.call("run", "small.toml", "--out", "quiet", "--quiet", *Books.OVER_THE_RIM)
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
         for run in ("loud", "quiet"):

@@ -146,7 +146,7 @@ const std::vector<BadInput> table{
          "[[body]]\nname = \"a\"\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = []\n"
          "[[body]]\nname = \"b\"\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = []\n",
      "20:9",
-     {"body[1].walls", "wall 'hull' is of body 'a' already", "remove it from one of them"}},
+     {"body[1].walls", "wall 'hull' already belongs to body 'a'", "remove it from one of them"}},
     {"body_that_turns_about_a_third_axis",
      required_keys + water +
          "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
@@ -289,7 +289,7 @@ const std::vector<BadInput> table{
     {"liquid_that_no_block_is_of",
      required_keys + water + "[[liquid]]\nname = \"mud\"\nviscosity = 1\n",
      "6:1",
-     {"liquid[0]: no [[fluid]] is of \"mud\""}},
+     {"liquid[0]: no [[fluid]] has liquid \"mud\""}},
     {"two_liquids",
      required_keys + mud + water + "[[liquid]]\nname = \"mud\"\nviscosity = 1\n",
      "7:1",

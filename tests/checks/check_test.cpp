@@ -811,7 +811,7 @@ TEST(Check, APlateThatAbsorbsBadlyIsReported) {
   const auto fluid = make_fluid_particles<2>(spec, make_boundary<2>(spec));
   EXPECT_TRUE(check_wave_makers<2>(spec, fluid).empty());
   spec.wave_makers[0].period = 0.7;
-  expect_only(check_wave_makers<2>(spec, fluid), Severity::warning, {"wave_maker 'piston' sends back", "kh = 3.29"});
+  expect_only(check_wave_makers<2>(spec, fluid), Severity::warning, {"wave_maker 'piston' reflects", "kh = 3.29"});
 }
 
 TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
@@ -824,7 +824,8 @@ TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
   spec.refinement = {zone};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec.refinement[0].max[1] = 3.0 * dx;
-  expect_only(check(spec), Severity::error, {"refinement 'floor'", "nowhere would it be as fine as asked"});
+  expect_only(check(spec), Severity::error,
+              {"refinement 'floor'", "no part of the zone would be as fine as prescribed"});
   spec.refinement[0].min[1] = 50.0;
   spec.refinement[0].max[1] = 60.0;
   expect_only(check(spec), Severity::error, {"refinement 'floor'", "would refine nothing"});
@@ -882,7 +883,7 @@ TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
   zone.shape = ZoneShape::polygon;
   zone.points = {{-1.0, -1.0}, {2.0, -1.0}, {2.0, 3.0 * dx}, {-1.0, 2.5 * dx}};
   spec.refinement = {zone};
-  expect_only(check(spec), Severity::error, {"refinement 'zone'", "deep behind its edges", "4 m to fall by its level"});
+  expect_only(check(spec), Severity::error, {"refinement 'zone'", "deep behind its edges", "4 m: no part of the zone"});
   spec.refinement[0].points = {{-1.0, -1.0}, {2.0, -1.0}, {2.0, 9.0 * dx}, {-1.0, 7.0 * dx}};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   zone.shape = ZoneShape::walls;

@@ -168,7 +168,7 @@ class Errors(PackageTest):
 
     def test_warning_of_the_end_is_told(self):
         self.case["limits.volume_warning"] = 1e-9
-        with self.assertWarnsRegex(tw.RunWarning, "the most in this run"):
+        with self.assertWarnsRegex(tw.RunWarning, "the largest value in this run"):
             with self.case.simulation("out") as simulation:
                 simulation.run()
 
