@@ -88,7 +88,7 @@ const std::vector<BadInput> table{
     {"axis_in_the_plane",
      required_keys + water + "[[wall]]\npoints = [[0, 0], [1, 0]]\naxis = [0, 1]\n",
      "8:8",
-     {"wall[0].axis", "about their pivot only"}},
+     {"wall[0].axis", "only about their pivot"}},
     // Gates and wave makers
     {"gate_without_an_extent",
      required_keys + water + "[[gate]]\nfrom = [1, 0]\nto = [1, 0]\nspeed = 1\n",
