@@ -167,7 +167,7 @@ def zhou_run(plan, dx, integrator="explicit", variant="", settings=()):
 
 
 def depth_checks(run):
-    columns = (("wet_m", "", "what a wire gauge reads"), ("connected_m", ".joined", "joined with the bed"),
+    columns = (("wet_m", "", "wet length of a wire gauge"), ("connected_m", ".joined", "joined with the bed"),
                ("highest_m", ".highest", "highest water"))
     return [Check(Metric(f"zhou1999.{gauge}.T{end:g}{key}", f"depth {gauge}, {words}, RMS over T = {start:g}..{end:g}", "H",
                          "mean over two readings of the laboratory's curve", high=None if key else bar), (run,),
