@@ -10,6 +10,8 @@ import re
 import sys
 from dataclasses import dataclass
 
+from generated_page import write_or_check
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "src", ROOT / "python"
 PAGE = ROOT / "docs" / "reference" / "messages.md"
@@ -201,18 +203,5 @@ def page():
     return "\n".join(chapters)
 
 
-def main(arguments):
-    if arguments not in ([], ["--check"]):
-        print(__doc__, file=sys.stderr)
-        return 2
-    text = page()
-    if not arguments:
-        PAGE.write_text(text, encoding="utf-8")
-    elif not PAGE.is_file() or PAGE.read_text(encoding="utf-8") != text:
-        print(f"{PAGE.relative_to(ROOT)} is out of date; remedy: scripts/message_reference.py")
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(write_or_check(PAGE, page, __doc__))

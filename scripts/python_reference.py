@@ -9,6 +9,8 @@ import pathlib
 import sys
 import textwrap
 
+from generated_page import write_or_check
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "tailwater"
 WIDTH = 120  # characters of a line of the page
@@ -111,19 +113,5 @@ def page():
     return "\n\n".join(line for line in lines if line) + "\n"
 
 
-def main(arguments):
-    if arguments not in ([], ["--check"]):
-        print(__doc__, file=sys.stderr)
-        return 2
-    text = page()
-    if arguments:
-        if not PAGE.is_file() or PAGE.read_text(encoding="utf-8") != text:
-            print(f"{PAGE.relative_to(ROOT)} is out of date; remedy: scripts/python_reference.py")
-            return 1
-        return 0
-    PAGE.write_text(text, encoding="utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(write_or_check(PAGE, page, __doc__))
