@@ -154,7 +154,7 @@ Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename S
   return {};
 }
 
-/// Whether a zone and its border meet a box on the way of the zone.
+/// Whether a zone and its border meet a box at some place of the zone's path.
 template <int Dim>
 bool comes_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
                 const std::vector<AffineMap<Dim>>& path, const Box<Dim>& box) {
@@ -173,9 +173,7 @@ bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
   Box<Dim> wider = box;
   wider.widen(margin);
   if (zone.depth == nullptr || !zone.box.intersects(wider)) return zone.box.intersects(wider);
-  bool is_near = false;
-  visit_depths<Dim>(spec, zone, box, [&](double depth) { is_near = is_near || depth > -margin; });
-  return is_near;
+  return comes_near<Dim>(spec, zone, {AffineMap<Dim>()}, box);
 }
 
 /// Distance [m] from the faces of a zone at which water has its finest spacing in all of a support.
