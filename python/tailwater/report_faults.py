@@ -1,5 +1,5 @@
-"""Faults that make a number unreliable: a leak, a missed level, energy that rose, an unfinished run, a single
-spacing."""
+"""Faults that make a number unreliable: a leak, a missed level, energy that rose, an unfinished run, an answer that
+still changes, a single spacing."""
 
 import re
 
@@ -40,14 +40,21 @@ def energy_of(summary):
     return dict(energy) if energy else {}
 
 
-def faults_of_run(run):
+def change_of(run, answer):
+    """[(kind, details)] of an answer that is a mean and still changes at the end of the run."""
+    quantities = run.results.get(answer["probe"], {}).get("quantities", [])
+    what = next((one["what"] for one in quantities if one["name"] == answer["quantity"]), "")
+    return [("the answer is not steady", what)] if "still" in what else []
+
+
+def faults_of_run(run, answer):
     """[(kind, details)] of one run."""
     summary = run.summary
     if run.status != "done":
         reached, end = summary.get("time_s", {}).get("reached"), run.case["time"]["end"]
         place = f"at t = {reached:.4g} of {end:.4g} s" if reached is not None else f"before t = {end:.4g} s"
         return [("a run is unfinished", f"{run.status} {place}")]
-    water, found = water_of(summary), []
+    water, found = water_of(summary), change_of(run, answer) if answer else []
     if water["outside_relative"] > LEAK:
         found.append(("water leaks", f"{100 * water['outside_relative']:.3g} % left the walls"))
     if abs(water["missing_relative"]) > LEAK:
@@ -72,13 +79,14 @@ def detail_of(kind, summary):
     return ""
 
 
-def faults_of(study_fault, runs, is_study) -> list:
+def faults_of(study_fault, runs, is_study, answer=None) -> list:
     """Reasons why the number is not reliable, one for each kind of fault; empty if no fault was detected. A fault of
-    any run of a study counts, because the interval is computed from all runs."""
+    any run of a study counts, because the interval is computed from all runs. `answer` has the probe and the quantity
+    of the number."""
     faults = [study_fault] if study_fault else []
     kinds = {}
     for run in runs:
-        for kind, detail in faults_of_run(run):
+        for kind, detail in faults_of_run(run, answer):
             kinds.setdefault(kind, []).append((run.spacing, detail))
     for kind, where in kinds.items():
         detail = next((detail for _, detail in where if detail), "")

@@ -17,6 +17,11 @@ namespace {
 
 constexpr const char* second_half = "mean of the second half";
 
+std::string mean_in_words(int trend) {
+  if (trend == 0) return second_half;
+  return fmt::format("{}, still {}", second_half, trend > 0 ? "rising" : "falling");
+}
+
 double averaging_time_of(const ProbeTable& probe, const CaseSpec& spec, double speed) {
   const double gravity = std::sqrt(
       std::inner_product(spec.physics.gravity.begin(), spec.physics.gravity.end(), spec.physics.gravity.begin(), 0.0));
@@ -36,7 +41,7 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
   };
   switch (declared.statistic) {
     case Statistic::mean:
-      return quantity(column.mean_of_second_half(), second_half);
+      return quantity(column.mean_of_second_half(), mean_in_words(column.trend_in_second_half()));
     case Statistic::rate:
       return quantity(column.rate_in_second_half(), second_half);
     case Statistic::max_rate:

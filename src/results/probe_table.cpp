@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <string_view>
 
@@ -108,16 +109,44 @@ void ColumnDigest::add(double time, double value, double half, double over) {
     half_begin_ = is_first ? time : std::max(half, last_time);
     const double share = is_first || time == last_time ? 1.0 : (half_begin_ - last_time) / (time - last_time);
     value_at_half_ = is_first ? value : last + share * (value - last);
-    integral_ += 0.5 * (value_at_half_ + value) * (time - half_begin_);
+    add_stretch(half_begin_, value_at_half_, time, value, half);
   } else if (has_begun_half_) {
-    integral_ += 0.5 * (last + value) * (time - last_time);
+    add_stretch(last_time, last, time, value, half);
   }
   last = value;
   last_time = time;
 }
 
+/// Adds the time between two readings to the quarters of the second half; the run ends at twice `half`.
+void ColumnDigest::add_stretch(double begin, double from_value, double end, double to_value, double half) {
+  const double slope = end > begin ? (to_value - from_value) / (end - begin) : 0.0;
+  for (std::size_t k = 0; k < quarters_.size(); ++k) {
+    const double from = std::max(begin, half * (1.0 + 0.25 * static_cast<double>(k)));
+    const double to = k + 1 == quarters_.size() ? end : std::min(end, half * (1.0 + 0.25 * static_cast<double>(k + 1)));
+    if (to <= from) continue;
+    quarters_[k].length += to - from;
+    quarters_[k].integral += (from_value + slope * (0.5 * (from + to) - begin)) * (to - from);
+  }
+}
+
 double ColumnDigest::mean_of_second_half() const {
-  return has_begun_half_ && last_time > half_begin_ ? integral_ / (last_time - half_begin_) : last;
+  double length = 0.0, integral = 0.0;
+  for (const Quarter& quarter : quarters_) {
+    length += quarter.length;
+    integral += quarter.integral;
+  }
+  return length > 0.0 ? integral / length : last;
+}
+
+int ColumnDigest::trend_in_second_half() const {
+  constexpr double least_change = 0.01;
+  if (std::ranges::any_of(quarters_, [](const Quarter& quarter) { return quarter.length == 0.0; })) return 0;
+  std::array<double, 4> means{};
+  std::ranges::transform(quarters_, means.begin(), [](const Quarter& one) { return one.integral / one.length; });
+  const double size = std::max(std::abs(means.front()), std::abs(means.back()));
+  if (std::abs(means.back() - means.front()) <= least_change * size) return 0;
+  if (std::ranges::is_sorted(means)) return 1;
+  return std::ranges::is_sorted(means, std::greater<>()) ? -1 : 0;
 }
 
 double ColumnDigest::rate_in_second_half() const {

@@ -2,6 +2,7 @@
 // the end, with little memory.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
@@ -60,13 +61,22 @@ struct ColumnDigest {
   double mean_of_second_half() const;
   /// Growth per second.
   double rate_in_second_half() const;
+  /// 1 or -1: the mean of each quarter of the second half is larger, or smaller, than that of the quarter before, and
+  /// the whole change is more than 1 % of them, so a steady state was not reached. 0: neither.
+  int trend_in_second_half() const;
 
  private:
+  struct Quarter {
+    double length = 0.0;  ///< s; with readings
+    double integral = 0.0;
+  };
+  void add_stretch(double begin, double from_value, double end, double to_value, double half);
+
   double sum_ = 0.0;  ///< integral since the first line
   bool has_begun_half_ = false;
   double half_begin_ = 0.0;  ///< s
   double value_at_half_ = 0.0;
-  double integral_ = 0.0;
+  std::array<Quarter, 4> quarters_;  ///< of the second half
 };
 
 struct TableDigest {

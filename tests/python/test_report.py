@@ -124,6 +124,12 @@ class MadeUp(PackageTest):
                                energy={"start_J": 100.0, "largest_rise_J": 2.0, "largest_rise_over_start": 0.02})
         self.assertIn("relied on: the energy rose (by 2 J, 2 % of the start)", line)
 
+    def test_answer_that_still_changes(self):
+        results = summary()["results"]
+        results["depth"]["quantities"][0]["what"] = "mean of the second half, still rising"
+        self.assertIn("relied on: the answer is not steady (mean of the second half, still rising)",
+                      self.first_line(results=results))
+
     def test_unfinished_run(self):
         line = self.first_line(status="interrupted", time_s={"end": 0.1, "reached": 0.04})
         self.assertRegex(line, "^This number cannot be relied on: the study is unfinished")

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,19 @@ TEST(ProbeTable, MeansAreOverTimeAndLinearBetweenReadings) {
   EXPECT_EQ(table.columns[0].time_of_largest, 0.0);
   // If the second half begins between two readings, its first value is interpolated: 3 at t = 1.5.
   EXPECT_DOUBLE_EQ(digest_probe_table(path, 1.5).columns[0].mean_of_second_half(), (0.5 * 2.0 + 1.0 + 2.0) / 2.5);
+}
+
+TEST(ProbeTable, AMeanThatStillChangesIsToldApart) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  // Rises by 2 % from t = 4 to t = 8, by 0.9 %, falls, goes up and down, and has readings from t = 6 on alone.
+  std::ofstream(path) << "time_s,a,b,c,d,e\n0,0,0,0,0,nan\n4,1,1,9,1,nan\n5,1.005,1.00225,8,3,nan\n"
+                         "6,1.01,1.0045,7,1,1\n7,1.015,1.00675,6,2,2\n8,1.02,1.009,5,2.5,3\n";
+  const TableDigest table = digest_probe_table(path, 4.0);
+  const auto trend = [&](std::size_t k) { return table.columns[k].trend_in_second_half(); };
+  EXPECT_EQ((std::array{trend(0), trend(1), trend(2), trend(3), trend(4)}), (std::array{1, 0, -1, 0, 0}));
+  EXPECT_NEAR(table.columns[0].mean_of_second_half(), 1.01, 1e-12);
+  EXPECT_NEAR(table.columns[4].mean_of_second_half(), 2.0, 1e-12);
 }
 
 TEST(ProbeTable, LargestMeansAreOverTheTimeGiven) {
@@ -100,6 +114,9 @@ TEST_F(Results, AreToldInWords) {
                   "2,0.289,0.29,0.2\n",
                   2.0),
             "0.2890 m (mean of the second half), highest 0.3000 m (at 0 s)");
+  EXPECT_EQ(
+      words("\"depth\"\nat = [0, 0]", "time_s,connected_m,highest_m,wet_m\n0,0.2,0.3,0.2\n8,0.28,0.28,0.2\n", 8.0),
+      "0.2600 m (mean of the second half, still rising), highest 0.3000 m (at 0 s)");
   EXPECT_EQ(
       words("\"force\"\nmoment_about = [0, 0]",
             "time_s,force_x_N_per_m,force_y_N_per_m,pressure_x_N_per_m\n0,0,0,0\n1,380,-12,0\n2,380,-12,0\n", 2.0),
