@@ -240,8 +240,8 @@ int AirWatch<Dim>::reference_at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-std::vector<PocketShare> AirWatch<Dim>::fractions_at(const Vec<Dim>& x) const {
-  std::vector<PocketShare> shares = space_.shares_at(x);
+std::vector<PocketShare> AirWatch<Dim>::fractions_at(const Boundary<Dim>& boundary, const Vec<Dim>& x) const {
+  std::vector<PocketShare> shares = space_.shares_at(boundary, x);
   const int reference = reference_at(x);
   if (reference < 0) return shares;
   double rest = 1.0;
@@ -272,7 +272,7 @@ std::vector<PocketWall<Dim>> AirWatch<Dim>::walls_beside(const Boundary<Dim>& bo
   for (const WallPatch<Dim>& patch : moving_) {
     const WallFace<Dim>& face = boundary.faces[patch.face];
     const Vec<Dim> x = patch.centre(boundary);
-    std::vector<PocketShare> shares = fractions_at(x + sight_of_walls * spacing_ * face.normal);
+    std::vector<PocketShare> shares = fractions_at(boundary, x + sight_of_walls * spacing_ * face.normal);
     if (!shares.empty()) walls.push_back({face.wall, x, -patch.measure * face.normal, std::move(shares)});
   }
   return walls;
@@ -326,7 +326,7 @@ void AirWatch<Dim>::look(const Walls<Dim>& walls, std::span<const Vec<Dim>> vent
   const std::int64_t begun_before = state.begun;
   const double pace = correction_of_volume(state.displacement, spacing_);
   std::vector<FoundPocket> found = follow_pockets<Dim>(*grid_, spacing_, voids, spaces_, law_, state);
-  space_ = PocketSpace<Dim>(grid_, spacing_, voids, solid, found);
+  space_ = PocketSpace<Dim>(grid_, spacing_, voids, solid, walls.boundary, found);
   const std::vector<double> volumes = space_.volumes(walls.boundary, particles, ranks);
   const std::vector<std::int64_t> before = numbers_of(state.pockets);
   exchange_gas<Dim>(*grid_, spaces_, volumes, begun_before, pace, law_, found, state);

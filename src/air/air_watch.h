@@ -123,10 +123,12 @@ class AirWatch {
   /// Discards the result of the last search and the responses. Call when particles have been repartitioned and sorted.
   void forget();
 
-  std::vector<PocketShare> shares_at(const Vec<Dim>& x) const { return space_.shares_at(x); }
+  std::vector<PocketShare> shares_at(const Boundary<Dim>& boundary, const Vec<Dim>& x) const {
+    return space_.shares_at(boundary, x);
+  }
   /// shares_at, with the remainder to 1 added to the reference pocket of the space at x, if it has one. The pressure of
   /// that pocket is added to all of the space, and only the differences of other pockets from it act on the water.
-  std::vector<PocketShare> fractions_at(const Vec<Dim>& x) const;
+  std::vector<PocketShare> fractions_at(const Boundary<Dim>& boundary, const Vec<Dim>& x) const;
   /// The reference pocket of the space at x, as an index; -1: it has none, since it is open, or an end has a level.
   int reference_at(const Vec<Dim>& x) const;
   /// The reference pocket of the space of a pocket.

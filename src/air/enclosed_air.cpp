@@ -69,11 +69,12 @@ EnclosedAir<Dim>::EnclosedAir(const CaseSpec& spec, const Setup<Dim>& setup, con
       starts_at_pressure_(!spec.pockets.empty()) {}
 
 template <int Dim>
-std::function<double(const Vec<Dim>&)> EnclosedAir<Dim>::pressure_field() const {
+std::function<double(const Vec<Dim>&)> EnclosedAir<Dim>::pressure_field(const Boundary<Dim>& boundary) const {
   if (state.pockets.empty()) return {};
-  return [this](const Vec<Dim>& x) {
+  return [this, &boundary](const Vec<Dim>& x) {
     double sum = 0.0;
-    for (const PocketShare& share : watch.shares_at(x)) sum += share.share * pressure_of(state.pockets[share.pocket]);
+    for (const PocketShare& share : watch.shares_at(boundary, x))
+      sum += share.share * pressure_of(state.pockets[share.pocket]);
     return sum;
   };
 }

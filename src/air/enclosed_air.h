@@ -41,7 +41,7 @@ class EnclosedAir final : public Part<Dim> {
   /// Pa; pressure of the gas in a pocket, above the atmosphere's.
   double pressure_of(const AirPocket& pocket) const { return watch.law().pressure(pocket.gas, pocket.volume); }
   /// The pressure [Pa] of the air at a place, above the atmosphere's; empty without pockets. Borrows this.
-  std::function<double(const Vec<Dim>&)> pressure_field() const;
+  std::function<double(const Vec<Dim>&)> pressure_field(const Boundary<Dim>& boundary) const;
   AirMeasures measures() const;
 
   std::string_view name() const override { return "air"; }

@@ -32,12 +32,13 @@ std::vector<double> growth(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, V
 template <int Dim>
 std::vector<PocketSide<Dim>> find_sides(const Flow<Dim>& flow, const EnclosedAir<Dim>& air) {
   const Particles<Dim>& particles = flow.state.particles;
+  const Boundary<Dim>& boundary = flow.walls.boundary;
   std::vector<PocketSide<Dim>> sides;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: a list
     if (flow.role[i] != Role::water) continue;
-    std::vector<PocketShare> shares = air.watch.fractions_at(particles.position[i]);
+    std::vector<PocketShare> shares = air.watch.fractions_at(boundary, particles.position[i]);
     if (shares.empty()) continue;
-    const bool is_beside = !air.watch.shares_at(particles.position[i]).empty();
+    const bool is_beside = !air.watch.shares_at(boundary, particles.position[i]).empty();
     sides.push_back({.particle = i, .shares = std::move(shares), .is_beside = is_beside});
   }
   std::vector<std::size_t> beside;

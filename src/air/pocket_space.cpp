@@ -43,6 +43,15 @@ void add_share(int pocket, double share, std::vector<PocketShare>& shares) {
   }
 }
 
+/// Whether a plate stands between two places.
+template <int Dim>
+bool is_behind_plate(const Boundary<Dim>& boundary, const Vec<Dim>& from, const Vec<Dim>& to) {
+  return std::ranges::any_of(boundary.screens_near(from, (to - from).norm()), [&](int s) {
+    const Screen<Dim>& screen = boundary.screens[s];
+    return screen.is_plate && !screen.is_beyond && screen.is_between(from, to);
+  });
+}
+
 /// Maximum number of cells of a block along an axis: the cube of a particle is in three, or in four where cells are a
 /// little smaller than dx/2.
 constexpr int most_along = 4;
@@ -77,12 +86,13 @@ void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& 
 
 template <int Dim>
 PocketSpace<Dim>::PocketSpace(std::shared_ptr<const VoidGrid<Dim>> grid, double spacing, const Voids<Dim>& voids,
-                              const CellMarks& walls, std::span<const FoundPocket> pockets)
+                              const CellMarks& walls, const Boundary<Dim>& boundary,
+                              std::span<const FoundPocket> pockets)
     : grid_(std::move(grid)), spacing_(spacing), pockets_(static_cast<int>(pockets.size())) {
   if (pockets.empty()) return;
   find_bounds(pockets);
   fill(voids, walls, pockets);
-  grow();
+  grow(boundary);
 }
 
 template <int Dim>
@@ -134,7 +144,7 @@ void PocketSpace<Dim>::visit_cells(Visit&& visit) const {
   }
 }
 
-/// Calls visit(place, cell) for the cells beside `c`.
+/// Calls visit(place, cell, step) for the cells beside `c`; `step` [m] is from the centre of `c` to theirs.
 template <int Dim>
 template <class Visit>
 void PocketSpace<Dim>::visit_sides(const Cell& c, Visit&& visit) const {
@@ -143,7 +153,7 @@ void PocketSpace<Dim>::visit_sides(const Cell& c, Visit&& visit) const {
       Cell other = c;
       if (!grid_->step(other, axis, direction)) continue;
       const std::int64_t k = place(other);
-      if (k >= 0) visit(k, other);
+      if (k >= 0) visit(k, other, Vec<Dim>(direction * grid_->edge()[axis] * Vec<Dim>::Unit(axis)));
     }
   }
 }
@@ -172,14 +182,15 @@ void PocketSpace<Dim>::fill(const Voids<Dim>& voids, const CellMarks& walls, std
   }
 }
 
-/// Assigns the cells of the water to the nearest air, in steps through the sides of cells.
+/// Assigns the cells of the water to the nearest air, in steps through the sides of cells but not through plates.
 template <int Dim>
-void PocketSpace<Dim>::grow() {
+void PocketSpace<Dim>::grow(const Boundary<Dim>& boundary) {
   std::vector<Cell> front;
   visit_cells([&](std::int64_t k, const Cell& c) {
     if (owner_[k] < 0) return;
     bool is_beside_water = false;
-    visit_sides(c, [&](std::int64_t other, const Cell&) { is_beside_water |= owner_[other] == in_water; });
+    visit_sides(
+        c, [&](std::int64_t other, const Cell&, const Vec<Dim>&) { is_beside_water |= owner_[other] == in_water; });
     if (is_beside_water) front.push_back(c);
   });
   std::vector<Cell> next;
@@ -187,8 +198,9 @@ void PocketSpace<Dim>::grow() {
     next.clear();
     for (const Cell& c : front) {
       const std::int16_t owner = owner_[place(c)];
-      visit_sides(c, [&](std::int64_t k, const Cell& other) {
-        if (owner_[k] != in_water) return;
+      const Vec<Dim> centre = grid_->centre(c);
+      visit_sides(c, [&](std::int64_t k, const Cell& other, const Vec<Dim>& step) {
+        if (owner_[k] != in_water || is_behind_plate<Dim>(boundary, centre, centre + step)) return;
         owner_[k] = owner;
         layer_[k] = static_cast<std::int8_t>(layer);
         next.push_back(other);
@@ -220,10 +232,19 @@ double PocketSpace<Dim>::weight_of(std::int64_t place) const {
   return place >= 0 && owner_[place] > 0 ? weight_of_layer(layer_[place]) : 0.0;
 }
 
+/// Whether a cell, beside or around `x`, is in front of the walls and plates that `x` is in front of.
+template <int Dim>
+bool PocketSpace<Dim>::is_seen(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Cell& c,
+                               std::int64_t place) const {
+  if (place >= 0 && owner_[place] == behind_wall) return false;
+  return !is_behind_plate<Dim>(boundary, x, grid_->centre(c));
+}
+
 /// Subtracts the water of one particle from the volumes. The part of its cube that is behind walls belongs in front of
 /// them.
 template <int Dim>
-void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<double>& volumes) const {
+void PocketSpace<Dim>::take_water(const Boundary<Dim>& boundary, const Vec<Dim>& x, double volume,
+                                  std::vector<double>& volumes) const {
   const Vec<Dim> at = grid_->in_cells(x);
   if (!is_inside(at)) return;
   Cell first;
@@ -238,12 +259,14 @@ void PocketSpace<Dim>::take_water(const Vec<Dim>& x, double volume, std::vector<
   double all = 0.0;
   visit_block(*grid_, low_, count_, first, cells, [&](const Cell& offset, std::int64_t k) {
     double part = 1.0;
+    Cell c;
     for (int d = 0; d < Dim; ++d) {
       const double half = 0.5 * spacing_ / grid_->edge()[d];
-      const int here = first[d] + offset[d];
-      part *= std::max(0.0, std::min(here + 0.5, at[d] + half) - std::max(here - 0.5, at[d] - half));
+      c[d] = first[d] + offset[d];
+      part *= std::max(0.0, std::min(c[d] + 0.5, at[d] + half) - std::max(c[d] - 0.5, at[d] - half));
     }
-    if (k < 0 || owner_[k] != behind_wall) all += part;
+    if (!is_seen(boundary, x, c, k)) return;
+    all += part;
     const double weight = weight_of(k);
     if (part * weight > 0.0) taken[count++] = {owner_[k] - 1, part * weight};
   });
@@ -261,7 +284,7 @@ std::vector<double> PocketSpace<Dim>::volumes(const Boundary<Dim>& boundary, con
     if (weight > 0.0 && is_mine) volumes[owner_[k] - 1] += weight * grid_->cell_volume() * in_front(c, boundary);
   });
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: sums by pocket
-    if (particles.is_fluid(i)) take_water(particles.position[i], particles.volume[i], volumes);
+    if (particles.is_fluid(i)) take_water(boundary, particles.position[i], particles.volume[i], volumes);
   }
   ranks.sum_of_each(volumes);
   for (double& volume : volumes) volume = std::max(volume, grid_->cell_volume());
@@ -287,7 +310,7 @@ int PocketSpace<Dim>::pocket_at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
-std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
+std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Boundary<Dim>& boundary, const Vec<Dim>& x) const {
   std::vector<PocketShare> shares;
   if (pockets_ == 0) return shares;
   const Vec<Dim> at = grid_->in_cells(x);
@@ -305,8 +328,13 @@ std::vector<PocketShare> PocketSpace<Dim>::shares_at(const Vec<Dim>& x) const {
   double all = 0.0;
   visit_block(*grid_, low_, count_, first, cells, [&](const Cell& offset, std::int64_t k) {
     double weight = 1.0;
-    for (int d = 0; d < Dim; ++d) weight *= weights[d][offset[d]];
-    if (k < 0 || owner_[k] != behind_wall) all += weight;
+    Cell c;
+    for (int d = 0; d < Dim; ++d) {
+      weight *= weights[d][offset[d]];
+      c[d] = first[d] + offset[d];
+    }
+    if (!is_seen(boundary, x, c, k)) return;
+    all += weight;
     if (weight > 0.0 && k >= 0 && owner_[k] > 0) add_share(owner_[k] - 1, weight * sight_of_layer(layer_[k]), shares);
   });
   for (PocketShare& share : shares) share.share /= all;

@@ -8,7 +8,8 @@
 //   V = sum over cells c of omega_c |c| - sum over water j of w_j omega(j),
 //
 // where |c| is the part of the cell in front of walls, and omega(j) the mean over the cube of edge dx around j. A
-// lattice of such cubes leaves no gap, so V is exact above one. Cells between two pockets count for the nearer.
+// lattice of such cubes leaves no gap, so V is exact above one. Cells between two pockets count for the nearer. Nothing
+// is seen through a plate: cells on its two sides belong to the air of their side.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +35,7 @@ class PocketSpace {
  public:
   PocketSpace() = default;
   PocketSpace(std::shared_ptr<const VoidGrid<Dim>> grid, double spacing, const Voids<Dim>& voids,
-              const CellMarks& walls, std::span<const FoundPocket> pockets);
+              const CellMarks& walls, const Boundary<Dim>& boundary, std::span<const FoundPocket> pockets);
 
   /// The volume of each pocket [m^Dim], at least that of a cell; collective.
   std::vector<double> volumes(const Boundary<Dim>& boundary, const Particles<Dim>& particles,
@@ -45,7 +46,7 @@ class PocketSpace {
 
   /// The fraction of each pocket in the air near x; empty where there is no pocket. Deep in the water the fractions
   /// fall to 0 together.
-  std::vector<PocketShare> shares_at(const Vec<Dim>& x) const;
+  std::vector<PocketShare> shares_at(const Boundary<Dim>& boundary, const Vec<Dim>& x) const;
 
  private:
   using Cell = typename VoidGrid<Dim>::Cell;
@@ -55,7 +56,7 @@ class PocketSpace {
 
   void find_bounds(std::span<const FoundPocket> pockets);
   void fill(const Voids<Dim>& voids, const CellMarks& walls, std::span<const FoundPocket> pockets);
-  void grow();
+  void grow(const Boundary<Dim>& boundary);
   bool is_inside(const Vec<Dim>& at) const;
   /// The place of a cell of the grid in this space; -1 if it is outside.
   std::int64_t place(const Cell& c) const;
@@ -67,7 +68,8 @@ class PocketSpace {
   /// The part of a cell in front of walls, from 0 to 1.
   double in_front(const Cell& c, const Boundary<Dim>& boundary) const;
   double weight_of(std::int64_t place) const;
-  void take_water(const Vec<Dim>& x, double volume, std::vector<double>& volumes) const;
+  bool is_seen(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Cell& c, std::int64_t place) const;
+  void take_water(const Boundary<Dim>& boundary, const Vec<Dim>& x, double volume, std::vector<double>& volumes) const;
 
   std::shared_ptr<const VoidGrid<Dim>> grid_;
   double spacing_ = 0.0;

@@ -229,7 +229,7 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .dt = dt,
                   .wall_forces = &flow.wall_forces,
                   .bodies = flow.state.motion.bodies.each,
-                  .air_pressure = air_of(flow).pressure_field(),
+                  .air_pressure = air_of(flow).pressure_field(flow.walls.boundary),
                   .spacing_field = flow.setup.graded == nullptr ? nullptr : &flow.setup.graded->field(),
                   .liquids = flow.setup.liquids.are_several() ? &flow.setup.liquids : nullptr,
                   .speed = flow.setup.time_step_rule.reference_speed});

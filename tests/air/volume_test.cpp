@@ -1,6 +1,7 @@
 // The volume of pockets in a tank, and the effect of water particles on it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -148,6 +149,31 @@ TEST(PocketVolumeOfPlate, PlateParts) {
   air_of(flow).begin_step(flow, 0.0);
   ASSERT_EQ(air_of(flow).state.pockets.size(), 2u);
   for (const AirPocket& pocket : air_of(flow).state.pockets) EXPECT_NEAR(pocket.volume, 0.2, 1e-6);
+}
+
+// Water on the other side of a plate does not see a pocket, which would grow by the motion of that water.
+TEST(PocketVolumeOfPlate, HidesWaterBehindIt) {
+  CaseSpec spec = closed_tank<2>(1.0, 0.4);
+  spec.fluid[0].max[1] = 0.6;
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.points = {{0.5, 0.2}, {0.5, 0.8}};
+  spec.walls.push_back(plate);
+  Flow<2> flow = make_flow<2>(spec);
+  keep_water(flow, [](const Vec<2>& x) { return x[0] < 0.5 || x[1] < 0.3; });
+  EnclosedAir<2>& air = air_of(flow);
+  air.begin_step(flow, 0.0);
+  ASSERT_EQ(air.state.pockets.size(), 2u);
+  const int right = air.state.pockets[0].volume > air.state.pockets[1].volume ? 0 : 1;
+  EXPECT_NEAR(air.state.pockets[right].volume, 0.5 * 0.5, 1e-6);
+  EXPECT_NEAR(air.state.pockets[1 - right].volume, 0.5 * 0.2, 1e-6);
+  const auto sees = [&](const Vec<2>& x, int pocket) {
+    const std::vector<PocketShare> shares = air.watch.shares_at(flow.walls.boundary, x);
+    return std::ranges::any_of(shares, [&](const PocketShare& share) { return share.pocket == pocket; });
+  };
+  EXPECT_FALSE(sees({0.475, 0.425}, right));
+  EXPECT_TRUE(sees({0.475, 0.425}, 1 - right));
+  EXPECT_TRUE(sees({0.525, 0.275}, right));
 }
 
 }  // namespace

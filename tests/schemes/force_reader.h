@@ -42,7 +42,7 @@ class Reader {
                .dt = dt,
                .wall_forces = &flow_.wall_forces,
                .bodies = flow_.state.motion.bodies.each,
-               .air_pressure = air_of(flow_).pressure_field()})
+               .air_pressure = air_of(flow_).pressure_field(flow_.walls.boundary)})
         .at(0);
   }
   Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>::Map(row(dt).data()); }
