@@ -27,12 +27,15 @@ void append_triangles(const PlacedFile& file, int wall, Boundary<3>& boundary) {
 template <int Dim>
 Boundary<Dim> draw_walls_one_by_one(const CaseSpec& spec) {
   Boundary<Dim> all;
+  all.walls.resize(spec.walls.size() + 1);  // the last for meshes of water
   CaseSpec single = spec;
   single.fluid.clear();
   for (int wall = 0; wall < static_cast<int>(spec.walls.size()); ++wall) {
     single.walls = {spec.walls[wall]};
     try {
-      for (WallFace<Dim> face : make_boundary<Dim>(single).faces) {
+      const Boundary<Dim> alone = make_boundary<Dim>(single);
+      all.walls[wall] = alone.walls.front();
+      for (WallFace<Dim> face : alone.faces) {
         face.wall = wall;
         all.faces.push_back(face);
       }

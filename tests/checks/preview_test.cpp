@@ -125,6 +125,9 @@ TEST(BrokenCase, ShowsTheTrianglesOfAMeshThatCannotBeAWall) {
   EXPECT_EQ(drawing.boundary.faces.size(), 5u * 2u + 11u);
   EXPECT_EQ(drawing.boundary.faces.back().wall, 1);
   EXPECT_GE(drawing.boundary.faces.back().corners[0][2], 3.0) << "where it stands in the case";
+  for (const WallFace<3>& face : drawing.boundary.faces) {
+    EXPECT_LT(face.wall, std::ssize(drawing.boundary.walls)) << "probes read the properties of walls";
+  }
   EXPECT_TRUE(drawing.fluid.position.empty()) << "without all walls nobody knows where water can be";
 
   spec.walls[1].file = "nowhere.stl";
