@@ -9,7 +9,6 @@
 #include "geometry/from_spec.h"
 
 namespace tailwater {
-
 template <int Dim>
 std::vector<WallFace<Dim>> faces_with(const Boundary<Dim>& boundary, const std::vector<Opening<Dim>>& ends) {
   std::vector<WallFace<Dim>> faces = boundary.faces;
@@ -22,7 +21,7 @@ std::vector<WallFace<Dim>> faces_with(const Boundary<Dim>& boundary, const std::
 
 template <int Dim>
 CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, const Box<Dim>& water, double most)
-    : tolerance_(corner_tolerance * spec.particles.spacing) {
+    : tolerance_(mesh_tolerance * spec.particles.spacing) {
   const Box<Dim> box = water.merged(box_around(faces));
   low_ = box.min();
   const Vec<Dim> high = box.max();
@@ -105,7 +104,10 @@ void CellSpace<Dim>::set_faces(std::vector<WallFace<Dim>> faces) {
 
 template <int Dim>
 bool CellSpace<Dim>::passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const {
-  if ((face.height(from) >= 0.0) == (face.height(to) >= 0.0)) return false;
+  const double before = face.height(from);
+  const double after = face.height(to);
+  const bool leads_behind = before >= -tolerance_ && after < -tolerance_;
+  if ((before >= 0.0) == (after >= 0.0) && !leads_behind) return false;
   const Vec<Dim> hit = meet(face, from, to);
   return (closest_point(face, hit) - hit).norm() <= tolerance_;
 }

@@ -45,8 +45,9 @@ class CellSpace {
   /// Replaces the faces, as when walls have moved.
   void set_faces(std::vector<WallFace<Dim>> faces);
 
-  /// Whether the straight line from one place to another passes the face. A place exactly on it counts as in front, so
-  /// that no line can pass a wall through a place on it.
+  /// Whether the straight line from one place to another passes the face. A place exactly on it counts as in front. A
+  /// line that begins on it, to rounding, and leads behind it passes it, so that no line can pass a wall through a
+  /// place on it, whatever the rounding of the faces that meet there.
   bool passes(const WallFace<Dim>& face, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// Whether the centre of a cell is behind the walls next to it. A centre on a wall is on neither side. Beside a
   /// convex edge a centre is in front, although it may be behind the plane of one of the faces that meet there.

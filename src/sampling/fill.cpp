@@ -26,7 +26,7 @@ class Fill {
         boundary_(boundary),
         lattice_(lattice),
         dx_(spec.particles.spacing),
-        tolerance_(corner_tolerance * dx_),
+        tolerance_(mesh_tolerance * dx_),
         seed_(to_vec<Dim>(block.seed, owner, "seed")),
         level_(block.level),
         near_(2.0 * dx_) {

@@ -1,5 +1,8 @@
 // Checks of walls from meshes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <utility>
 
 #include "checks/check.h"
 #include "checks/checks.h"
@@ -33,6 +36,41 @@ TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
   for (const auto& t : other.triangles) two.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
   two.points.insert(two.points.end(), other.points.begin(), other.points.end());
   expect_words(errors(two), {"crosses itself at (", "unite the bodies"});
+}
+
+// Centres of cells lie on banks of 45 degrees, on either side of a triangle by the rounding of the file.
+TEST(CheckMeshes, BanksOf45DegreesHoldTheWater) {
+  TriangleMesh channel;
+  for (const double x : {0.0, 1.6}) {
+    for (const auto& [y, z] : {std::pair{-0.4, 0.3}, {-0.1, 0.0}, {0.1, 0.0}, {0.4, 0.3}}) {
+      channel.points.emplace_back(x, y, z);
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    channel.triangles.push_back({k, k + 4, k + 5});
+    channel.triangles.push_back({k, k + 5, k + 1});
+  }
+  const MeshFolder folder;
+  for (const double spacing : {0.02, 0.025, 0.03}) {
+    CaseSpec spec = empty_case(spacing, 3);
+    spec.walls = {folder.wall(channel, FluidSide::above)};
+    FluidTable water;
+    water.shape = BlockShape::fill;
+    water.seed = {0.8, 0.0, 0.1};
+    water.level = 0.16;
+    spec.fluid = {water};
+    for (const double x : {0.0, 1.6}) {
+      OutletTable end;
+      end.name = fmt::format("end_{}", x);
+      end.direction = {x == 0.0 ? -1.0 : 1.0, 0.0, 0.0};
+      end.through = {x, 0.0, 0.27};
+      end.level = 0.16;
+      spec.outlets.push_back(end);
+    }
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    const Findings leaks = check_leaks(spec, boundary, make_fluid_particles(spec, boundary));
+    EXPECT_TRUE(leaks.empty()) << spacing << ": " << leaks.front().message();
+  }
 }
 
 // A tank of 3 m with a body inside it, then beside it, then so large that the tank is inside the body.
