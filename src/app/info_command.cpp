@@ -24,10 +24,19 @@ void show_program() {
              machine["processor"].get<std::string>(), machine["cores"].get<int>());
 }
 
-/// Prints the facts that a user needs before the numbers of a run are used.
-void show_digest(const Json& summary) {
+void print_line(const std::string& label, const std::string& text) { fmt::print("{:<10} {}\n", label + ":", text); }
+
+/// Prints the facts that a user needs before the numbers of a run are used. The summary of a run that is at work, or
+/// was killed, is that of its start, so its facts come from its tables.
+void show_digest(const std::filesystem::path& run, const Json& summary) {
   fmt::print("{}\n", printable(summary.at("title").get<std::string>()));
-  for (const auto& [label, text] : summary_digest(summary)) fmt::print("{:<10} {}\n", label + ":", text);
+  if (summary.value("status", "") != "running") {
+    for (const auto& [label, text] : summary_digest(summary)) print_line(label, text);
+    return;
+  }
+  const Json info = run_info(run);
+  print_line("time", fmt::format("{:.6g} of {:.6g} s", info["time"].get<double>(), info["end"].get<double>()));
+  for (const Json& line : info["lines"]) print_line(line["label"].get<std::string>(), line["text"].get<std::string>());
 }
 
 void show_run(const std::filesystem::path& run, bool as_json) {
@@ -45,7 +54,7 @@ void show_run(const std::filesystem::path& run, bool as_json) {
     return;
   }
   try {
-    show_digest(summary);
+    show_digest(run, summary);
   } catch (const Json::exception& error) {
     throw IoError("'{}' is not the summary of a run of this version ({}); remedy: tailwater info {} --json",
                   (run / "summary.json").string(), error.what(), run.string());

@@ -38,7 +38,7 @@ std::vector<KeyUse> uses_of_waves() {
        "focused",
        {"height", "period", "depth", "level", "focus"},
        {"peak_enhancement", "seed", "ramp", "start", "transport", "direction", "spreading"}},
-      {"damping", "waves", "none", {}, {"period", "depth"}},
+      {"damping", "waves", "none", {}, {"period", "depth", "transport"}},
   };
 }
 

@@ -134,9 +134,10 @@ Findings check_creep(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 /// Warning: a gate or a wave maker that starts after the end of the run.
 Findings check_late_starts(const CaseSpec& spec);
 
-/// Warning: a zone that reflects waves, or whose own waves the particles do not resolve.
+/// Warning: a zone that reflects waves, brakes a flow, or whose own waves the particles do not resolve. Errors: a level
+/// that the water does not have; a group that cannot come to its focus in time. Collective.
 template <int Dim>
-Findings check_wave_zones(const CaseSpec& spec);
+Findings check_wave_zones(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
 /// Error: a damping zone where no water can come.
 template <int Dim>

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "base/box.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/opening.h"
 #include "motion/wave_maker.h"
 #include "motion/wave_theory.h"
 #include "motion/wave_zone.h"
@@ -55,6 +58,21 @@ Findings check_height(const WaveKeys& waves, const CaseLabel& owner, double dx) 
       {"use a spacing of at most {:.3g} m, better a tenth of the height", 0.99 * waves.height / lowest_resolved_wave})};
 }
 
+/// Crests of a focused group that cannot have come to their focus by its time, at the group velocity of the peak.
+Findings check_focus(const WaveKeys& waves, const CaseLabel& owner, double depth, double gravity) {
+  if (waves.waves != WaveKind::focused || gravity == 0.0) return {};
+  const double omega = 2.0 * std::numbers::pi / waves.period;
+  const double k = wave_number(omega, gravity, depth);
+  const double group_velocity = 0.5 * omega / k * (1.0 + 2.0 * k * depth / std::sinh(2.0 * k * depth));
+  const double travel = waves.focus[0] / group_velocity;
+  if (waves.focus[1] >= waves.start + travel) return {};
+  return {Finding::error(
+      "focus-too-early",
+      {"{} = [{:g}, {:g}]: waves of the period {:.4g} that begin at t = {:.4g} s take {:.3g} s over this distance",
+       owner.with_key("focus"), waves.focus[0], waves.focus[1], Amount{waves.period, "s"}, waves.start, travel},
+      {"give a time of at least {:.3g} s, or a shorter distance", waves.start + travel + 2.0 * waves.period})};
+}
+
 /// Warns of a plate that absorbs badly according to linear theory.
 Findings check_absorption(const WaveMakerTable& maker, double gravity) {
   if (maker.absorption == Absorption::none || maker.period == 0.0) return {};
@@ -68,6 +86,49 @@ Findings check_absorption(const WaveMakerTable& maker, double gravity) {
                            {"replace it with a [[damping]] zone, which makes and absorbs waves of any depth"})};
 }
 
+/// The water at the start must stand where the waves of a zone have their still level.
+template <int Dim>
+Findings check_level(const CaseSpec& spec, const DampingTable& zone, const FluidParticles<Dim>& fluid) {
+  const CaseLabel owner("damping", zone.name);
+  const Vec<Dim> up = -gravity_of<Dim>(spec).normalized();
+  const Box<Dim> box(to_vec<Dim>(zone.min, owner, "min"), to_vec<Dim>(zone.max, owner, "max"));
+  const double dx = spec.particles.spacing;
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  double surface = none;
+  for (const Vec<Dim>& x : fluid.position) {
+    if (box.contains(x)) surface = std::max(surface, up.dot(x) + 0.5 * dx);
+  }
+  surface = fluid.ranks.largest(surface);
+  const double top = std::max(up.dot(box.min()), up.dot(box.max()));
+  const bool is_known = surface > none && surface < top - dx;
+  if (!is_known || std::abs(surface - zone.level) <= std::max(most_error * zone.depth, most_columns * dx)) return {};
+  return {Finding::error("zone-level-differs",
+                         {"{} = {:.4g}, but the surface of the water in the zone is at {:.4g} m at the start",
+                          owner.with_key("level"), Amount{zone.level, "m"}, surface},
+                         {"set level to the height of the surface, or change the water"})};
+}
+
+/// Warns of a zone that brakes the flow from an inlet to an outlet.
+template <int Dim>
+Findings check_current(const CaseSpec& spec, const DampingTable& zone) {
+  if (zone.waves != WaveKind::none || zone.transport != 0.0) return {};
+  const auto axis = static_cast<int>(zone.towards) / 2;
+  const double middle = 0.5 * (zone.min[axis] + zone.max[axis]);
+  const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
+  for (const Opening<Dim>& in : ends) {
+    for (const Opening<Dim>& out : ends) {
+      const double before = box_around(in.as_faces()).center()[axis] - middle;
+      const double beyond = box_around(out.as_faces()).center()[axis] - middle;
+      if (in.kind != OpeningKind::inlet || out.kind != OpeningKind::outlet || before * beyond >= 0.0) continue;
+      return {Finding::warning("damping-brakes-flow",
+                               {"{} stands between {} and {}, and brakes the water to rest",
+                                CaseLabel("damping", zone.name), in.label(), out.label()},
+                               {"give transport, the discharge over the depth in the direction towards"})};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -76,6 +137,8 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
   const double dx = spec.particles.spacing;
   for (const WaveMakerTable& maker : spec.wave_makers) {
     append(findings, check_height(maker, CaseLabel("wave_maker", maker.name), dx));
+    append(findings,
+           check_focus(maker, CaseLabel("wave_maker", maker.name), maker.depth, gravity_of<Dim>(spec).norm()));
     append(findings, check_absorption(maker, gravity_of<Dim>(spec).norm()));
     const std::optional<double> depth = depth_at(WavePlate<Dim>(spec, maker), fluid, dx);
     if (!depth || std::abs(*depth - maker.depth) <= std::max(most_error * maker.depth, most_columns * dx)) continue;
@@ -90,12 +153,15 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
 }
 
 template <int Dim>
-Findings check_wave_zones(const CaseSpec& spec) {
+Findings check_wave_zones(const CaseSpec& spec, const FluidParticles<Dim>& fluid) {
   Findings findings;
   const double gravity = gravity_of<Dim>(spec).norm();
   for (const DampingTable& zone : spec.damping) {
     const CaseLabel owner("damping", zone.name);
     append(findings, check_height(zone, owner, spec.particles.spacing));
+    append(findings, check_focus(zone, owner, zone.depth, gravity));
+    append(findings, check_current<Dim>(spec, zone));
+    if (zone.waves != WaveKind::none) append(findings, check_level(spec, zone, fluid));
     const WaveZone<Dim> made(spec, zone);  // throws where the waves break
     const std::optional<ZoneForecast> forecast = forecast_zone(spec, zone, gravity);
     if (!forecast) continue;

@@ -144,7 +144,8 @@ WaveZone<Dim>::WaveZone(const CaseSpec& spec, const DampingTable& table)
       across_(Vec<Dim>::Zero()),
       axis_(static_cast<int>(table.towards) / 2),
       grows_upwards_(static_cast<int>(table.towards) % 2 == 1),
-      strength_(table.strength) {
+      strength_(table.strength),
+      current_(Vec<Dim>::Zero()) {
   const CaseLabel owner("damping", table.name);
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   const std::optional<ZoneWaves> waves = waves_at(spec, table);
@@ -154,7 +155,10 @@ WaveZone<Dim>::WaveZone(const CaseSpec& spec, const DampingTable& table)
                     {"give strength, or period and depth"});
   }
   if (strength_ == 0.0) strength_ = strength_of(table, *waves, gravity.norm());
-  if (table.waves == WaveKind::none) return;
+  if (table.waves == WaveKind::none) {
+    current_[axis_] = (grows_upwards_ ? 1.0 : -1.0) * table.transport;
+    return;
+  }
   if (gravity.norm() == 0.0 || std::abs(gravity[axis_]) > 1e-9 * gravity.norm()) {
     throw CaseError("damping-along-gravity", {"{}: its waves run along gravity", owner},
                     {"give a horizontal direction in towards"});
@@ -183,6 +187,7 @@ double WaveZone<Dim>::rate_at(const Vec<Dim>& x) const {
 
 template <int Dim>
 Vec<Dim> WaveZone<Dim>::target(const Vec<Dim>& x, double time) const {
+  if (!field_) return current_;
   // Waves run from the side `towards` to the opposite one, where their distance is 0.
   const double way = grows_upwards_ ? -1.0 : 1.0;
   const double distance = way * (x[axis_] - (grows_upwards_ ? low_[axis_] : high_[axis_]));

@@ -55,7 +55,9 @@ class WaveZone {
   /// The rate [1/s] at which water at `x` approaches the target.
   double rate_at(const Vec<Dim>& x) const;
   bool has_waves() const { return field_.has_value(); }
-  /// The velocity [m/s] of the zone's waves.
+  /// False for a zone that brakes the water to rest.
+  bool has_target() const { return has_waves() || !current_.isZero(0.0); }
+  /// The velocity [m/s] of the zone's waves, or of its current.
   Vec<Dim> target(const Vec<Dim>& x, double time) const;
 
  private:
@@ -65,6 +67,7 @@ class WaveZone {
   bool grows_upwards_;
   double strength_;
   double bed_ = 0.0;  ///< m; along `up`
+  Vec<Dim> current_;  ///< m/s; of a zone without waves
   std::optional<WaveField> field_;
 };
 

@@ -21,13 +21,13 @@ void DampingZones<Dim>::add_damping_rate(const Flow<Dim>& flow, const StepStart<
 template <int Dim>
 void DampingZones<Dim>::add_relaxation(const Flow<Dim>& flow, const StepStart<Dim>& start,
                                        std::vector<Vec<Dim>>& drive) const {
-  if (std::ranges::none_of(zones_, &WaveZone<Dim>::has_waves)) return;
+  if (std::ranges::none_of(zones_, &WaveZone<Dim>::has_target)) return;
   const Particles<Dim>& particles = flow.state.particles;
   drive.resize(particles.owned, Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     for (const WaveZone<Dim>& zone : zones_) {
-      const double rate = zone.has_waves() ? zone.rate_at(start.position[i]) : 0.0;
+      const double rate = zone.has_target() ? zone.rate_at(start.position[i]) : 0.0;
       if (rate > 0.0) drive[i] += rate * zone.target(start.position[i], flow.state.time);
     }
   });

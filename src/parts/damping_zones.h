@@ -1,4 +1,4 @@
-// Zones that relax the water's velocity to rest or to that of waves: a body force (docs/theory/waves.md).
+// Zones that relax the water's velocity to rest, to a current or to that of waves: a body force (docs/theory/waves.md).
 #pragma once
 
 #include <vector>

@@ -48,7 +48,7 @@ void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim
   }
 }
 
-/// Throws CaseError for a layer that no water of the case can reach.
+/// Throws CaseError for a layer that no water of the case can reach, or whose grains are larger than it.
 template <int Dim>
 void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Box<Dim> box = box_around(boundary.faces);
@@ -56,6 +56,13 @@ void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary)
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
   for (const PorousTable& table : spec.porous) {
     const Box<Dim> layer = PorousRegion<Dim>(spec, table).box();
+    if (table.grain_size > layer.sizes().minCoeff()) {
+      throw CaseError(
+          "porous-grains-too-large",
+          {"{} = {:g}: the layer is only {:.4g} thick", CaseLabel("porous", table.name).with_key("grain_size"),
+           Amount{table.grain_size, "m"}, Amount{layer.sizes().minCoeff(), "m"}},
+          {"give the size of the grains in metres"});
+    }
     if (box.intersects(layer)) continue;
     throw CaseError("porous-layer-outside-walls",
                     {"{} reaches from {} to {}, outside of the walls, which stand between {} and {}",

@@ -316,7 +316,7 @@ class Messages(ProgramTest):
         self.assertEqual(result.stdout, "")
         *progress, depth, pressure, energy, last = result.stderr.splitlines()
         self.assertEqual(last, "done: results in run")
-        self.assertRegex(depth, r"^depth: 0\.\d+ m \(mean of the second half\), highest 0\.\d+ m \(at [\d.]+ s\)$")
+        self.assertRegex(depth, r"^depth: 0\.\d+ m \(mean of the second half, still falling\), highest 0\.\d+ m \(at [\d.]+ s\)$")
         self.assertRegex(pressure, r"^wall_pressure: \d+ Pa \(mean of the second half\), largest \d+ Pa.*, impulse [\d.]+ Pa s \(at ")
         self.assertRegex(energy, r"^energy: \d+ J per m \(at 0\.1\d* s\)$")
         self.assertEqual(self.summary("run")["results"]["depth"]["words"], depth.removeprefix("depth: "))
@@ -534,6 +534,9 @@ class Stopped(ProgramTest):
         summary = self.summary("run")
         self.assertEqual((summary["status"], summary["exit_code"]), ("running", None))
         self.assertIn("tailwater resume run", summary["message"])
+        info = self.call("info", "run")
+        self.assertIn("killed; to continue: tailwater resume run", info.stdout)
+        self.assertNotIn("time:      0 of", info.stdout)
 
     def test_lines_are_flushed_as_the_run_goes(self):
         process = self.start_endless_run()

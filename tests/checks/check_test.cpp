@@ -9,6 +9,7 @@
 #include "checks/check.h"
 #include "checks/checks.h"
 #include "geometry/cases.h"
+#include "motion/wave_zone.h"
 #include "support/circle.h"
 #include "support/liquids.h"
 
@@ -797,6 +798,29 @@ TEST(Check, AZoneThatReflectsIsReported) {
               {"damping is 0.2 m long, 0.51 of the wavelength: it reflects", "0.585 m long"});
 }
 
+TEST(Check, AZoneOfWavesFitsTheWaterAndTheTime) {
+  CaseSpec spec = tank();
+  spec.particles.spacing = 0.05;
+  DampingTable zone;
+  zone.min = {0.0, 0.0};
+  zone.max = {1.0, 1.0};
+  zone.waves = WaveKind::focused;
+  zone.height = 0.12;
+  zone.period = 0.5;
+  zone.depth = 0.4;
+  zone.level = 0.4;
+  zone.focus = {3.0, 20.0};
+  spec.damping = {zone};
+  const auto fluid = make_fluid_particles<2>(spec, make_boundary<2>(spec));
+  const auto found = [&] { return check_wave_zones<2>(spec, fluid); };
+  EXPECT_TRUE(found().empty()) << listed(found());
+  spec.damping[0].focus[1] = 7.0;  // in deep water groups take 4 pi x/(g T)
+  expect_only(found(), Severity::error, {"focus = [3, 7]", "take 7.69 s", "at least 8.69 s"});
+  spec.damping[0] = zone;
+  spec.damping[0].level = 0.0;
+  expect_only(found(), Severity::error, {"level = 0 m, but the surface of the water in the zone is at 0.4 m"});
+}
+
 TEST(Check, APlateThatAbsorbsBadlyIsReported) {
   CaseSpec spec = tank();
   WaveMakerTable maker;
@@ -1234,6 +1258,21 @@ TEST(Check, AnInletInAWallOrOffTheBedIsAnError) {
   CaseSpec closed = flume();
   closed.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {2.0, 0.0}})};
   expect_among(check(closed), Severity::error, {"inlet 'inlet1' overlaps wall 'wall1' at (0, "});
+}
+
+TEST(Check, AZoneThatBrakesTheFlowIsReported) {
+  CaseSpec spec = flume();
+  DampingTable zone;
+  zone.min = {1.0, 0.0};
+  zone.max = {2.0, 0.8};
+  zone.strength = 1.0;
+  spec.damping = {zone};
+  const auto fluid = make_fluid_particles<2>(spec, make_boundary<2>(spec));
+  expect_only(check_wave_zones<2>(spec, fluid), Severity::warning,
+              {"damping stands between inlet 'inlet1' and outlet 'outlet1'", "give transport"});
+  spec.damping[0].transport = 0.5;
+  EXPECT_TRUE(check_wave_zones<2>(spec, fluid).empty());
+  EXPECT_EQ(WaveZone<2>(spec, spec.damping[0]).target({1.5, 0.2}, 0.0), Vec<2>(0.5, 0.0));
 }
 
 TEST(Check, WhatAnInletCannotPassIsAnError) {
