@@ -9,6 +9,7 @@
 #include "checks/cell_space.h"
 #include "checks/checks.h"
 #include "checks/face_samples.h"
+#include "geometry/face_grid.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "geometry/wall_label.h"

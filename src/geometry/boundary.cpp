@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/box.h"
+#include "geometry/face_grid.h"
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
@@ -100,15 +101,21 @@ class WallSearch {
 template <int Dim>
 void Boundary<Dim>::file_faces(double reach) {
   moving_.clear();
-  resting_ = FaceGrid<Dim>(reach);
+  auto resting = std::make_shared<FaceGrid<Dim>>(reach);
   visit_plain_faces([&](int f) {
     if (walls[faces[f].wall].moves()) {
       moving_.push_back(f);
       return;
     }
     const Box<Dim> box = faces[f].box();
-    resting_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(faces[f], x) - x).norm(); });
+    resting->add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(faces[f], x) - x).norm(); });
   });
+  resting_ = std::move(resting);
+}
+
+template <int Dim>
+double Boundary<Dim>::filed_reach() const {
+  return resting_ == nullptr ? 0.0 : resting_->reach();
 }
 
 int WallMesh::end_face() const { return first_face + static_cast<int>(surface->mesh().triangles.size()); }
@@ -138,10 +145,10 @@ Vec<Dim> Boundary<Dim>::displacement_of(const WallMesh& mesh) const {
 
 template <int Dim>
 NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distance) const {
-  const double filed_distance = resting_.reach();
+  const double filed_distance = filed_reach();
   if (filed_distance > 0.0) {  // first, because most points are near a wall
     WallSearch<Dim> search(*this, x, std::min(search_distance, filed_distance));
-    for (const int f : resting_.near(x)) search.visit_face(f);
+    for (const int f : resting_->near(x)) search.visit_face(f);
     for (const int f : moving_) search.visit_face(f);
     search.visit_meshes();
     if (search.nearest().face >= 0 || search_distance <= filed_distance) return search.nearest();

@@ -11,13 +11,14 @@
 #include "base/box.h"
 #include "base/vec.h"
 #include "geometry/face.h"
-#include "geometry/face_grid.h"
 #include "geometry/opening.h"
 #include "geometry/screen.h"
 
 namespace tailwater {
 
 struct CaseSpec;
+template <int Dim>
+class FaceGrid;
 
 /// Index of the body to which all resting walls belong.
 inline constexpr int resting_body = 0;
@@ -103,7 +104,7 @@ struct Boundary {
   /// Stores the faces of resting walls by place, for searches up to `reach` (m). Afterwards no face may be added, and
   /// only faces of moving walls may change.
   void file_faces(double reach);
-  double filed_reach() const { return resting_.reach(); }
+  double filed_reach() const;
 
   /// Detects the free ends of walls that are not plates. Ends that are not detected have no screens.
   void find_free_ends(double spacing, double reach);
@@ -116,8 +117,7 @@ struct Boundary {
 
   /// Indices of the screens that a displacement of this length (m) ending at `x` may cross.
   std::span<const int> screens_near(const Vec<Dim>& x, double length) const {
-    if (length > hung_.reach()) return all_screens_;
-    return has_screens_near(x) ? hung_.near(x) : std::span<const int>();
+    return all_screens_.empty() ? std::span<const int>() : hung_near(x, length);
   }
 
   /// False only where no screen hides particles and no particle acts through screens.
@@ -168,14 +168,16 @@ struct Boundary {
   bool is_free_end(int face, const Vec<Dim>& x) const;
 
  private:
-  double screen_spacing_ = 0.0;         ///< m
-  double screen_reach_ = 0.0;           ///< m
-  FaceGrid<Dim> hung_;                  ///< the screens
-  Box<Dim> hung_box_;                   ///< around all points that a screen can affect
-  std::vector<Screen<Dim>> mesh_rims_;  ///< the screens beside free rims of meshes, as drawn
+  std::span<const int> hung_near(const Vec<Dim>& x, double length) const;
+
+  double screen_spacing_ = 0.0;                ///< m
+  double screen_reach_ = 0.0;                  ///< m
+  std::shared_ptr<const FaceGrid<Dim>> hung_;  ///< the screens; null: they have never been hung
+  Box<Dim> hung_box_;                          ///< around all points that a screen can affect
+  std::vector<Screen<Dim>> mesh_rims_;         ///< the screens beside free rims of meshes, as drawn
   std::vector<int> all_screens_;
-  FaceGrid<Dim> resting_;    ///< without meshes; reach 0: nothing is stored
-  std::vector<int> moving_;  ///< faces that do not belong to a mesh, once others are stored
+  std::shared_ptr<const FaceGrid<Dim>> resting_;  ///< without meshes; null: nothing is stored
+  std::vector<int> moving_;                       ///< faces that do not belong to a mesh, once others are stored
 };
 
 /// The walls of a case file, without ducts. Left and right of a polygon are seen in the direction of its points. A box

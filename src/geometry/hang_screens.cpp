@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "geometry/boundary.h"
+#include "geometry/face_grid.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
 #include "geometry/rim_ends.h"
@@ -323,21 +324,28 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
     }
     for (ScreenCut& cut : screen.cuts) cut.most += corner_tolerance * lengths.gap();
   }
-  hung_ = FaceGrid<Dim>(plate_reach * reach);
+  auto hung = std::make_shared<FaceGrid<Dim>>(plate_reach * reach);
   all_screens_.clear();
   for (int s = 0; s < static_cast<int>(screens.size()); ++s) {
     all_screens_.push_back(s);
     const Box<Dim> box = screens[s].box();
     hung_box_.extend(box);
-    hung_.add(s, box.min(), box.max(), [&](const Vec<Dim>& x) { return screens[s].distance(x); });
+    hung->add(s, box.min(), box.max(), [&](const Vec<Dim>& x) { return screens[s].distance(x); });
   }
+  hung_ = std::move(hung);
   const Vec<Dim> around = Vec<Dim>::Constant(screened_reach * reach);
   if (!hung_box_.isEmpty()) hung_box_ = {hung_box_.min() - around, hung_box_.max() + around};
 }
 
 template <int Dim>
+std::span<const int> Boundary<Dim>::hung_near(const Vec<Dim>& x, double length) const {
+  if (length > hung_->reach()) return all_screens_;
+  return has_screens_near(x) ? hung_->near(x) : std::span<const int>();
+}
+
+template <int Dim>
 bool Boundary<Dim>::is_beside_free_end(int wall, const Vec<Dim>& x) const {
-  return std::ranges::any_of(screens_near(x, hung_.reach()), [&](int s) {
+  return std::ranges::any_of(screens_near(x, hung_ == nullptr ? 0.0 : hung_->reach()), [&](int s) {
     const Screen<Dim>& screen = screens[s];
     return screen.wall == wall && screen.is_beyond && !screen.is_plate &&
            distance_to_rim<Dim>(screen.rim, x) < screen.plate_reach;
@@ -346,6 +354,8 @@ bool Boundary<Dim>::is_beside_free_end(int wall, const Vec<Dim>& x) const {
 
 template void Boundary<2>::find_free_ends(double, double);
 template void Boundary<3>::find_free_ends(double, double);
+template std::span<const int> Boundary<2>::hung_near(const Vec<2>&, double) const;
+template std::span<const int> Boundary<3>::hung_near(const Vec<3>&, double) const;
 template void Boundary<2>::hang_screens(double, double);
 template void Boundary<3>::hang_screens(double, double);
 template bool Boundary<2>::is_beside_free_end(int, const Vec<2>&) const;

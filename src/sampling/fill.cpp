@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/box.h"
+#include "geometry/face_grid.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
 #include "geometry/wall_label.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/boundary.h"
+#include "geometry/face_grid.h"
 #include "geometry/point_grid.h"
 #include "sampling/wall_particles.h"
 
