@@ -178,32 +178,20 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
   found.met.assign(space.faces().size(), false);
   found.wet.assign(space.faces().size(), false);
   found.behind.assign(space.faces().size(), std::nullopt);
-  std::vector<bool> visited(space.count(), false);
-  const auto visit = [&](const Cell& c) {
-    if (visited[space.index(c)]) return;
-    visited[space.index(c)] = true;
-    found.cells.push_back(c);
-  };
-  for (const Cell& c : start) visit(c);
-  for (std::size_t k = 0; k < found.cells.size(); ++k) {
-    const Cell c = found.cells[k];
-    for (int move = 0; move < 2 * Dim; ++move) {
-      const int axis = move / 2;
-      const int step = move % 2 == 0 ? -1 : 1;
-      if (step * down[axis] < -0.5) continue;
-      if (const int face = space.face_beside(c, axis, step); face >= 0) {
-        found.met[face] = true;
-        if (space.is_behind_walls(c)) found.behind[face] = space.centre(c);
-        space.visit_fronts_beside(c, axis, step, [&](int front) { found.wet[front] = true; });
-        ++found.sides;
-      } else if (const std::optional<Cell> target = space.next(c, axis, step)) {
-        visit(*target);
-      } else if (edge == Edge::leads_out) {
-        found.way_out = space.centre(c);
-        return found;
-      }
+  std::vector<bool> is_known(space.count(), false);
+  found.cells = walk(space, start, is_known, [&](const Cell& c, int axis, int step) -> std::optional<Cell> {
+    if (found.way_out || step * down[axis] < -0.5) return std::nullopt;
+    if (const int face = space.face_beside(c, axis, step); face >= 0) {
+      found.met[face] = true;
+      if (space.is_behind_walls(c)) found.behind[face] = space.centre(c);
+      space.visit_fronts_beside(c, axis, step, [&](int front) { found.wet[front] = true; });
+      ++found.sides;
+      return std::nullopt;
     }
-  }
+    std::optional<Cell> beside = space.next(c, axis, step);
+    if (!beside && edge == Edge::leads_out) found.way_out = space.centre(c);
+    return beside;
+  });
   return found;
 }
 

@@ -93,6 +93,30 @@ class CellSpace {
   std::vector<int> near_list_;
 };
 
+/// Walks from the cells of `start` from cell to cell, each once. `go(c, axis, step)` returns the cell beside `c` in
+/// that direction if the walk goes on there. Marks the cells in `is_known`, by their index, and leaves out those marked
+/// before. Returns the cells in the order of the walk.
+template <int Dim, class Go>
+std::vector<typename CellSpace<Dim>::Cell> walk(const CellSpace<Dim>& space,
+                                                const std::vector<typename CellSpace<Dim>::Cell>& start,
+                                                std::vector<bool>& is_known, Go&& go) {
+  using Cell = typename CellSpace<Dim>::Cell;
+  std::vector<Cell> cells;
+  const auto visit = [&](const Cell& c) {
+    if (is_known[space.index(c)]) return;
+    is_known[space.index(c)] = true;
+    cells.push_back(c);
+  };
+  for (const Cell& c : start) visit(c);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const Cell c = cells[k];
+    for (int move = 0; move < 2 * Dim; ++move) {
+      if (const std::optional<Cell> next = go(c, move / 2, move % 2 == 0 ? -1 : 1)) visit(*next);
+    }
+  }
+  return cells;
+}
+
 /// The cells that water reaches.
 template <int Dim>
 struct Spread {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "checks/cell_space.h"
@@ -43,27 +44,20 @@ class DrySpaces {
   /// The number of cells that are connected with this one; 0 if they lead to water, above the level, into a wall, to an
   /// open end or out of the case.
   std::size_t closed_around(std::size_t first) {
-    std::vector<std::size_t> found{first};
-    is_known_[first] = true;
+    using Cell = typename CellSpace<Dim>::Cell;
     bool is_closed = true;
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const auto c = space_.cell(found[k]);
-      for (int move = 0; move < 2 * Dim; ++move) {
-        const int step = move % 2 == 0 ? -1 : 1;
-        if (const int face = space_.face_beside(c, move / 2, step); face >= 0) {
-          is_closed = is_closed && static_cast<std::size_t>(face) < walls_;
-          continue;
-        }
-        const auto beside = space_.next(c, move / 2, step);
-        if (!beside || !may_be_dry(space_.index(*beside))) {
-          is_closed = false;
-        } else if (!is_known_[space_.index(*beside)]) {
-          is_known_[space_.index(*beside)] = true;
-          found.push_back(space_.index(*beside));
-        }
+    const auto go = [&](const Cell& c, int axis, int step) -> std::optional<Cell> {
+      if (const int face = space_.face_beside(c, axis, step); face >= 0) {
+        is_closed = is_closed && static_cast<std::size_t>(face) < walls_;
+        return std::nullopt;
       }
-    }
-    return is_closed ? found.size() : 0;
+      const std::optional<Cell> beside = space_.next(c, axis, step);
+      if (beside && may_be_dry(space_.index(*beside))) return beside;
+      is_closed = false;
+      return std::nullopt;
+    };
+    const std::size_t count = walk(space_, {space_.cell(first)}, is_known_, go).size();
+    return is_closed ? count : 0;
   }
 
   CellSpace<Dim> space_;
