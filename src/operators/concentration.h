@@ -28,8 +28,7 @@ struct KernelSums {
 template <int Dim>
 KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const KernelValues& values) {
   const auto inverse_W = static_cast<float>(1.0 / values.W_spacing);
-  const double close_ratio = values.W_close / values.W_spacing;
-  const auto close = static_cast<float>(close_ratio * close_ratio * close_ratio * close_ratio);
+  const auto close = static_cast<float>(values.close);
   Lanes concentration{};
   VecLanes<Dim> gradient{};
   VecLanes<Dim> crowding{};

@@ -16,12 +16,14 @@ struct LatticeSums {
 struct KernelValues {
   double W_0;        ///< W(0)
   double W_spacing;  ///< W(dx)
-  double W_close;    ///< W(0.7 dx): the weight against pairing acts between closer particles
+  double close;      ///< (W(0.7 dx)/W(dx))^4, no unit: the weight against pairing acts between closer particles
 };
 
 template <int Dim>
 KernelValues kernel_values_of(const Kernel<Dim>& kernel, double spacing) {
-  return {kernel_value(kernel, 0.0), kernel_value(kernel, spacing), kernel_value(kernel, 0.7 * spacing)};
+  const double W_spacing = kernel_value(kernel, spacing);
+  const double ratio = kernel_value(kernel, 0.7 * spacing) / W_spacing;
+  return {kernel_value(kernel, 0.0), W_spacing, ratio * ratio * ratio * ratio};
 }
 
 template <int Dim>
