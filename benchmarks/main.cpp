@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "bench.h"
 #include "case/reader.h"
+#include "flow/pressure_equation.h"
 #include "linear/session.h"
 #include "results/provenance.h"
 
@@ -34,7 +35,7 @@ void add_memory(const Stage<Dim>& stage, double bytes_before) {
   add_context("bytes.all", bytes_on_heap() - bytes_before);
   add_context("bytes.pairs", bytes_of(pairs.j));
   add_context("bytes.pair_vectors", bytes_of(stage.flow.surroundings.pair_vectors.ends));
-  const auto entries = static_cast<double>(stage.flow.pressure_rows.entries());
+  const auto entries = static_cast<double>(stage.flow.equation->rows.entries());
   add_context("bytes.matrix", entries * sizeof(float));  // its columns are those of the pairs
 }
 

@@ -1,7 +1,9 @@
 #include "base/for_each.h"
 #include "bench.h"
 #include "case/spec.h"
+#include "flow/pressure_equation.h"
 #include "io/vtp_writer.h"
+#include "neighbours/neighbourhood.h"
 #include "operators/concentration.h"
 #include "operators/pair_vectors.h"
 #include "pressure/operators.h"
@@ -12,7 +14,7 @@ namespace {
 
 void add_neighbours(auto& stage) {
   auto& flow = stage.flow;
-  add_benchmark("neighbours/search", [&] { flow.neighbourhood.update(flow.state.particles); });
+  add_benchmark("neighbours/search", [&] { flow.neighbourhood->update(flow.state.particles); });
 }
 
 template <int Dim>
@@ -60,7 +62,7 @@ template <int Dim>
 void add_assembly(Stage<Dim>& stage) {
   Flow<Dim>& flow = stage.flow;
   add_benchmark("assembly/pattern",
-                [&flow] { flow.pressure_rows.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan); });
+                [&flow] { flow.equation->rows.set_pattern(flow.pairs().row_begin, flow.pairs().j, flow.halo().plan); });
   add_benchmark("assembly/whole", [&stage] { stage.pose(); });
 }
 
@@ -70,7 +72,7 @@ template <int Dim>
 void add_passes(Stage<Dim>& stage, const CaseSpec& spec, const std::string& scratch_file) {
   add_neighbours(stage);
   add_benchmark(
-      "flow/locate", [&stage] { locate(stage.flow); }, [&stage] { stage.flow.is_located = false; });
+      "flow/locate", [&stage] { locate(stage.flow); }, [&stage] { stage.flow.surroundings.are_current = false; });
   add_operators(stage);
   add_closures(stage);
   add_assembly(stage);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "bench.h"
+#include "flow/pressure_equation.h"
 
 namespace tailwater {
 namespace {
@@ -47,11 +48,11 @@ void add_cold_solve(Stage<Dim>& stage, const std::string& name, double tolerance
   add_benchmark(
       name,
       [&stage, pressure, iterations, tolerance] {
-        *iterations = stage.flow.pressure_solver.solve(stage.flow.pressure_rows, *pressure, tolerance).iterations;
+        *iterations = stage.flow.equation->solver.solve(stage.flow.equation->rows, *pressure, tolerance).iterations;
       },
       [&stage, pressure] {
         stage.pose();
-        pressure->assign(stage.flow.pressure_rows.size(), 0.0);
+        pressure->assign(stage.flow.equation->rows.size(), 0.0);
       },
       [iterations](benchmark::UserCounters& counters) { counters["iterations_of_solve"] = *iterations; });
 }
@@ -60,10 +61,10 @@ void add_cold_solve(Stage<Dim>& stage, const std::string& name, double tolerance
 
 template <int Dim>
 void add_pressure(Stage<Dim>& stage) {
-  const std::size_t size = stage.flow.pressure_rows.size();
+  const std::size_t size = stage.flow.equation->rows.size();
   const auto x = std::make_shared<std::vector<double>>(size, 1.0);
   const auto y = std::make_shared<std::vector<double>>(size);
-  const auto rows = std::make_shared<WholeRows>(stage.flow.pressure_rows);
+  const auto rows = std::make_shared<WholeRows>(stage.flow.equation->rows);
   add_benchmark(
       "pressure/product", [rows, x, y] { multiply(*rows, *x, *y); }, {},
       [rows](benchmark::UserCounters& counters) {

@@ -7,6 +7,7 @@
 #include "air/pocket_response.h"
 #include "air/vent.h"
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
 #include "motion/wall_motion.h"
 
 namespace tailwater {
@@ -140,14 +141,14 @@ PocketStep<Dim> pose_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<c
     step.walls = air.watch.walls_beside(flow.walls.boundary);
     step.air_fractions = find_air_fractions<Dim>(flow, step.water, pockets);
   }
-  const std::vector<double> sources(flow.pressure_rows.rhs().begin(), flow.pressure_rows.rhs().end());
+  const std::vector<double> sources(flow.equation->rows.rhs().begin(), flow.equation->rows.rhs().end());
   for (int k = 0; k < static_cast<int>(pockets); ++k) {
     if (air.watch.reference_of(k) != k) step.iterations += find_response<Dim>(flow, air, step.water, k);
   }
   for (int k = 0; k < static_cast<int>(pockets); ++k) {
     if (air.watch.reference_of(k) == k) set_reference_response<Dim>(flow, air, k);
   }
-  std::ranges::copy(sources, flow.pressure_rows.rhs().begin());
+  std::ranges::copy(sources, flow.equation->rows.rhs().begin());
   if (walls_move) step.wall_pair_forces = find_wall_pair_forces<Dim>(flow, air, step.air_fractions);
   step.response_deficit = find_response_deficit<Dim>(flow, air, step.water);
   step.answers = find_answers(flow, air, dt);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
 #include "flow/stages.h"
 #include "pressure/solve_rows.h"
 #include "pressure/tolerance.h"
@@ -24,7 +25,7 @@ template <int Dim>
 void show_to_walls(const Flow<Dim>& flow, AirResponse<Dim>& response) {
   extend_to_walls(flow, response.pressure);
   flow.halo().exchange(response.force);
-  const LinearSystem& rows = flow.pressure_rows;
+  const LinearSystem& rows = flow.equation->rows;
   const LinearSystem::Part part = rows.whole();
   const std::vector<Vec<Dim>>& x = flow.state.particles.position;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
@@ -60,7 +61,7 @@ std::vector<Vec<Dim>> force_of(const Flow<Dim>& flow, std::span<const PocketSide
 /// The response by the matrix alone.
 template <int Dim>
 AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket, int& iterations) {
-  LinearSystem& rows = flow.pressure_rows;
+  LinearSystem& rows = flow.equation->rows;
   std::ranges::fill(rows.rhs(), 0.0);
   for (const PocketSide<Dim>& side : sides) {
     for (const PocketShare& share : side.shares) {
@@ -69,7 +70,7 @@ AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>
   }
   AirResponse<Dim> response{shares_of(flow, sides, pocket),
                             std::vector(flow.state.particles.size(), Vec<Dim>(Vec<Dim>::Zero()))};
-  const double tolerance = rough_tolerance(flow.pressure_solver.tolerance());
+  const double tolerance = rough_tolerance(flow.equation->solver.tolerance());
   iterations += solve_rows(flow, response.pressure, tolerance).iterations;
   return response;
 }
@@ -84,10 +85,10 @@ double refine_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, 
   set_wall_velocities<Dim>(flow, at_rest, response.force);
   std::vector<double> divergence(flow.state.particles.owned, 0.0);
   flow.discretisation().find_divergence(flow, response.force, divergence);
-  LinearSystem& rows = flow.pressure_rows;
+  LinearSystem& rows = flow.equation->rows;
   for_each(divergence.size(), [&](std::size_t i) { rows.set_rhs(i, -divergence[i]); });
   std::vector<double> change(response.pressure.size(), 0.0);
-  iterations += solve_rows(flow, change, tolerance_of_pass(flow.pressure_solver.tolerance())).iterations;
+  iterations += solve_rows(flow, change, tolerance_of_pass(flow.equation->solver.tolerance())).iterations;
   extend_to_walls(flow, change);
   flow.halo().exchange(change);
   for_each(change.size(), [&](std::size_t i) { response.pressure[i] += change[i]; });
@@ -100,7 +101,7 @@ double refine_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, 
 template <int Dim>
 void extend_to_walls(const Flow<Dim>& flow, std::vector<double>& field) {
   flow.halo().exchange(field);
-  const LinearSystem& rows = flow.pressure_rows;
+  const LinearSystem& rows = flow.equation->rows;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] == Role::wall) field[i] = rows.scale(i) * rows.whole().sum(i, field.data());
   });

@@ -1,10 +1,13 @@
-// A box along the axes.
+// A box along the axes, and the intervals in which space repeats.
 #pragma once
 
 #include "base/vec.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace tailwater {
 
@@ -83,5 +86,9 @@ class Box {
 };
 
 // NOLINTEND(readability-identifier-naming)
+
+/// For each direction the interval [m] that repeats, if any.
+template <int Dim>
+using PeriodicDomain = std::array<std::optional<std::pair<double, double>>, Dim>;
 
 }  // namespace tailwater

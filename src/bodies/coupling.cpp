@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "bodies/contacts.h"
 #include "bodies/moorings.h"
+#include "flow/pressure_equation.h"
 #include "parts/script_loads.h"
 #include "pressure/full_water.h"
 #include "pressure/solve_rows.h"
@@ -191,7 +192,7 @@ void BodyCoupling<Dim>::accelerate(const Eigen::VectorXd& A) {
   }
   bodies_.steer(flow_, dt_);
   drive_ = drive_walls(flow_, flow_.state.wall_velocity, dt_);
-  flow_.wall_model().set_sources(flow_.wall_scene(), flow_.wall_force(drive_.acceleration), flow_.pressure_rows);
+  flow_.wall_model().set_sources(flow_.wall_scene(), flow_.wall_force(drive_.acceleration), flow_.equation->rows);
 }
 
 template <int Dim>
@@ -350,11 +351,11 @@ void BodyCoupling<Dim>::report_forces(const std::vector<Twist<Dim>>& forces) {
   for (std::size_t b = 0; b < forces.size(); ++b) {
     const int beside = gaps_.wall_beside(static_cast<int>(b));
     if (beside < 0) continue;
-    flow_.wall_forces.beside_walls.push_back({.walls = bodies_.bodies[b].walls,
-                                              .beside = beside,
-                                              .centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time),
-                                              .force = forces[b].template head<Dim>(),
-                                              .moment = forces[b].template tail<turns<Dim>>()});
+    flow_.walls.forces.beside_walls.push_back({.walls = bodies_.bodies[b].walls,
+                                               .beside = beside,
+                                               .centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time),
+                                               .force = forces[b].template head<Dim>(),
+                                               .moment = forces[b].template tail<turns<Dim>>()});
   }
 }
 

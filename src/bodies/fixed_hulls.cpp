@@ -5,6 +5,7 @@
 #include "air/enclosed_air.h"
 #include "case/formulation.h"
 #include "flow/drawing.h"
+#include "flow/pressure_equation.h"
 
 namespace tailwater {
 namespace {
@@ -40,8 +41,8 @@ FixedHulls<Dim>::FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hull
       return surface.hull != hull && surface.boundary.nearest(patch.centre(boundary), reach).face >= 0;
     };
     if (hull < 0) continue;
-    whole_.push_back(patch);
-    if (moves || std::ranges::any_of(surfaces_, is_near)) patches_.push_back(patch);
+    all_patches_.push_back(patch);
+    if (moves || std::ranges::any_of(surfaces_, is_near)) near_patches_.push_back(patch);
   }
 }
 
@@ -50,15 +51,15 @@ template <int Dim>
 void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
   if (std::ranges::any_of(boundary.walls, &WallProperties::moves)) return;
-  const NarrowGaps<Dim> gaps(flow, hulls(patches_), flow.state.time);
+  const NarrowGaps<Dim> gaps(flow, hulls(near_patches_), flow.state.time);
   std::vector<bool> faces_wall;
-  for (std::size_t k = 0; k < hulls_.size(); ++k) faces_wall.push_back(gaps.wall_across(static_cast<int>(k)) >= 0);
+  for (std::size_t k = 0; k < hulls_.size(); ++k) faces_wall.push_back(gaps.wall_facing(static_cast<int>(k)) >= 0);
   can_seal_ = gaps.can_seal();
   const auto is_alone = [&](const WallPatch<Dim>& patch) {
     return !faces_wall[static_cast<std::size_t>(hull_of_wall_[boundary.faces[patch.face].wall])];
   };
-  std::erase_if(patches_, is_alone);
-  std::erase_if(whole_, is_alone);
+  std::erase_if(near_patches_, is_alone);
+  std::erase_if(all_patches_, is_alone);
 }
 
 template <int Dim>
@@ -69,13 +70,13 @@ void FixedHulls<Dim>::claim(const Flow<Dim>& /*flow*/, std::span<Role> /*role*/)
 /// Changes the rows of a second projection, which adds to a pressure that films have changed already.
 template <int Dim>
 void FixedHulls<Dim>::write_rows(Flow<Dim>& flow) {
-  let_correction_through_films(sealed_, flow.pressure_rows);
+  let_correction_through_films(sealed_, flow.equation->rows);
 }
 
 template <int Dim>
 int FixedHulls<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
   if (!has_hulls() || !can_seal_) return 0;
-  NarrowGaps<Dim> gaps(flow, hulls(patches_), flow.state.time);
+  NarrowGaps<Dim> gaps(flow, hulls(near_patches_), flow.state.time);
   gaps.measure({});
   sealed_ = gaps.find_sealed(flow.state.particles.pressure);
   let_through_films(sealed_, flow);
@@ -92,17 +93,17 @@ template <int Dim>
 void FixedHulls<Dim>::report(Flow<Dim>& flow) {
   has_report_ = false;
   if (!has_probes_ || !has_hulls() || !air_of(flow).state.pockets.empty()) return;
-  NarrowGaps<Dim> gaps(flow, hulls(whole_), flow.state.time);
+  NarrowGaps<Dim> gaps(flow, hulls(all_patches_), flow.state.time);
   gaps.measure(gaps.find_stagnant());
   for (std::size_t k = 0; k < hulls_.size(); ++k) {
-    const int beside = gaps.wall_across(static_cast<int>(k));
+    const int beside = gaps.wall_facing(static_cast<int>(k));
     if (beside < 0) continue;
     has_report_ = true;
-    flow.wall_forces.beside_walls.push_back({.walls = {hulls_[k]},
-                                             .beside = beside,
-                                             .centre = Vec<Dim>::Zero(),
-                                             .force = Vec<Dim>::Zero(),
-                                             .moment = Turn<Dim>::Zero()});
+    flow.walls.forces.beside_walls.push_back({.walls = {hulls_[k]},
+                                              .beside = beside,
+                                              .centre = Vec<Dim>::Zero(),
+                                              .force = Vec<Dim>::Zero(),
+                                              .moment = Turn<Dim>::Zero()});
   }
   if (!has_report_) return;
   const std::vector<double>& pressure = flow.state.particles.pressure;
@@ -120,7 +121,7 @@ void FixedHulls<Dim>::report(Flow<Dim>& flow) {
 template <int Dim>
 void FixedHulls<Dim>::add_to_report(Flow<Dim>& flow, ForceSums<Dim>& sums) const {
   const std::vector<Twist<Dim>> forces = sums.gather();
-  for (ForceBesideWall<Dim>& one : flow.wall_forces.beside_walls) {
+  for (ForceBesideWall<Dim>& one : flow.walls.forces.beside_walls) {
     const int hull = hull_of_wall_[one.walls.front()];
     if (hull < 0) continue;
     one.force += forces[hull].template head<Dim>();

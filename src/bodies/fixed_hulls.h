@@ -27,7 +27,7 @@ class FixedHulls final : public Part<Dim> {
              double spacing, bool has_probes);
 
   /// False where no wall is so near a hull that its force is not that of pairs, unless walls move.
-  bool has_hulls() const { return !patches_.empty(); }
+  bool has_hulls() const { return !near_patches_.empty(); }
 
   std::string_view name() const override { return "fixed_hulls"; }
   bool changes_rows() const override { return sealed_.is_any(); }
@@ -56,8 +56,8 @@ class FixedHulls final : public Part<Dim> {
   std::vector<int> hulls_;         ///< wall of each
   std::vector<int> hull_of_wall_;  ///< of each wall, or -1
   std::vector<ContactSurface<Dim>> surfaces_;
-  std::vector<WallPatch<Dim>> whole_;    ///< all patches of the hulls
-  std::vector<WallPatch<Dim>> patches_;  ///< near other walls
+  std::vector<WallPatch<Dim>> all_patches_;   ///< of the hulls
+  std::vector<WallPatch<Dim>> near_patches_;  ///< near other walls
   bool has_probes_ = false;
   bool can_seal_ = true;     ///< whether a hull touches another wall, or a film can be between them
   SealedWater sealed_;       ///< in this step

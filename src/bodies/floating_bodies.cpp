@@ -8,6 +8,7 @@
 #include "bodies/coupling.h"
 #include "bodies/forces.h"
 #include "case/rheology.h"
+#include "flow/pressure_equation.h"
 
 namespace tailwater {
 namespace {
@@ -96,8 +97,8 @@ void FloatingBodies<Dim>::begin_step(Flow<Dim>& flow, double dt) {
 template <int Dim>
 void FloatingBodies<Dim>::write_rows(Flow<Dim>& flow) {
   for (const std::size_t i : stagnant)
-    flow.pressure_rows.row(i).finish_as_zero();  // no later pass corrects its pressure
-  let_correction_through_films(sealed, flow.pressure_rows);
+    flow.equation->rows.row(i).finish_as_zero();  // no later pass corrects its pressure
+  let_correction_through_films(sealed, flow.equation->rows);
 }
 
 template <int Dim>

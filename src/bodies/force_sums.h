@@ -79,7 +79,7 @@ void add_guard(const Flow<Dim>& flow, std::span<const int> of_wall, ForceSums<Di
   const Particles<Dim>& particles = flow.state.particles;
   const Boundary<Dim>& boundary = flow.walls.boundary;
   for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: all add to the same few sums
-    const Vec<Dim>& force = flow.wall_forces.pressure[i];
+    const Vec<Dim>& force = flow.walls.forces.pressure[i];
     if (!particles.is_fluid(i) || force.isZero(0.0)) continue;
     const NearestWall<Dim> nearest =
         boundary.nearest(particles.position[i], search_distance * flow.setup.scale.spacing);

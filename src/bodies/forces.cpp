@@ -52,7 +52,7 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::of_friction() const {
   const std::vector<std::size_t> walls = walls_of_hulls<Dim>(flow_, bodies_.body_of_wall);
   ForceSums<Dim> sums = sums_on_bodies(flow_, time_);
   add_on_hulls<Dim>(flow_, bodies_.body_of_wall, walls, sums,
-                    [&](std::size_t n) { return flow_.wall_forces.friction[walls[n]]; });
+                    [&](std::size_t n) { return flow_.walls.forces.friction[walls[n]]; });
   return sums.gather();
 }
 

@@ -6,6 +6,7 @@
 #include "bodies/contacts.h"
 #include "bodies/narrow_gaps.h"
 #include "geometry/screen.h"
+#include "neighbours/neighbourhood.h"
 
 namespace tailwater {
 namespace {
@@ -182,8 +183,8 @@ void NarrowGaps<Dim>::look_at_water() {
     const double relative = piece.spacing / flow_.setup.scale.spacing;
     const double reach = kernel_radius(flow_.setup.scale.kernel) * relative;
     for (const Vec<Dim>& shift : shifts) {
-      const Vec<Dim> x = flow_.neighbourhood.wrapped(piece.x) - shift;
-      flow_.neighbourhood.grid().for_each_near(x, [&](std::int32_t j) {
+      const Vec<Dim> x = flow_.neighbourhood->wrapped(piece.x) - shift;
+      flow_.neighbourhood->grid().for_each_near(x, [&](std::int32_t j) {
         const auto i = static_cast<std::size_t>(j);
         if (i >= particles.owned || !particles.is_fluid(i) || is_stagnant_[i] != 0.0) return;
         const double distance = (particles.position[i] - x).norm();

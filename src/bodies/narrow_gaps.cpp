@@ -6,6 +6,8 @@
 
 #include "base/for_each.h"
 #include "bodies/contacts.h"
+#include "flow/pressure_equation.h"
+#include "neighbours/halo.h"
 #include "operators/support_operators.h"
 
 namespace tailwater {
@@ -188,7 +190,7 @@ void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow, std::span<const std::size_t> s
     flow.role[i] = Role::stagnant;
     particles.velocity[i].setZero();
     Vec<Dim> offsets = Vec<Dim>::Zero();
-    LinearSystem::Row row = flow.pressure_rows.row(i);
+    LinearSystem::Row row = flow.equation->rows.row(i);
     const double sum = row.set_weights([&](std::size_t k) {
       const auto j = static_cast<std::size_t>(pairs.j[k]);
       if (!particles.is_fluid(j) || is_stagnant_[j] != 0.0) return 0.0;

@@ -96,7 +96,7 @@ class NarrowGaps {
   }
 
   /// The wall across the narrowest gap of a hull within the reach of pairs, else -1.
-  int wall_across(int hull) const {
+  int wall_facing(int hull) const {
     int wall = -1;
     double least = std::numeric_limits<double>::infinity();
     for (const Piece& piece : pieces_) {

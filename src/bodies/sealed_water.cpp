@@ -16,6 +16,8 @@
 #include <numeric>
 
 #include "bodies/narrow_gaps.h"
+#include "flow/pressure_equation.h"
+#include "neighbours/halo.h"
 
 namespace tailwater {
 namespace {
@@ -171,7 +173,7 @@ SealedWater NarrowGaps<Dim>::find_sealed(const std::vector<double>& pressure) co
 
 template <int Dim>
 void let_through_films(const SealedWater& sealed, Flow<Dim>& flow) {
-  LinearSystem& rows = flow.pressure_rows;
+  LinearSystem& rows = flow.equation->rows;
   const std::vector<double>& volume = flow.state.particles.volume;
   std::vector<double> sums(2 * sealed.spaces, 0.0);  // of each space: volume, and volume times source
   const auto source_of = [&](std::size_t i) { return rows.scale(i) == 0.0 ? 0.0 : rows.rhs()[i] / rows.scale(i); };

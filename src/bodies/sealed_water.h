@@ -8,6 +8,8 @@
 
 namespace tailwater {
 
+class LinearSystem;
+
 /// Water in spaces that walls, films and dry contacts close off.
 struct SealedWater {
   /// An owned particle beside a film or a contact.

@@ -29,6 +29,7 @@ struct Surroundings {
   std::vector<Vec<Dim>> open_faces;              ///< 1/m; of owned particles inside: sum_j w_j a_ij
   Interfaces interfaces;                         ///< between liquids; ghosts too
   SupportTerms<Dim> support_terms;               ///< empty if all particles have one spacing
+  bool are_current = false;                      ///< whether no particle has moved since they were computed
 
   void resize(std::size_t count, bool with_gradient) {
     concentration.resize(count);

@@ -9,17 +9,11 @@
 
 #include <span>
 
+#include "closures/liquid.h"
 #include "operators/pair_vectors.h"
 #include "particles/particles.h"
 
 namespace tailwater {
-
-struct ViscosityLaw {
-  double molecular = 0.0;   ///< m^2/s; nu_0
-  double artificial = 0.0;  ///< m; c_a dx, times |u| gives nu_a
-
-  double at_speed(double speed) const { return molecular + artificial * speed; }
-};
 
 /// Effective viscosity [m^2/s] of every particle, ghosts included.
 template <int Dim>

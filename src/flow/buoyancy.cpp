@@ -29,7 +29,7 @@ double find_fullness(const Flow<Dim>& flow) {
 template <int Dim>
 double balanced_density(const Flow<Dim>& flow) {
   const ParticleLiquids& liquids = flow.setup.liquids;
-  return liquids.are_several() ? flow.state.fullness * *std::ranges::min_element(liquids.density) : 0.0;
+  return liquids.are_several() ? flow.state.last_step.fullness * *std::ranges::min_element(liquids.density) : 0.0;
 }
 
 template <int Dim>

@@ -8,16 +8,18 @@
 #include "base/box.h"
 #include "base/for_each.h"
 #include "case/spec.h"
+#include "flow/distribution.h"
 #include "flow/drawing.h"
+#include "flow/pores.h"
+#include "flow/pressure_equation.h"
+#include "flow/saved_flow.h"
 #include "flow/stages.h"
 #include "flow/wall_particle.h"
 #include "geometry/opening.h"
 #include "linear/solver_choice.h"
 #include "motion/wall_motion.h"
-#include "neighbours/decomposition.h"
+#include "neighbours/neighbourhood.h"
 #include "operators/graded_sums.h"
-#include "walls/near_walls.h"
-#include "walls/shared_rows.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
@@ -82,26 +84,29 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
                 const Communicator& ranks, Drawing<Dim> drawing)
     : setup(spec, formulation, ranks, drawing),
       parts(make_parts(spec, setup, drawing.walls.boundary, makers)),
-      decomposition(std::make_unique<Decomposition<Dim>>(ranks, spec.parallel)),
-      neighbourhood(setup.scale.kernel, setup.scale.spacing, skin_over_spacing * setup.scale.spacing,
-                    setup.formulation.walls->traits().pairs, setup.domain, ranks, drawing.spacing_field),
-      pressure_rows(ranks),
-      pressure_solver(spec.pressure_solver, {.rows_deep = largest_depth(spec, drawing.fluid) / setup.scale.spacing,
-                                             .dimension = Dim,
-                                             .solves = keeps_matrix() ? 3 : 2}),
-      walls(std::move(drawing.walls)),
-      shared_rows(std::make_unique<SharedRows<Dim>>(std::move(drawing.shared_rows))),
-      near_walls(std::make_unique<NearWalls<Dim>>(ranks, walls, setup.domain, reach_of_walls(setup))) {
+      distribution(std::make_unique<Distribution<Dim>>(
+          Distribution<Dim>{.decomposition = {ranks, spec.parallel},
+                            .shared_rows = std::move(drawing.shared_rows),
+                            .near_walls = {ranks, drawing.walls, setup.domain, reach_of_walls(setup)}})),
+      neighbourhood(std::make_unique<Neighbourhood<Dim>>(
+          setup.scale.kernel, setup.scale.spacing, skin_over_spacing * setup.scale.spacing,
+          setup.formulation.walls->traits().pairs, setup.domain, ranks, drawing.spacing_field)),
+      equation(std::make_unique<PressureEquation>(
+          ranks, spec.pressure_solver,
+          SystemTraits{.rows_deep = largest_depth(spec, drawing.fluid) / setup.scale.spacing,
+                       .dimension = Dim,
+                       .solves = keeps_matrix() ? 3 : 2})),
+      walls(std::move(drawing.walls)) {
   Particles<Dim>& particles = state.particles;
   particles = make_particles(setup, drawing.fluid, walls);
   drawing.fluid = {};
-  decomposition->repartition(particles, neighbourhood.work(particles));
+  distribution->decomposition.repartition(particles, neighbourhood->work(particles));
   state.wall_velocity.assign(walls.moving, Vec<Dim>::Zero());
   state.motion = initial_motion<Dim>(spec);
   setup.wall_motion->get_velocity(0.0, state.motion, state.wall_velocity);
-  pressure_rows.set_constant_is_free(setup.is_closed);
-  wall_forces.pressure_is_requested = has_force_probe(spec);
-  wall_forces.are_requested =
+  equation->rows.set_constant_is_free(setup.is_closed);
+  walls.forces.pressure_is_requested = has_force_probe(spec);
+  walls.forces.are_requested =
       has_force_probe(spec) || std::ranges::any_of(parts, [](const auto& part) { return part->needs_wall_forces(); });
   regather_walls(*this);
   assign_roles(*this);
@@ -130,16 +135,27 @@ bool Flow<Dim>::restore(SavedFlow<Dim> saved) {
     return false;
   }
   state = std::move(saved.state);
-  neighbourhood.forget(state.particles);
+  neighbourhood->forget(state.particles);
   surroundings = {};
-  [[maybe_unused]] const bool are_found = shared_rows->find_rows(walls, state.particles, 0, setup.first_wall_id);
+  [[maybe_unused]] const bool are_found =
+      distribution->shared_rows.find_rows(walls, state.particles, 0, setup.first_wall_id);
   TAILWATER_ASSERT(are_found, "the state is of this case");
   // Same state as after a repartition, so that a resumed run requests the same rows as an uninterrupted one.
-  shared_rows->drop_halo_rows(walls, state.particles);
-  near_walls->restore(walls, state.particles);
+  distribution->shared_rows.drop_halo_rows(walls, state.particles);
+  distribution->near_walls.restore(walls, state.particles);
   assign_roles(*this);
   place_walls(*this, state.time);
   return true;
+}
+
+template <int Dim>
+const Pairs<Dim>& Flow<Dim>::pairs() const {
+  return neighbourhood->pairs();
+}
+
+template <int Dim>
+const Halo<Dim>& Flow<Dim>::halo() const {
+  return neighbourhood->halo();
 }
 
 template <int Dim>
@@ -150,6 +166,17 @@ std::vector<Vec<Dim>> Flow<Dim>::filter_velocity() const {
     if (particles.is_fluid(i)) velocity[i] *= pores->at(particles.position[i]).fraction;
   });
   return velocity;
+}
+
+template <int Dim>
+double Flow<Dim>::filled_fraction_at(std::size_t i) const {
+  return pores->at(state.particles.position[i]).fraction;
+}
+
+template <int Dim>
+double Flow<Dim>::inertia_fraction_at(std::size_t i) const {
+  const PoreSpace space = pores->at(state.particles.position[i]);
+  return space.fraction * space.inertia;
 }
 
 template <int Dim>

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,24 +13,24 @@
 #include "base/box.h"
 #include "closures/surroundings.h"
 #include "flow/part.h"
-#include "flow/pores.h"
 #include "flow/role.h"
 #include "flow/setup.h"
 #include "flow/state.h"
-#include "linear/linear_solver.h"
-#include "linear/linear_system.h"
-#include "neighbours/neighbourhood.h"
-#include "particles/wall_forces.h"
 #include "walls/walls.h"
 
 namespace tailwater {
 
 template <int Dim>
-class Decomposition;
+struct Distribution;
 template <int Dim>
-class NearWalls;
+struct Halo;
 template <int Dim>
-class SharedRows;
+class Neighbourhood;
+template <int Dim>
+class Pores;
+struct PressureEquation;
+template <int Dim>
+struct SavedFlow;
 
 template <int Dim>
 struct Flow {
@@ -47,22 +46,14 @@ struct Flow {
   const Pores<Dim>* pores = nullptr;              ///< belongs to one of the parts; null: water can fill all of space
 
   // Tools.
-  std::unique_ptr<Decomposition<Dim>> decomposition;
-  Neighbourhood<Dim> neighbourhood;
-  LinearSystem pressure_rows;  ///< whose workspace the pair vectors use first
-  LinearSolver pressure_solver;
+  std::unique_ptr<Distribution<Dim>> distribution;    ///< of particles and rows of walls over the ranks
+  std::unique_ptr<Neighbourhood<Dim>> neighbourhood;  ///< rows of neighbours and ghosts
+  std::unique_ptr<PressureEquation> equation;         ///< of the pressure: rows and solver
 
   // Data of the present positions.
-  Walls<Dim> walls;                              ///< at their present positions
-  std::unique_ptr<SharedRows<Dim>> shared_rows;  ///< locates other rows, if there are other ranks
-  std::unique_ptr<NearWalls<Dim>> near_walls;    ///< the rows that have particles
-  Surroundings<Dim> surroundings;                ///< as computed by `locate`
-  bool is_located = false;                       ///< whether no particle has moved since `locate`
-  bool has_matrix = false;                       ///< whether a second projection has left the matrix of these positions
-  WallForces<Dim> wall_forces;                   ///< of the last step; empty if neither a probe nor a part needs them
-  std::vector<Role> role;                        ///< of owned particles in this step
-  std::vector<Vec<Dim>>
-      wall_turn_acceleration;  ///< m/s^2; of water along walls that turn, for owned particles; or empty
+  Walls<Dim> walls;                ///< at their present positions
+  Surroundings<Dim> surroundings;  ///< as computed by `locate`
+  std::vector<Role> role;          ///< of owned particles in this step
 
   /// Builds a case whose walls and water have already been made.
   Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, std::span<const PartMaker<Dim>> makers,
@@ -92,26 +83,19 @@ struct Flow {
            std::ranges::none_of(parts, [](const auto& part) { return part->changes_rows(); });
   }
 
-  /// Frees the matrix of the pressure equation and the solver's data derived from it.
-  void forget_matrix() {
-    has_matrix = false;
-    pressure_solver.forget();
-    pressure_rows.forget_weights();
-  }
-
   /// Saves the state and that of the parts for `restore`. Reuses the memory of `saved`.
   void save(SavedFlow<Dim>& saved) const;
   /// Continues from a saved flow of the same case. Returns false if its parts belong to another case. Collective.
   bool restore(SavedFlow<Dim> saved);
 
-  const Pairs<Dim>& pairs() const { return neighbourhood.pairs(); }
-  const Halo<Dim>& halo() const { return neighbourhood.halo(); }
+  const Pairs<Dim>& pairs() const;
+  const Halo<Dim>& halo() const;  ///< neighbours/halo.h
   Discretisation<Dim>& discretisation() const { return *setup.formulation.discretisation; }
   const WallModel<Dim>& wall_model() const { return *setup.formulation.walls; }
   WallScene<Dim> wall_scene() const { return {pairs(), state.particles, walls, surroundings}; }
 
   WallForce<Dim> wall_force(std::span<const Vec<Dim>> acceleration) const {
-    return {setup.liquid.density, setup.gravity, acceleration, wall_turn_acceleration};
+    return {setup.liquid.density, setup.gravity, acceleration, walls.turn_acceleration};
   }
 
   /// kg/m^3; of fluid particle i.
@@ -124,7 +108,7 @@ struct Flow {
   /// m^Dim; volume of water of particle i: its volume, except where grains take part of it.
   double water_volume_of(std::size_t i) const {
     const double volume = state.particles.volume[i];
-    return pores == nullptr ? volume : volume * pores->at(state.particles.position[i]).fraction;
+    return pores == nullptr ? volume : volume * filled_fraction_at(i);
   }
   /// m/s; of all particles: discharge over area, which equals the velocity where water can fill all of space.
   std::vector<Vec<Dim>> filter_velocity() const;
@@ -132,9 +116,7 @@ struct Flow {
   LatticeSums lattice_of(std::size_t i) const;
   double kinetic_energy_of(std::size_t i) const {
     const double energy = 0.5 * density_of(i) * state.particles.volume[i] * state.particles.velocity[i].squaredNorm();
-    if (pores == nullptr) return energy;
-    const PoreSpace space = pores->at(state.particles.position[i]);
-    return space.fraction * space.inertia * energy;
+    return pores == nullptr ? energy : inertia_fraction_at(i) * energy;
   }
   /// The box around all walls at their present positions and the edges of the case that parts define; empty if there is
   /// nothing.
@@ -143,6 +125,12 @@ struct Flow {
   double potential_energy_of(std::size_t i) const {
     return -density_of(i) * water_volume_of(i) * setup.gravity_across().dot(state.particles.position[i]);
   }
+
+ private:
+  /// Fraction of the space at particle i that water can fill, where there are pores.
+  double filled_fraction_at(std::size_t i) const;
+  /// That fraction times the mass that accelerates with the water over that of the water.
+  double inertia_fraction_at(std::size_t i) const;
 };
 
 }  // namespace tailwater

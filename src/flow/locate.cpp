@@ -1,9 +1,10 @@
 #include "base/for_each.h"
+#include "flow/distribution.h"
+#include "flow/pressure_equation.h"
 #include "flow/stages.h"
 #include "operators/concentration.h"
 #include "operators/support_operators.h"
 #include "walls/hidden_pairs.h"
-#include "walls/shared_rows.h"
 #include "walls/wet_walls.h"
 
 namespace tailwater {
@@ -42,14 +43,15 @@ void sum_kernel(const Flow<Dim>& flow, Surroundings<Dim>& surroundings) {
 template <int Dim>
 void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   const Setup<Dim>& setup = flow.setup;
-  if (!setup.ranks.any(!flow.is_located || !flow.neighbourhood.has_pairs())) return;
-  flow.forget_matrix();
+  if (!setup.ranks.any(!flow.surroundings.are_current || !flow.neighbourhood->has_pairs())) return;
+  flow.equation->forget_matrix();
   for (const auto& part : flow.parts) part->arrive(flow);
-  const bool ghosts_are_new = flow.neighbourhood.update(flow.state.particles);
+  const bool ghosts_are_new = flow.neighbourhood->update(flow.state.particles);
   if (ghosts_are_new && !setup.ranks.is_alone()) {
-    flow.shared_rows->find_rows(flow.walls, flow.state.particles, flow.state.particles.owned, setup.first_wall_id);
+    flow.distribution->shared_rows.find_rows(flow.walls, flow.state.particles, flow.state.particles.owned,
+                                             setup.first_wall_id);
   }
-  hide_pairs_behind_screens(flow.walls, flow.state.particles, flow.neighbourhood);
+  hide_pairs_behind_screens(flow.walls, flow.state.particles, *flow.neighbourhood);
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   Surroundings<Dim>& surroundings = flow.surroundings;
@@ -68,7 +70,7 @@ void locate(Flow<Dim>& flow, SurfaceMarks marks) {
   flow.discretisation().find_surface(flow, marks);
   surroundings.mean_interior.assign(particles.owned, 0.0);
   flow.discretisation().find_pair_vectors(flow);
-  flow.is_located = true;
+  flow.surroundings.are_current = true;
 }
 
 TAILWATER_IN_2D_AND_3D(locate);

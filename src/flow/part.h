@@ -97,7 +97,7 @@ class Part {
   // Between steps.
 
   /// Replaces particles by others of the same water. The pairs are those of the present positions, except on ranks
-  /// where is_located or has_pairs is false.
+  /// where the surroundings are not current or has_pairs is false.
   virtual void adapt(Flow<Dim>& flow);
   /// Marks the owned particles that leave the flow, unless they are marked already, and adds them to the part's
   /// records.

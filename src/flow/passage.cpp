@@ -1,6 +1,7 @@
 // Particles that are replaced by others between steps, that leave the flow, and that enter it.
 #include "base/for_each.h"
 #include "flow/stages.h"
+#include "neighbours/neighbourhood.h"
 
 namespace tailwater {
 
@@ -18,7 +19,7 @@ bool remove_outflow(Flow<Dim>& flow) {
   const bool some_left = kept.size() != owned;
   if (!flow.setup.ranks.any(some_left)) return false;
   for (const auto& part : flow.parts) part->reordered(Reordering::removed);
-  if (some_left) flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
+  if (some_left) flow.neighbourhood->keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
   return some_left;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/for_each.h"
 #include "flow/stages.h"
+#include "neighbours/halo.h"
 #include "operators/gradient_corrected.h"
 #include "walls/wall_model.h"
 
@@ -23,12 +24,12 @@ void add_friction(Flow<Dim>& flow, double dt, Prediction<Dim>& predicted) {
   std::vector<Vec<Dim>> no_slip(particles.size(), Vec<Dim>::Zero());
   flow.wall_model().find_no_slip_velocity(flow.wall_scene(), V, particles.velocity, no_slip);
   flow.halo().exchange(no_slip);
-  std::vector<double> viscosity(flow.wall_forces.are_requested ? particles.size() : 0);
+  std::vector<double> viscosity(flow.walls.forces.are_requested ? particles.size() : 0);
   add_wall_friction<Dim>(flow.wall_scene(), setup.friction_law, walls, no_slip, particles.velocity,
                          predicted.acceleration, viscosity);
-  if (flow.wall_forces.are_requested) {
+  if (flow.walls.forces.are_requested) {
     flow.halo().exchange(viscosity);
-    std::vector<Vec<Dim>>& force = flow.wall_forces.friction;
+    std::vector<Vec<Dim>>& force = flow.walls.forces.friction;
     find_friction_on_walls<Dim>(flow.wall_scene(), setup.friction_law, V, no_slip, particles.velocity, viscosity,
                                 force);
     for_each(force.size(), [&](std::size_t i) { force[i] *= setup.liquid.density; });
@@ -83,7 +84,7 @@ Prediction<Dim> predict(Flow<Dim>& flow, const StepStart<Dim>& start, const Wall
   Particles<Dim>& particles = flow.state.particles;
   for (const auto& part : flow.parts) part->begin_projection(flow, Projection::of_step, dt);
   set_wall_velocities<Dim>(flow, flow.state.wall_velocity, particles.velocity);
-  if (flow.wall_forces.are_requested) flow.wall_forces.reset(particles.owned);
+  if (flow.walls.forces.are_requested) flow.walls.forces.reset(particles.owned);
 
   Prediction<Dim> predicted;
   std::vector<Vec<Dim>>& acceleration = predicted.acceleration;

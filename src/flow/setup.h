@@ -4,11 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "base/box.h"
+#include "closures/liquid.h"
 #include "closures/time_step.h"
 #include "flow/formulation.h"
-#include "flow/liquid.h"
-#include "flow/scale.h"
-#include "neighbours/halo.h"
+#include "kernel/kernel.h"
+#include "operators/lattice.h"
 #include "parallel/communicator.h"
 #include "particles/liquids.h"
 #include "walls/friction_law.h"
@@ -22,6 +23,22 @@ template <int Dim>
 class GradedSums;
 template <int Dim>
 class WallMotion;
+
+/// The resolution of a flow where no zone of refinement is: the particle spacing, and what follows from it and the
+/// kernel.
+template <int Dim>
+struct Scale {
+  Scale(double dx, const Kernel<Dim>& of_formulation)
+      : spacing(dx),
+        kernel(of_formulation),
+        lattice(lattice_sums(kernel, spacing)),
+        kernel_values(kernel_values_of(kernel, spacing)) {}
+
+  double spacing;  ///< m; dx of the case
+  Kernel<Dim> kernel;
+  LatticeSums lattice;
+  KernelValues kernel_values;
+};
 
 template <int Dim>
 struct Setup {

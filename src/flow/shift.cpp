@@ -16,7 +16,7 @@ Interventions shift(Flow<Dim>& flow, double dt) {
   for_each(particles.owned, [&](std::size_t i) { particles.position[i] += shift[i]; });
   interventions.stopped_at_walls =
       keep_off_walls<Dim>(flow.pairs(), flow.walls.boundary, setup.scale.spacing, {}, before, particles, {});
-  flow.is_located = false;
+  flow.surroundings.are_current = false;
   return interventions;
 }
 

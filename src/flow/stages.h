@@ -59,7 +59,7 @@ void set_wall_velocities(const Flow<Dim>& flow, std::span<const Vec<Dim>> V, std
 
 /// With `divergence_free = "midway"`: shows curved and rotating walls as they are at mid-step (walls/turning_walls.h),
 /// in a step of dt from `start`. Changes the wall entries of `velocity` after `set_wall_velocities`, and sets the
-/// flow's `wall_turn_acceleration`.
+/// walls' `turn_acceleration`.
 template <int Dim>
 void set_wall_velocities_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt,
                                      std::vector<Vec<Dim>>& velocity);

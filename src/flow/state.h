@@ -6,13 +6,18 @@
 #include <cstdint>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "base/json.h"
 #include "motion/motion_state.h"
 #include "particles/particles.h"
 
 namespace tailwater {
+
+/// Figures of the last step that the next one needs.
+struct StepMemory {
+  double approach = 0.0;       ///< m/s; the largest in the step, whose neighbour lists are discarded
+  double energy_rise = 0.0;    ///< J; above the least energy so far, without the work of walls
+  double density_share = 1.0;  ///< fraction of the lifting density source in the next step
+  double fullness = 0.0;       ///< of the walls, by several liquids (flow/buoyancy.h); 0: there is one
+};
 
 template <int Dim>
 struct State {
@@ -22,17 +27,7 @@ struct State {
   Particles<Dim> particles;
   std::vector<Vec<Dim>> wall_velocity;  ///< m/s; of each row of walls that move, at the end of the last step
   MotionState<Dim> motion;              ///< of wave makers and floating bodies
-  double approach = 0.0;                ///< m/s; the largest in the last step, whose neighbour lists are discarded
-  double energy_rise = 0.0;             ///< J; above the least energy so far, without the work of walls
-  double density_share = 1.0;           ///< fraction of the lifting density source in the next step
-  double fullness = 0.0;                ///< of the walls, by several liquids (flow/buoyancy.h); 0: there is one
-};
-
-/// A flow in a checkpoint.
-template <int Dim>
-struct SavedFlow {
-  State<Dim> state;
-  Json parts;  ///< saved state of each part, by its name
+  StepMemory last_step;
 };
 
 }  // namespace tailwater

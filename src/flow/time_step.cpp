@@ -88,7 +88,7 @@ double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
   const double limiting = setup.graded == nullptr ? speed : std::max(largest_speed_over_spacing(flow), limits.speed);
   const double dt = rule.largest(limiting, viscosity);
   // The rule counts no speed above its `fastest`, so two particles approach each other at no more than twice that.
-  const double approach = std::min(flow.state.approach, 2.0 * rule.limiting_speed(speed));
+  const double approach = std::min(flow.state.last_step.approach, 2.0 * rule.limiting_speed(speed));
   return approach > 0.0 ? std::min(dt, largest_approach_in_step * rule.spacing / approach) : dt;
 }
 

@@ -1,6 +1,7 @@
 #include "base/for_each.h"
 #include "flow/stages.h"
 #include "motion/wall_motion.h"
+#include "neighbours/neighbourhood.h"
 #include "operators/graded_sums.h"
 #include "walls/turning_walls.h"
 #include "walls/wall_model.h"
@@ -48,7 +49,7 @@ void place_walls(Flow<Dim>& flow, double time) {
     if (particles.is_fluid(i)) return;
     const auto row = particles.wall_row[i];
     if (!flow.walls.boundary.walls[flow.walls.particles.wall[row]].moves()) return;
-    particles.position[i] = flow.neighbourhood.wrapped(flow.walls.particles.position[row]);
+    particles.position[i] = flow.neighbourhood->wrapped(flow.walls.particles.position[row]);
   });
   if (flow.setup.graded == nullptr) return;
   const SpacingField<Dim>& field = flow.setup.graded->field();
@@ -97,8 +98,8 @@ void set_wall_velocities_at_mid_step(Flow<Dim>& flow, const StepStart<Dim>& star
     turns.from_drawn[moving.wall] = now;
     turns.in_step[moving.wall] = moving.at(flow.state.time + dt, flow.state.motion).linear * now.transpose();
   }
-  flow.wall_turn_acceleration.resize(flow.state.particles.owned);
-  follow_turning_walls<Dim>(flow.wall_scene(), turns, start.wall_velocity, velocity, flow.wall_turn_acceleration);
+  flow.walls.turn_acceleration.resize(flow.state.particles.owned);
+  follow_turning_walls<Dim>(flow.wall_scene(), turns, start.wall_velocity, velocity, flow.walls.turn_acceleration);
   flow.halo().exchange(velocity);
 }
 

@@ -2,20 +2,14 @@
 // and periodic images.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "base/vec.h"
 #include "parallel/exchange_plan.h"
 #include "particles/particles.h"
 
 namespace tailwater {
-
-/// For each direction the interval that repeats, if any.
-template <int Dim>
-using PeriodicDomain = std::array<std::optional<std::pair<double, double>>, Dim>;
 
 template <int Dim>
 struct Halo {

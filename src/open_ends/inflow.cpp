@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "base/for_each.h"
+#include "flow/distribution.h"
 #include "flow/flow.h"
 #include "flow/ids_of_inflow.h"
-#include "neighbours/decomposition.h"
+#include "neighbours/neighbourhood.h"
 #include "open_ends/open_ends.h"
 
 namespace tailwater {
@@ -207,9 +208,9 @@ template <int Dim, class IdOf>
 void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, IdOf&& id_of) {
   const Communicator& ranks = flow.setup.ranks;
   Particles<Dim>& particles = flow.state.particles;
-  flow.neighbourhood.forget(particles);
+  flow.neighbourhood->forget(particles);
   const std::vector<std::size_t> own = indices_where(entrants.size(), [&](std::size_t n) {
-    return ranks.is_alone() || flow.decomposition->cuts().part_of(entrants[n].position) == ranks.rank();
+    return ranks.is_alone() || flow.distribution->decomposition.cuts().part_of(entrants[n].position) == ranks.rank();
   });
   particles.add(own.size(), [&](std::size_t n) -> NewParticle<Dim> {
     const Entrant<Dim>& entrant = entrants[own[n]];

@@ -12,6 +12,7 @@
 #include "closures/fluid_pairs.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
+#include "flow/pressure_equation.h"
 #include "operators/graded_sums.h"
 #include "operators/support_operators.h"
 
@@ -216,7 +217,7 @@ void OpenEnds<Dim>::write_row(Flow<Dim>& flow, std::size_t i) const {
   };
   double total = 0.0;
   for (std::size_t k = pairs.begin(i); flow.role[i] == Role::following && k < pairs.end(i); ++k) total += weight(k);
-  LinearSystem::Row row = flow.pressure_rows.row(i);
+  LinearSystem::Row row = flow.equation->rows.row(i);
   if (total == 0.0) {
     row.set_weights([](std::size_t) { return 0.0; });
     const auto e = static_cast<std::size_t>(end_of_[i]);

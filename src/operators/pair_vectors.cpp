@@ -8,6 +8,7 @@
 
 #include "base/eigen.h"
 #include "base/for_each.h"
+#include "neighbours/halo.h"
 #include "operators/support_operators.h"
 
 namespace tailwater {

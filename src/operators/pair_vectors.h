@@ -37,13 +37,14 @@
 #include <span>
 #include <vector>
 
-#include "neighbours/halo.h"
 #include "neighbours/pair_lanes.h"
 #include "operators/symmetric.h"
 #include "particles/particles.h"
 
 namespace tailwater {
 
+template <int Dim>
+struct Halo;
 template <int Dim>
 struct SupportTerms;
 

@@ -6,6 +6,7 @@
 #include "case/spec.h"
 #include "closures/spalart_allmaras.h"
 #include "flow/flow.h"
+#include "neighbours/halo.h"
 #include "walls/wall_friction.h"
 
 namespace tailwater {

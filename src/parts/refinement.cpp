@@ -10,6 +10,7 @@
 #include "base/for_each.h"
 #include "case/spec.h"
 #include "flow/flow.h"
+#include "neighbours/neighbourhood.h"
 #include "operators/graded_sums.h"
 #include "operators/gradient_corrected.h"
 #include "sampling/fluid_particles.h"
@@ -254,7 +255,7 @@ void remove_merged(Flow<Dim>& flow, const std::vector<Merge>& merges) {
   for (const Merge& merge : merges) is_removed[merge.removed] = 1;
   const std::vector<std::size_t> kept =
       indices_where(is_removed.size(), [&](std::size_t i) { return is_removed[i] == 0; });
-  flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
+  flow.neighbourhood->keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
 }
 
 }  // namespace
@@ -279,7 +280,7 @@ void Refinement<Dim>::adapt(Flow<Dim>& flow) {
   const Communicator& ranks = flow.setup.ranks;
   std::vector<Split<Dim>> splits;
   std::vector<Merge> merges;
-  if (flow.is_located && flow.neighbourhood.has_pairs()) {
+  if (flow.surroundings.are_current && flow.neighbourhood->has_pairs()) {
     const Adaptation<Dim> adaptation(flow);
     splits = adaptation.find_splits();
     merges = adaptation.find_merges();
@@ -301,7 +302,7 @@ void Refinement<Dim>::adapt(Flow<Dim>& flow) {
     for (const auto& part : flow.parts) part->reordered(Reordering::removed);
   }
   if (splits.empty() && merges.empty()) return;
-  flow.neighbourhood.forget(particles);
+  flow.neighbourhood->forget(particles);
   merge_particles(merges, particles);
   split_particles(splits, first_id, particles);
   if (!merges.empty()) remove_merged(flow, merges);

@@ -7,8 +7,10 @@
 #include "base/finding.h"
 #include "base/for_each.h"
 #include "flow/flow.h"
+#include "flow/pressure_equation.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
+#include "neighbours/neighbourhood.h"
 #include "operators/laplacian_morris.h"
 #include "porous/porous_region.h"
 #include "pressure/full_water.h"
@@ -125,7 +127,7 @@ void PorousLayers<Dim>::arrive(Flow<Dim>& flow) {
     arrivals_[i] = {particles.id[i], porosity};
   });
   // Ghosts that are not renewed receive new positions only.
-  const bool some_are_renewed = flow.setup.ranks.any(!flow.neighbourhood.has_pairs());
+  const bool some_are_renewed = flow.setup.ranks.any(!flow.neighbourhood->has_pairs());
   if (!some_are_renewed) flow.halo().exchange(particles.volume);
 }
 
@@ -195,9 +197,9 @@ template <int Dim>
 void PorousLayers<Dim>::write_rows(Flow<Dim>& flow) {
   const Pairs<Dim>& pairs = flow.pairs();
   for_each(pairs.owned(), [&](std::size_t i) {
-    if (flow.role[i] != Role::water || flow.pressure_rows.scale(i) == 0.0) return;
-    const double closing = 1.0 / flow.pressure_rows.scale(i) - flow.pressure_rows.sum_of_weights(i);
-    LinearSystem::Row row = flow.pressure_rows.row(i);
+    if (flow.role[i] != Role::water || flow.equation->rows.scale(i) == 0.0) return;
+    const double closing = 1.0 / flow.equation->rows.scale(i) - flow.equation->rows.sum_of_weights(i);
+    LinearSystem::Row row = flow.equation->rows.row(i);
     const double sum = row.write_weights([&](float* weights) {
       double weights_sum = 0.0;
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k, ++weights) {
@@ -232,7 +234,7 @@ int PorousLayers<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predict
     }
   });
   take_out_mean(flow, find_fullness(flow), source);
-  LinearSystem& rows = flow.pressure_rows;
+  LinearSystem& rows = flow.equation->rows;
   for_each(source.size(), [&](std::size_t i) { rows.rhs()[i] += rows.scale(i) * source[i]; });
   return 0;
 }

@@ -119,14 +119,14 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   const double g = setup.gravity.norm();
   const double speed = g > 0.0 ? setup.time_step_rule.reference_speed : largest_speed(flow);
   const double faded = std::exp(-fading_rate * speed * report.dt / setup.length);
-  state.energy_rise = std::max(0.0, faded * state.energy_rise + change - report.brought() - doubt);
+  state.last_step.energy_rise = std::max(0.0, faded * state.last_step.energy_rise + change - report.brought() - doubt);
 
   const double at_hand = 0.5 * sums.mass * g * setup.length + sums.kinetic_energy;
   if (at_hand > 0.0) {
-    const double left = std::max(0.0, 1.0 - state.energy_rise / (setup.formulation.energy_slack * at_hand));
-    state.density_share = left * left;
+    const double left = std::max(0.0, 1.0 - state.last_step.energy_rise / (setup.formulation.energy_slack * at_hand));
+    state.last_step.density_share = left * left;
   }
-  report.density_share = state.density_share;
+  report.density_share = state.last_step.density_share;
 }
 
 TAILWATER_IN_2D_AND_3D(work_of_boundaries);

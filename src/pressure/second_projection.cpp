@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
+#include "neighbours/halo.h"
 #include "pressure/full_water.h"
 #include "pressure/operators.h"
 #include "pressure/solve_rows.h"
@@ -44,13 +46,13 @@ SecondProjection reproject(Flow<Dim>& flow, const WallDrive<Dim>& drive, double 
            [&](std::size_t i) { source[i] = flow.role[i] == Role::water ? -density / dt * source[i] : 0.0; });
   const double fullness = find_fullness(flow);
   take_out_mean(flow, fullness, source);
-  for_each(particles.owned, [&](std::size_t i) { flow.pressure_rows.set_rhs(i, source[i]); });
+  for_each(particles.owned, [&](std::size_t i) { flow.equation->rows.set_rhs(i, source[i]); });
   SecondProjection second;
   second.report =
-      report_of(solve_rows(flow, particles.second_pressure, rough_tolerance(flow.pressure_solver.tolerance())));
+      report_of(solve_rows(flow, particles.second_pressure, rough_tolerance(flow.equation->solver.tolerance())));
   second.report.interventions.fallback_rows = fallback_rows;
-  flow.has_matrix = flow.keeps_matrix();
-  if (!flow.has_matrix) flow.forget_matrix();
+  flow.equation->has_matrix = flow.keeps_matrix();
+  if (!flow.equation->has_matrix) flow.equation->forget_matrix();
   std::vector<double>& correction = second.correction;
   correction = particles.second_pressure;
   const std::vector<double> allowed = allowed_tension(flow);

@@ -2,6 +2,8 @@
 
 #include "base/assert.h"
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
+#include "neighbours/halo.h"
 #include "pressure/full_water.h"
 #include "pressure/solve_rows.h"
 #include "pressure/stages.h"
@@ -50,7 +52,7 @@ std::vector<double> limit_tension(Flow<Dim>& flow, const std::vector<double>& al
     const double share = tension_share(flow, i);
     const double least = least_pressure(flow, allowed, i);
     if (rough[i] >= least || share >= 1.0) return;
-    flow.pressure_rows.divide_diagonal(i, share, least);
+    flow.equation->rows.divide_diagonal(i, share, least);
     rough[i] = std::lerp(least, rough[i], share);
   });
   return rough;
@@ -83,7 +85,7 @@ void add_pressure_of_parts(Flow<Dim>& flow) {
 
 template <int Dim>
 PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<Dim>& drive) {
-  const double tolerance = flow.pressure_solver.tolerance();
+  const double tolerance = flow.equation->solver.tolerance();
   std::vector<double>& pressure = flow.state.particles.pressure;
   const std::unique_ptr<CoupledUnknowns> unknowns = couple(flow, equation, drive);
   const std::vector<double> allowed = allowed_tension(flow);
@@ -100,7 +102,7 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<D
   report.iterations += rough.iterations + equation.iterations;
   report.interventions += rough.interventions;
   report.interventions.fallback_rows = equation.fallback_rows;
-  flow.forget_matrix();
+  flow.equation->forget_matrix();
   finish_pressure(flow, drive, allowed);
   for (const auto& part : flow.parts) part->finish_solve(flow, equation.dt);
   add_pressure_of_parts(flow);

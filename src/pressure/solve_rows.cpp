@@ -1,6 +1,8 @@
 #include "pressure/solve_rows.h"
 
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
+#include "neighbours/halo.h"
 
 namespace tailwater {
 
@@ -11,10 +13,10 @@ SolveReport solve_rows(Flow<Dim>& flow, std::vector<double>& pressure, double to
   {
     const std::vector<double> guess = pressure;  // rows of some wall models depend on each other
     for_each(owned, [&](std::size_t i) {
-      if (!has_equation(flow.role[i])) pressure[i] = flow.pressure_rows.answer(i, guess.data());
+      if (!has_equation(flow.role[i])) pressure[i] = flow.equation->rows.answer(i, guess.data());
     });
   }
-  return flow.pressure_solver.solve(flow.pressure_rows, std::span(pressure).first(owned), tolerance);
+  return flow.equation->solver.solve(flow.equation->rows, std::span(pressure).first(owned), tolerance);
 }
 
 PressureReport report_of(const SolveReport& solved) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "flow/flow.h"
+#include "linear/linear_solver.h"
 
 namespace tailwater {
 

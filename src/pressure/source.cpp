@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
 #include "pressure/full_water.h"
 #include "pressure/stages.h"
 
@@ -33,7 +34,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   const std::vector<double>& beside = equation.density_source;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (!is_solved_for(flow.role[i])) return;
-    flow.pressure_rows.set_rhs(i, source.rows[i] + (beside.empty() ? 0.0 : beside[i]));
+    flow.equation->rows.set_rhs(i, source.rows[i] + (beside.empty() ? 0.0 : beside[i]));
   });
   for (const auto& part : flow.parts) equation.iterations += part->pose(flow, predicted.velocity, dt);
   return equation;

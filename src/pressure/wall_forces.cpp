@@ -26,7 +26,7 @@ std::vector<double> shares_of_water(const Flow<Dim>& flow) {
 
 template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
-  if (!flow.wall_forces.pressure_is_requested) return;
+  if (!flow.walls.forces.pressure_is_requested) return;
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<double> share = shares_of_water(flow);
   std::vector<std::size_t> walls;
@@ -38,7 +38,7 @@ void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
       water.push_back(i);
     }
   }
-  WallForces<Dim>& forces = flow.wall_forces;
+  WallForces<Dim>& forces = flow.walls.forces;
   std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, walls, pressure);
   for_each(walls.size(), [&](std::size_t n) {
     const std::size_t i = walls[n];

@@ -3,6 +3,8 @@
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "closures/fluid_pairs.h"
+#include "closures/viscosity.h"
+#include "neighbours/halo.h"
 #include "operators/pair_vectors.h"
 #include "published/gradient_density_weighted.h"
 #include "published/laplacian_shao_lo.h"

@@ -2,7 +2,9 @@
 
 #include "base/for_each.h"
 #include "case/formulation.h"
+#include "closures/viscosity.h"
 #include "flow/stages.h"
+#include "neighbours/halo.h"
 #include "operators/pair_vectors.h"
 #include "published/gradient_consistent.h"
 #include "published/laplacian_consistent.h"

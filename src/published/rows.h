@@ -3,6 +3,7 @@
 
 #include "base/for_each.h"
 #include "flow/flow.h"
+#include "flow/pressure_equation.h"
 
 namespace tailwater {
 
@@ -12,7 +13,7 @@ template <int Dim, class SetWeights>
 void write_rows_of_marked_water(Flow<Dim>& flow, SetWeights&& set_weights) {
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (!is_solved_for(flow.role[i])) return;
-    LinearSystem::Row row = flow.pressure_rows.row(i);
+    LinearSystem::Row row = flow.equation->rows.row(i);
     if (!flow.surroundings.takes_part[i] || (flow.surroundings.is_surface[i] && !flow.setup.is_closed)) {
       row.finish_as_zero();
       return;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "neighbours/decomposition.h"
+#include "neighbours/neighbourhood.h"
 #include "parallel/together.h"
 
 namespace tailwater {
@@ -60,7 +61,7 @@ void RankLog::write(const Flow<Dim>& flow, const Repartition& repartition) {
   const Traffic& traffic = *ranks_.traffic();
   double exchange = (traffic.exchange_seconds - at_last_.exchange_seconds) / elapsed / ranks_.size();
   double reduction = (traffic.reduction_seconds - at_last_.reduction_seconds) / elapsed / ranks_.size();
-  auto ghosts = static_cast<double>(flow.neighbourhood.halo().plan.ghosts());
+  auto ghosts = static_cast<double>(flow.neighbourhood->halo().plan.ghosts());
   ranks_.sum_each(exchange, reduction, ghosts);
   const auto owned = static_cast<std::int64_t>(flow.state.particles.owned);
   const std::int64_t least = ranks_.least(owned);

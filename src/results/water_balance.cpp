@@ -11,6 +11,7 @@
 #include "base/box.h"
 #include "base/for_each.h"
 #include "geometry/mesh_surface.h"
+#include "neighbours/neighbourhood.h"
 #include "open_ends/open_ends.h"
 #include "parts/domain_floor.h"
 
@@ -115,7 +116,7 @@ WaterAmount water_outside(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   const auto& ends = flow.template part<OpenEnds<Dim>>();
   WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) {
-    const Vec<Dim> x = flow.neighbourhood.wrapped(particles.position[i]);
+    const Vec<Dim> x = flow.neighbourhood->wrapped(particles.position[i]);
     const bool is_outside =
         particles.is_fluid(i) && !box.contains(x) && !falls_back(flow, box, x) && !ends.is_passed_by(x);
     return is_outside ? WaterAmount{1, flow.water_volume_of(i)} : WaterAmount();

@@ -11,6 +11,7 @@
 #include "flow/stages.h"
 #include "io/messages.h"
 #include "motion/wall_motion.h"
+#include "neighbours/halo.h"
 #include "rheology/liquid_balances.h"
 #include "rheology/viscous_solve.h"
 
@@ -192,8 +193,8 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
 /// Floating bodies are coupled to the pressure with this friction.
 template <int Dim>
 int ThickLiquid<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
-  if (flow.wall_forces.are_requested) {
-    forces_.find_forces_on_walls(flow, walls_, velocity_, flow.wall_forces.friction);
+  if (flow.walls.forces.are_requested) {
+    forces_.find_forces_on_walls(flow, walls_, velocity_, flow.walls.forces.friction);
   }
   return 0;
 }

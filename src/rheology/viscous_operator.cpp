@@ -4,6 +4,7 @@
 
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
+#include "neighbours/halo.h"
 #include "neighbours/pair_lanes.h"
 #include "operators/symmetric.h"
 #include "walls/wall_friction.h"

@@ -2,6 +2,7 @@
 
 #include "base/for_each.h"
 #include "linear/find_cells.h"
+#include "neighbours/halo.h"
 
 namespace tailwater {
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "base/for_each.h"
+#include "neighbours/halo.h"
 #include "rheology/viscous_preconditioner.h"
 
 namespace tailwater {

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
 #include "neighbours/pair_lanes.h"
 #include "operators/laplacian_morris.h"
 #include "robust/discretisation.h"
@@ -81,7 +82,7 @@ template <int Dim>
 void RobustDiscretisation<Dim>::find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
                                                  std::span<double> weights) const {
   for_each(particles.size(), [&](std::size_t n) {
-    weights[n] = closing_weight(flow, particles[n], flow.pressure_rows.sum_of_weights(particles[n]));
+    weights[n] = closing_weight(flow, particles[n], flow.equation->rows.sum_of_weights(particles[n]));
   });
 }
 
@@ -96,12 +97,12 @@ std::size_t RobustDiscretisation<Dim>::write_rows(Flow<Dim>& flow) const {
   const bool has_liquids = flow.surroundings.interfaces.are_any();
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    LinearSystem::Row row = flow.pressure_rows.row(i);
+    LinearSystem::Row row = flow.equation->rows.row(i);
     double sum = 0.0;
     double own = 0.0;
     if (has_liquids) {
       const double of_lattice = set_weights_of_liquids(flow, volume, i, row);
-      sum = flow.pressure_rows.sum_of_weights(i);
+      sum = flow.equation->rows.sum_of_weights(i);
       own = has_air ? closing_weight(flow, i, of_lattice) / flow.surroundings.interfaces.density[i] : 0.0;
     } else {
       sum = set_weights(flow, volume, i, row);

@@ -33,7 +33,7 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   const double unit = setup.liquid.density / (dt * dt);
   std::vector<double> overlap(owned);
   find_wall_overlap<Dim>(flow.pairs(), flow.walls.boundary, setup.scale.spacing, flow.state.particles, overlap);
-  const double lift = flow.state.density_share;
+  const double lift = flow.state.last_step.density_share;
   const double courant = time_step_rule(flow).limiting_speed(largest_speed(flow)) * dt / setup.scale.spacing;
   const double share = relaxation * courant;
   for_each(owned, [&](std::size_t i) {

@@ -3,6 +3,8 @@
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
 #include "closures/free_surface.h"
+#include "flow/pressure_equation.h"
+#include "neighbours/halo.h"
 #include "operators/pair_vectors.h"
 #include "operators/support_operators.h"
 #include "robust/discretisation.h"
@@ -115,7 +117,7 @@ void RobustDiscretisation<Dim>::find_pair_vectors(Flow<Dim>& flow) {
       flow.pairs(), flow.halo(),
       {kernel_radius(flow.setup.scale.kernel), particles.volume, particles.kind, surroundings.interior,
        surroundings.first_moment, support.is_empty() ? nullptr : &support},
-      reach, closing_sweeps(reach), flow.pressure_rows.workspace().take(pairs, pairs + pairs / 4),
+      reach, closing_sweeps(reach), flow.equation->rows.workspace().take(pairs, pairs + pairs / 4),
       surroundings.pair_vectors, surroundings.open_faces, surroundings.mean_interior);
 }
 

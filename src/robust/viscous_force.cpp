@@ -2,9 +2,11 @@
 #include <cstdint>
 
 #include "base/for_each.h"
+#include "closures/viscosity.h"
 #include "flow/buoyancy.h"
 #include "flow/measure.h"
 #include "motion/wall_motion.h"
+#include "neighbours/halo.h"
 #include "robust/discretisation.h"
 
 namespace tailwater {

@@ -9,6 +9,7 @@
 #include "base/json.h"
 #include "case/spec.h"
 #include "flow/flow.h"
+#include "flow/saved_flow.h"
 #include "io/sealed_file.h"
 
 namespace tailwater {

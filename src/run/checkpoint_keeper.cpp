@@ -6,8 +6,8 @@
 
 #include "base/free_memory.h"
 #include "case/writer.h"
+#include "flow/distribution.h"
 #include "io/write_file.h"
-#include "neighbours/decomposition.h"
 #include "parallel/together.h"
 
 namespace tailwater {
@@ -63,7 +63,7 @@ bool CheckpointKeeper<Dim>::write(const Flow<Dim>& flow, const RunOutput<Dim>& o
   written_at_ = Clock::now();
   if (written_step_ == last_->flow.state.step) return true;
   output.add_costs(last_->output);
-  last_->cuts = flow.decomposition->cuts().bytes();
+  last_->cuts = flow.distribution->decomposition.cuts().bytes();
   do_on_root(ranks_, [&] {
     std::error_code error;
     fs::create_directory(folder_.checkpoints(), error);

@@ -63,9 +63,9 @@ BodyState<Dim> body_of(const Json& json) {
 
 template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
-  // A new member of State does not compile here until it is saved.
-  const auto& [time, step, particles, wall_velocity, motion, approach, energy_rise, density_share, fullness] =
-      checkpoint.flow.state;
+  // A new member of State or StepMemory does not compile here until it is saved.
+  const auto& [time, step, particles, wall_velocity, motion, last_step] = checkpoint.flow.state;
+  const auto& [approach, energy_rise, density_share, fullness] = last_step;
   Json json{{"time", time},
             {"step", step},
             {"approach", approach},
@@ -88,10 +88,10 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   State<Dim>& state = checkpoint.flow.state;
   state.time = json.at("time");
   state.step = json.at("step");
-  state.approach = json.at("approach");
-  state.energy_rise = json.at("energy_rise");
-  state.density_share = json.at("density_share");
-  state.fullness = json.at("fullness");
+  state.last_step = {.approach = json.at("approach"),
+                     .energy_rise = json.at("energy_rise"),
+                     .density_share = json.at("density_share"),
+                     .fullness = json.at("fullness")};
   checkpoint.reference_step = json.at("reference_step");
   json.at("wave_makers").get_to(state.motion.wave_makers);
   for (const Json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));

@@ -7,9 +7,11 @@
 #include <iterator>
 
 #include "base/for_each.h"
+#include "flow/pressure_equation.h"
 #include "geometry/from_spec.h"
 #include "io/vtp_writer.h"
 #include "io/write_file.h"
+#include "neighbours/neighbourhood.h"
 #include "parallel/together.h"
 #include "results/field_output.h"
 
@@ -44,7 +46,7 @@ void list_neighbours(const Flow<Dim>& flow, const Particles<Dim>& last_good, std
 template <int Dim>
 std::optional<std::size_t> find_non_finite(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
-  const std::span<const double> source = flow.pressure_rows.rhs();
+  const std::span<const double> source = flow.equation->rows.rhs();
   const std::vector<std::size_t> found = indices_where(particles.owned, [&](std::size_t i) {
     return particles.is_fluid(i) &&
            (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
@@ -71,7 +73,7 @@ void write_failure(const RunFolder& folder, const Flow<Dim>& flow, const Particl
       fmt::format_to(out, "particle after the step:  {}\n", describe_particle(flow.state.particles, i));
     }
     fmt::format_to(out, "particle before the step: {}\n", describe_particle(last_good, i));
-    if (flow.neighbourhood.has_pairs()) list_neighbours(flow, last_good, i, report);
+    if (flow.neighbourhood->has_pairs()) list_neighbours(flow, last_good, i, report);
   }
   const std::vector<std::string> reports = flow.setup.ranks.gather(report);
   do_on_root(flow.setup.ranks,

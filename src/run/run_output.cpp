@@ -208,8 +208,8 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
   if (!probes_.is_due(flow.state.time)) return;
   const std::vector<int> felt_through = find_felt_through(flow.walls, flow.state.particles);
   probes_.record({.particles = flow.state.particles,
-                  .grid = flow.neighbourhood.grid(),
-                  .kernel = flow.neighbourhood.kernel(),
+                  .grid = flow.neighbourhood->grid(),
+                  .kernel = flow.neighbourhood->kernel(),
                   .boundary = flow.walls.boundary,
                   .density = flow.setup.liquid.density,
                   .gravity = flow.setup.gravity,
@@ -227,7 +227,7 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .felt_through = felt_through,
                   .domain = flow.setup.domain,
                   .dt = dt,
-                  .wall_forces = &flow.wall_forces,
+                  .wall_forces = &flow.walls.forces,
                   .bodies = flow.state.motion.bodies.each,
                   .air_pressure = air_of(flow).pressure_field(flow.walls.boundary),
                   .spacing_field = flow.setup.graded == nullptr ? nullptr : &flow.setup.graded->field(),

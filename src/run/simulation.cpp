@@ -5,12 +5,12 @@
 
 #include "base/for_each.h"
 #include "bodies/floating_bodies.h"
+#include "flow/distribution.h"
+#include "flow/saved_flow.h"
 #include "flow/stages.h"
-#include "neighbours/decomposition.h"
 #include "parts/rest_watch.h"
 #include "published/make_flow.h"
 #include "schemes/advance.h"
-#include "walls/shared_rows.h"
 
 namespace tailwater {
 namespace {
@@ -110,7 +110,7 @@ bool Simulation<Dim>::fits(State<Dim>& state) {
                            (motion.bodies.inertia.empty() || motion.bodies.inertia.size() == degrees * degrees);
   const bool is_alike = misplaced == 0 && moves_alike && state.wall_velocity.size() == flow_.state.wall_velocity.size();
   return !flow_.setup.ranks.any(!is_alike) &&
-         flow_.shared_rows->find_rows(flow_.walls, state.particles, 0, flow_.setup.first_wall_id);
+         flow_.distribution->shared_rows.find_rows(flow_.walls, state.particles, 0, flow_.setup.first_wall_id);
 }
 
 template <int Dim>
@@ -118,7 +118,7 @@ bool Simulation<Dim>::go_on_from(SavedFlow<Dim> saved, double reference_step, st
   if (!fits(saved.state) || !flow_.restore(std::move(saved))) return false;
   guard_.restore_reference_step(reference_step);
   if (!cuts) return true;
-  if (!flow_.setup.ranks.is_alone()) flow_.decomposition->cuts().restore(std::move(*cuts));
+  if (!flow_.setup.ranks.is_alone()) flow_.distribution->decomposition.cuts().restore(std::move(*cuts));
   repartition_step_ = flow_.state.step;
   return true;
 }

@@ -1,6 +1,7 @@
 #include "schemes/advance.h"
 
 #include "flow/buoyancy.h"
+#include "neighbours/halo.h"
 
 namespace tailwater {
 
@@ -17,8 +18,8 @@ StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   StepReport report = flow.setup.formulation.take_step(flow, start, dt);
   report.dt = dt;
   flow.halo().exchange(flow.state.particles.velocity, flow.state.particles.pressure);  // probes read ghosts
-  flow.state.approach = largest_approach(flow);
-  if (flow.setup.liquids.are_several()) flow.state.fullness = find_fullness(flow);
+  flow.state.last_step.approach = largest_approach(flow);
+  if (flow.setup.liquids.are_several()) flow.state.last_step.fullness = find_fullness(flow);
   for (const auto& part : flow.parts) part->finish_step(flow, start, dt);
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.stopped_at_walls, counts.capped_shifts, counts.fallback_rows);

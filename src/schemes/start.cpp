@@ -17,7 +17,7 @@ void predict_pressure_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, dou
   add_wall_forces(flow, flow.state.particles.pressure);
   std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
   place_walls(flow, flow.state.time);
-  flow.is_located = false;
+  flow.surroundings.are_current = false;
   locate(flow);
 }
 
@@ -38,9 +38,9 @@ void start(Flow<Dim>& flow) {
   for (const auto& part : flow.parts) part->begin_step(flow, 0.0);
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
-  flow.state.approach = largest_approach(flow);
-  if (flow.setup.liquids.are_several()) flow.state.fullness = find_fullness(flow);
-  if (flow.wall_forces.are_requested) flow.wall_forces.reset(flow.state.particles.owned);
+  flow.state.last_step.approach = largest_approach(flow);
+  if (flow.setup.liquids.are_several()) flow.state.last_step.fullness = find_fullness(flow);
+  if (flow.walls.forces.are_requested) flow.walls.forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   flow.setup.formulation.find_first_pressure(flow, start, dt);
 }

@@ -1,5 +1,6 @@
 #include "schemes/two_step.h"
 
+#include "neighbours/halo.h"
 #include "schemes/project.h"
 
 namespace tailwater {

@@ -7,6 +7,7 @@
 
 #include "geometry/boundary.h"
 #include "particles/particles.h"
+#include "particles/wall_forces.h"
 #include "sampling/wall_table.h"
 
 namespace tailwater {
@@ -32,6 +33,8 @@ struct Walls {
   std::size_t moving = 0;              ///< rows of walls that move
   std::size_t kept = 0;                ///< rows without halo rows
   std::int64_t all = 0;                ///< rows of the case on all ranks
+  WallForces<Dim> forces;              ///< in the last step; empty if neither a probe nor a part needs them
+  std::vector<Vec<Dim>> turn_acceleration;  ///< m/s^2; of water along walls that turn, of owned particles; or empty
 
   /// Calls body with references to all fields of the rows.
   template <class Body>

@@ -7,6 +7,7 @@
 
 #include "air/enclosed_air.h"
 #include "flow/stages.h"
+#include "neighbours/neighbourhood.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
 
@@ -35,7 +36,7 @@ void keep_water(Flow<Dim>& flow, Condition&& condition) {
   const std::vector<std::size_t> kept = indices_where(flow.state.particles.owned, [&](std::size_t i) {
     return !flow.state.particles.is_fluid(i) || condition(flow.state.particles.position[i]);
   });
-  flow.neighbourhood.keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
+  flow.neighbourhood->keep(flow.state.particles, std::vector<std::int32_t>(kept.begin(), kept.end()));
 }
 
 // Cubes of edge dx around the particles fill the space of the water without a gap, so the rest of the tank is the

@@ -1,4 +1,5 @@
 #include "run/simulation.h"
+#include "flow/saved_flow.h"
 
 #include <gtest/gtest.h>
 

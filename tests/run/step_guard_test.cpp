@@ -1,4 +1,5 @@
 #include "run/step_guard.h"
+#include "neighbours/neighbourhood.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ TYPED_TEST(StepGuardTest, NamesTheParticleThatIsNotFiniteAndPutsTheGoodStateBack
 
 // As in the first step of a resumed run, which has no lists yet.
 TYPED_TEST(StepGuardTest, NamesAParticleThatIsTooFastBeforeNeighboursAreKnown) {
-  this->flow.neighbourhood.forget(this->flow.state.particles);
+  this->flow.neighbourhood->forget(this->flow.state.particles);
   this->flow.state.particles.velocity[5][0] = 1e15;
   const std::string message =
       message_of<SolverError>([&] { this->guard.require_sound_step(next_time_step(this->flow)); });

@@ -202,7 +202,7 @@ TEST(NarrowGap, BothWallsHaveTheirForce) {
   spec.fluid[0].level = 0.9999;
   Flow<2> flow = make_flow<2>(spec);
   locate(flow);
-  flow.wall_forces.reset(flow.state.particles.owned);
+  flow.walls.forces.reset(flow.state.particles.owned);
   add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
   // The deficit of the open end is the same for both (p <r>/pi).
   EXPECT_NEAR(Reader<2>(spec, flow, 0).force()[0], -p * 1.0, 0.35 * p * dx);
@@ -274,7 +274,7 @@ TEST(Block, EachFaceHasItsShareOfAUniformPressure) {
   }
   Flow<3> flow = make_flow<3>(spec);
   locate(flow);
-  flow.wall_forces.reset(flow.state.particles.owned);
+  flow.walls.forces.reset(flow.state.particles.owned);
   add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
   for (std::size_t k = 0; k < expected.size(); ++k) {
     const Vec<3> force = Reader<3>(spec, flow, k).force();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "neighbours/neighbourhood.h"
 #include "parts/section_counters.h"
 #include "probes/discharge.h"
 #include "published/make_flow.h"
@@ -37,7 +38,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
   const auto read = [&] {
     return reading
         .take({.particles = flow.state.particles,
-               .grid = flow.neighbourhood.grid(),
+               .grid = flow.neighbourhood->grid(),
                .kernel = flow.setup.scale.kernel,
                .boundary = flow.walls.boundary,
                .density = flow.setup.liquid.density,

@@ -118,7 +118,7 @@ TEST(TimeStep, LeavesParticlesThatMeetApart) {
   const auto step_with = [&](const Vec<2>& u_left, const Vec<2>& u_right) {
     velocity[left] = u_left;
     velocity[1 - left] = u_right;
-    flow.state.approach = largest_approach(flow);
+    flow.state.last_step.approach = largest_approach(flow);
     return next_time_step(flow);
   };
   EXPECT_NEAR(step_with({1.0, 0.0}, {-1.0, 0.0}), 0.9 * dx / 2.0, 1e-6 * dx);

@@ -77,7 +77,7 @@ TEST(DensitySource, PullsTogetherWhateverTheEnergy) {
   const double start = measure(flow).density_error_mean;
   ASSERT_LT(start, -0.01);
   while (flow.state.time < 1.6) {
-    flow.state.energy_rise = 1e9;  // J/m
+    flow.state.last_step.energy_rise = 1e9;  // J/m
     ASSERT_EQ(step(flow).density_share, 0.0);
   }
   // While water at sqrt(2 g L) moves by dx, the density source removes 1.5 density_relaxation = 0.075 of the density
@@ -217,7 +217,7 @@ TEST_P(Energy, ARiseFadesAndHoldsTheDensitySourceMeanwhile) {
   spec.study.energy_slack = 1.0;  // the effect of the settling lattice is small
   Flow<2> flow = make_flow<2>(spec);
   const double mass = flow.setup.liquid.density * 0.5 * 0.5;
-  flow.state.energy_rise = 0.8 * mass * g * flow.setup.length / 2.0;
+  flow.state.last_step.energy_rise = 0.8 * mass * g * flow.setup.length / 2.0;
   while (flow.state.time < 0.3) {
     const double density_share = step(flow).density_share;
     const double rise = 0.8 * std::exp(-1.4 * flow.state.time * std::sqrt(2.0 * g / flow.setup.length));

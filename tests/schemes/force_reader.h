@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "air/enclosed_air.h"
+#include "neighbours/neighbourhood.h"
 #include "probes/wall_force.h"
 #include "schemes/cases.h"
 
@@ -29,7 +30,7 @@ class Reader {
   Row row(double dt) const {
     return reading_
         .take({.particles = flow_.state.particles,
-               .grid = flow_.neighbourhood.grid(),
+               .grid = flow_.neighbourhood->grid(),
                .kernel = flow_.setup.scale.kernel,
                .boundary = flow_.walls.boundary,
                .density = flow_.setup.liquid.density,
@@ -40,7 +41,7 @@ class Reader {
                .ranks = flow_.setup.ranks,
                .domain = flow_.setup.domain,
                .dt = dt,
-               .wall_forces = &flow_.wall_forces,
+               .wall_forces = &flow_.walls.forces,
                .bodies = flow_.state.motion.bodies.each,
                .air_pressure = air_of(flow_).pressure_field(flow_.walls.boundary)})
         .at(0);

@@ -1,6 +1,7 @@
 // The matrix of a second projection serves the next step too, and changes nothing.
 #include <gtest/gtest.h>
 
+#include "flow/pressure_equation.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"
 
@@ -40,8 +41,9 @@ TYPED_TEST(KeptMatrixTest, IsThatOfTheNextStep) {
   for (const PreconditionerName preconditioner : {PreconditionerName::ssor, PreconditionerName::cell_multigrid}) {
     const CaseSpec spec = pushed_tank<Dim>(preconditioner);
     int kept = 0;
-    const auto with = velocity_after<Dim>(spec, steps, [&](const Flow<Dim>& flow) { kept += flow.has_matrix ? 1 : 0; });
-    const auto without = velocity_after<Dim>(spec, steps, [](Flow<Dim>& flow) { flow.forget_matrix(); });
+    const auto with =
+        velocity_after<Dim>(spec, steps, [&](const Flow<Dim>& flow) { kept += flow.equation->has_matrix ? 1 : 0; });
+    const auto without = velocity_after<Dim>(spec, steps, [](Flow<Dim>& flow) { flow.equation->forget_matrix(); });
     EXPECT_EQ(kept, steps - 1);
     EXPECT_EQ(with, without);
   }
@@ -51,7 +53,7 @@ TYPED_TEST(KeptMatrixTest, IsNotKeptByTheExplicitStep) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = pushed_tank<Dim>(PreconditionerName::ssor);
   spec.scheme.integrator = Integrator::explicit_projection;
-  velocity_after<Dim>(spec, 3, [](const Flow<Dim>& flow) { EXPECT_FALSE(flow.has_matrix); });
+  velocity_after<Dim>(spec, 3, [](const Flow<Dim>& flow) { EXPECT_FALSE(flow.equation->has_matrix); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "flow/saved_flow.h"
 #include "parts/domain_floor.h"
 #include "schemes/cases.h"
 #include "support/dimensions.h"

@@ -19,6 +19,7 @@
 #include "air/pocket_pressure.h"
 #include "bodies/floating_bodies.h"
 #include "neighbours/decomposition.h"
+#include "neighbours/neighbourhood.h"
 #include "parts/refinement.h"
 #include "schemes/force_reader.h"
 #include "schemes/open_ends.h"
@@ -50,7 +51,7 @@ std::vector<Particle<Dim>> fluid_of(const Flow<Dim>& flow) {
   std::vector<Particle<Dim>> own;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!flow.state.particles.is_fluid(i)) continue;
-    own.push_back({flow.state.particles.id[i], flow.neighbourhood.wrapped(flow.state.particles.position[i]),
+    own.push_back({flow.state.particles.id[i], flow.neighbourhood->wrapped(flow.state.particles.position[i]),
                    flow.state.particles.velocity[i], flow.state.particles.pressure[i],
                    flow.state.particles.wall_distance[i], flow.is_inside(i)});
   }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "flow/saved_flow.h"
 #include "schemes/open_ends.h"
 #include "support/liquids.h"
 
@@ -103,9 +104,9 @@ void expect_same(const Flow<2>& a, const Flow<2>& b) {
   ASSERT_EQ(a.state.particles.owned, b.state.particles.owned);
   EXPECT_EQ(a.state.time, b.state.time);
   EXPECT_EQ(a.state.step, b.state.step);
-  EXPECT_EQ(a.state.approach, b.state.approach);
-  EXPECT_EQ(a.state.energy_rise, b.state.energy_rise);
-  EXPECT_EQ(a.state.density_share, b.state.density_share);
+  EXPECT_EQ(a.state.last_step.approach, b.state.last_step.approach);
+  EXPECT_EQ(a.state.last_step.energy_rise, b.state.last_step.energy_rise);
+  EXPECT_EQ(a.state.last_step.density_share, b.state.last_step.density_share);
   for (std::size_t i = 0; i < a.state.particles.owned; ++i) {
     ASSERT_EQ(a.state.particles.id[i], b.state.particles.id[i]);
     ASSERT_EQ(a.state.particles.position[i], b.state.particles.position[i]);

@@ -99,7 +99,7 @@ struct Asked {
     for (std::size_t i = 0; i < by_rows.size(); ++i) {
       if (flow.state.particles.is_fluid(i) || flow.surroundings.is_wet[i] == 0) continue;
       const Vec<2>& n = flow.walls.particles.normal[flow.state.particles.wall_row[i]];
-      by_rows[i] += 0.5 * n.dot(flow.wall_turn_acceleration[i]);
+      by_rows[i] += 0.5 * n.dot(flow.walls.turn_acceleration[i]);
       by_images[i] += 0.5 * n.dot(images[i] + mirrored_at_rest[i]) / dt;  // the image less the water
     }
   }
@@ -238,9 +238,9 @@ TEST(TurningWall, GivesTheWaterAlongATurningPlateItsCoriolisAcceleration) {
     ++wet;
     // The mean of the water within the support, 0.1 m above the plate, slips more slowly, because the plate moves
     // faster there.
-    EXPECT_NEAR(flow.wall_turn_acceleration[i][1], 2.0 * omega * slip_velocity, 0.1 * omega * slip_velocity);
-    EXPECT_LT(std::abs(flow.wall_turn_acceleration[i][0]), 1e-9);
-    EXPECT_LT((velocity[i] - plain[i] + dt * flow.wall_turn_acceleration[i]).norm(), 1e-12);
+    EXPECT_NEAR(flow.walls.turn_acceleration[i][1], 2.0 * omega * slip_velocity, 0.1 * omega * slip_velocity);
+    EXPECT_LT(std::abs(flow.walls.turn_acceleration[i][0]), 1e-9);
+    EXPECT_LT((velocity[i] - plain[i] + dt * flow.walls.turn_acceleration[i]).norm(), 1e-12);
   }
   EXPECT_GT(wet, 20u);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "flow/pressure_equation.h"
 #include "operators/divergence.h"
 #include "pressure/stages.h"
 #include "schemes/cases.h"
@@ -140,9 +141,9 @@ TYPED_TEST(TwoStepTest, WallRowsCarryTheWaterOnce) {
   const std::vector<Float4> velocity = as_float4<Dim>(predicted.velocity);
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     if (!has_equation(flow.role[i])) continue;
-    flow.pressure_rows.set_rhs(i,
-                               -flow.setup.liquid.density / dt *
-                                   standard_divergence<Dim>(flow.pairs(), i, flow.surroundings.pair_vectors, velocity));
+    flow.equation->rows.set_rhs(
+        i, -flow.setup.liquid.density / dt *
+               standard_divergence<Dim>(flow.pairs(), i, flow.surroundings.pair_vectors, velocity));
   }
   solve(flow, equation, drive);
   int tested = 0;

@@ -47,7 +47,7 @@ template <int Dim>
 bool has_contact(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   return count_each(particles.owned, [&](std::size_t i) {
-           return particles.is_fluid(i) && !flow.wall_forces.pressure[i].isZero(0.0);
+           return particles.is_fluid(i) && !flow.walls.forces.pressure[i].isZero(0.0);
          }) > 0;
 }
 
@@ -181,7 +181,7 @@ TEST(WallForceParts, AUniformPressureGivesEachWallItsShare) {
   for (const WallTable& wall : spec.walls) spec.probes.push_back(force_probe(about, {wall.name}));
   Flow<2> flow = make_flow<2>(spec);
   locate(flow);
-  flow.wall_forces.reset(flow.state.particles.owned);
+  flow.walls.forces.reset(flow.state.particles.owned);
   add_wall_forces(flow, std::vector<double>(flow.state.particles.size(), p));
   const Vec<2> outwards[] = {{-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}};
   for (std::size_t wall = 0; wall < 4; ++wall) {

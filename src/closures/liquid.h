@@ -1,9 +1,14 @@
 // The liquid of a flow.
 #pragma once
 
-#include "closures/viscosity.h"
-
 namespace tailwater {
+
+struct ViscosityLaw {
+  double molecular = 0.0;   ///< m^2/s; nu_0
+  double artificial = 0.0;  ///< m; c_a dx, times |u| gives nu_a (viscosity.h)
+
+  double at_speed(double speed) const { return molecular + artificial * speed; }
+};
 
 struct Liquid {
   double density;          ///< kg/m^3
