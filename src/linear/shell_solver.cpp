@@ -34,8 +34,9 @@ ShellReport solve_by_shell(const Communicator& ranks, ShellSystem& system, const
   PetscVector found;
   wrap(ranks, rhs, given);
   wrap(ranks, x, found);
-  check_petsc(KSPSolve(solver.get(), given.get(), found.get()));
   ShellReport report;
+  check_petsc(KSPSetResidualHistory(solver.get(), &report.first_residual, 1, PETSC_TRUE));
+  check_petsc(KSPSolve(solver.get(), given.get(), found.get()));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   check_petsc(KSPGetIterationNumber(solver.get(), &iterations));

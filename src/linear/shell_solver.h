@@ -29,6 +29,7 @@ struct ShellGoal {
 
 struct ShellReport {
   int iterations = 0;
+  double first_residual = 0.0;  ///< of the guess, in the norm of the goal
   bool has_converged = false;
 };
 

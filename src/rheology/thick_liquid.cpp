@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "base/for_each.h"
@@ -18,22 +19,19 @@
 namespace tailwater {
 namespace {
 
-/// A solve ends when it has reduced the error of its guess to this fraction in the energy norm. An end at a fraction of
-/// the velocity instead would stop slow changes before a flow is steady. With 0.01, error in motions that dissipate
-/// little made a liquid of 3e5 Pa s at rest explode.
+/// A solve ends when the energy norm of its error is this fraction of that of the present velocity. An end at a
+/// fraction of the velocity instead would stop slow changes before a flow is steady. With 0.01, error in motions that
+/// dissipate little made a liquid of 3e5 Pa s at rest explode.
 constexpr double reduction = 1e-4;
 constexpr int max_iterations = 500;
 
-/// Passes in which the law follows the velocity of the same step, at most, and the fraction of the error that a pass
-/// leaves: the next pass has other viscosities.
+/// Passes in which the law follows the velocity of the same step, at most, and the end of each: a fraction of the error
+/// of its guess, because the next pass has other viscosities, or of that of the present velocity.
 constexpr int max_passes = 3;
-constexpr double reduction_of_pass = 0.03;
-/// A pass that changes less than this fraction of the change of the step is the last one.
-constexpr double change_of_last_pass = 0.05;
-
-/// The guess of a step repeats the change of the last one if this differed by less than this fraction of itself from
-/// the change before. Near rest changes are noise, and repeating them would add to it.
-constexpr double largest_uneven_change = 0.5;
+constexpr double reduction_of_pass = 0.1;
+constexpr double reduction_of_passes = 2e-3;
+/// A pass is the last one if the next one would move less than this fraction of the change of the step.
+constexpr double change_of_next_pass = 0.03;
 
 /// Error over the velocity, both in the energy norm, below which rounding dominates: products are in single precision.
 constexpr double least_error = 1e-5;
@@ -69,45 +67,84 @@ double ThickLiquid<Dim>::find_yielded_fraction(const Flow<Dim>& flow) const {
   return all > 0.0 ? yielded / all : 0.0;
 }
 
-/// Guesses v: the present velocity and, again, the change of the last step, a part of which the projection reversed.
+/// A guess of v for particle i.
+template <int Dim>
+Vec<Dim> ThickLiquid<Dim>::guess_of(const Flow<Dim>& flow, Guess guess, std::size_t i) const {
+  if (guess == Guess::present || i >= last_.size()) return flow.state.particles.velocity[i];
+  if (guess == Guess::last || i >= before_last_.size()) return last_[i];
+  return 2.0 * last_[i] - before_last_[i];
+}
+
 template <int Dim>
 void ThickLiquid<Dim>::guess(const Flow<Dim>& flow) {
   velocity_ = flow.state.particles.velocity;
-  if (flow.setup.ranks.any(!changes_evenly_)) return;
-  for_each(change_.size(), [&](std::size_t i) {
-    if (flow.role[i] == Role::water) velocity_[i] += change_[i];
+  if (guess_ == Guess::present) return;
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] == Role::water) velocity_[i] = guess_of(flow, guess_, i);
   });
   flow.halo().exchange(velocity_);
 }
 
-/// Collective.
+/// The next step takes the guess that would have been the best one for this step. Collective.
 template <int Dim>
-void ThickLiquid<Dim>::remember_change(const Flow<Dim>& flow) {
-  const Particles<Dim>& particles = flow.state.particles;
-  const std::vector<Vec<Dim>> last = std::move(change_);
-  const auto last_of = [&](std::size_t i) { return i < last.size() ? last[i] : Vec<Dim>(Vec<Dim>::Zero()); };
-  change_.resize(particles.owned);
-  for_each(particles.owned, [&](std::size_t i) { change_[i] = velocity_[i] - particles.velocity[i]; });
-  double uneven = sum_over(particles.owned, 0.0, [&](auto i) { return (change_[i] - last_of(i)).squaredNorm(); });
-  double all = sum_over(particles.owned, 0.0, [&](std::size_t i) { return change_[i].squaredNorm(); });
-  flow.setup.ranks.sum_each(uneven, all);
-  changes_evenly_ = uneven < largest_uneven_change * largest_uneven_change * all;
+void ThickLiquid<Dim>::remember(const Flow<Dim>& flow) {
+  const std::size_t owned = flow.state.particles.owned;
+  std::array<double, guess_count> errors{};
+  for (int n = 0; n < guess_count; ++n) {
+    errors[n] = sum_over(owned, 0.0, [&](std::size_t i) {
+      if (flow.role[i] != Role::water) return 0.0;
+      return (velocity_[i] - guess_of(flow, static_cast<Guess>(n), i)).squaredNorm();
+    });
+  }
+  flow.setup.ranks.sum_each(errors[0], errors[1], errors[2]);
+  int best = 0;
+  for (int n = 1; n < guess_count; ++n) {
+    if (errors[n] <= errors[best]) best = n;  // equal: it was not there yet, and is worth a trial
+  }
+  guess_ = static_cast<Guess>(best);
+  before_last_ = std::move(last_);
+  last_.assign(velocity_.begin(), velocity_.begin() + static_cast<std::ptrdiff_t>(owned));
 }
 
 template <int Dim>
 void ThickLiquid<Dim>::reordered(Reordering /*how*/) {
-  change_.clear();
-  changes_evenly_ = false;
+  last_.clear();
+  before_last_.clear();
+  guess_ = Guess::present;
+  contraction_ = 1.0;
 }
 
-/// Whether a pass that began at a velocity has hardly changed it, compared with the whole step. Collective.
+/// Whether the next pass would hardly change the velocity, compared with the whole step, after one that began at
+/// `before`. Collective.
 template <int Dim>
-bool ThickLiquid<Dim>::is_last_pass(const Flow<Dim>& flow, std::span<const Vec<Dim>> before) const {
+bool ThickLiquid<Dim>::is_last_pass(const Flow<Dim>& flow, std::span<const Vec<Dim>> before, int pass) {
   const std::vector<Vec<Dim>>& start = flow.state.particles.velocity;
   double of_pass = sum_over(before.size(), 0.0, [&](auto i) { return (velocity_[i] - before[i]).squaredNorm(); });
   double of_step = sum_over(before.size(), 0.0, [&](auto i) { return (velocity_[i] - start[i]).squaredNorm(); });
   flow.setup.ranks.sum_each(of_pass, of_step);
-  return of_pass <= change_of_last_pass * change_of_last_pass * of_step;
+  const double moved = std::sqrt(of_pass);
+  if (pass > 0 && moved_ > 0.0) contraction_ = std::min(1.0, moved / moved_);
+  moved_ = moved;
+  return contraction_ * moved <= change_of_next_pass * std::sqrt(of_step);
+}
+
+/// Solves with the viscosity of the guess in velocity_. Returns the iterations. Collective.
+template <int Dim>
+int ThickLiquid<Dim>::solve_pass(const Flow<Dim>& flow, std::span<const double> inertia,
+                                 std::span<const Vec<Dim>> impulse) {
+  find_viscosity(flow, velocity_);
+  std::vector<Vec<Dim>> rhs(impulse.size());
+  for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
+  const double power =
+      flow.setup.ranks.sum(sum_over(rhs.size(), 0.0, [&](std::size_t i) { return rhs[i].dot(velocity_[i]); }));
+  const bool varies = std::ranges::any_of(liquids_, varies_with_shear);
+  const double of_present = (varies ? reduction_of_passes : reduction) * present_residual_;
+  const ShellGoal goal{std::max(least_error * std::sqrt(std::abs(power)), of_present),
+                       varies ? reduction_of_pass : reduction, max_iterations};
+  const ShellReport report = solve_viscous_step<Dim>(flow, forces_, inertia, rhs, goal, velocity_);
+  if (present_residual_ == 0.0) present_residual_ = report.first_residual;
+  has_converged_ = report.has_converged;
+  return report.iterations;
 }
 
 /// Finds v. `force` [m/s^2] is that of gravity and the last pressure.
@@ -123,25 +160,20 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
     impulse[i] = inertia[i] * (predicted[i] + dt * force[i]);
   });
   guess(flow);
+  if (guess_ == Guess::present) present_residual_ = 0.0;
   iterations_ = 0;
-  const bool varies = std::ranges::any_of(liquids_, varies_with_shear);
-  const int passes = varies ? max_passes : 1;
-  std::vector<Vec<Dim>> rhs(particles.owned);
+  const int passes = std::ranges::any_of(liquids_, varies_with_shear) ? max_passes : 1;
   std::vector<Vec<Dim>> before;
   for (int pass = 0; pass < passes; ++pass) {
     before.assign(velocity_.begin(), velocity_.begin() + static_cast<std::ptrdiff_t>(particles.owned));
-    find_viscosity(flow, velocity_);
-    for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
-    const double power =
-        flow.setup.ranks.sum(sum_over(rhs.size(), 0.0, [&](std::size_t i) { return rhs[i].dot(velocity_[i]); }));
-    const ShellGoal goal{least_error * std::sqrt(std::abs(power)), varies ? reduction_of_pass : reduction,
-                         max_iterations};
-    const ShellReport report = solve_viscous_step<Dim>(flow, forces_, inertia, rhs, goal, velocity_);
-    iterations_ += report.iterations;
-    has_converged_ = report.has_converged;
-    if (report.iterations == 0 || is_last_pass(flow, before)) break;
+    const int iterations = solve_pass(flow, inertia, impulse);
+    iterations_ += iterations;
+    if (iterations == 0 || is_last_pass(flow, before, pass)) break;
   }
-  remember_change(flow);
+  remember(flow);
+  work_ = dt * sum_over(particles.owned, 0.0, [&](std::size_t i) {
+            return flow.role[i] == Role::water ? velocity_[i].dot(inertia[i] * velocity_[i] - impulse[i]) : 0.0;
+          });
 }
 
 /// The spin is the mean of the step.
@@ -178,12 +210,6 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
 
   yielded_fraction_ = find_yielded_fraction(flow);
 
-  std::vector<Vec<Dim>> viscous(particles.owned);
-  forces_.find_forces(flow, velocity_, viscous);
-  work_ = dt * sum_over(particles.owned, 0.0, [&](std::size_t i) {
-            if (flow.role[i] != Role::water) return 0.0;
-            return velocity_[i].dot(viscous[i] + forces_.drag_of_walls(flow, i));
-          });
   expansion_.assign(particles.owned, 0.0);
   std::vector<Vec<Dim>> beside_walls = velocity_;
   set_wall_velocities<Dim>(flow, walls_.velocity, beside_walls);

@@ -46,10 +46,16 @@ class ThickLiquid final : public Part<Dim> {
   void warn(const Flow<Dim>& flow) override;
 
  private:
+  /// Guesses of v: the present velocity, the last v, and the straight line through the last two.
+  enum class Guess { present, last, line };
+  static constexpr int guess_count = 3;
+
   void solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> force, double dt, std::span<const Vec<Dim>> predicted);
+  int solve_pass(const Flow<Dim>& flow, std::span<const double> inertia, std::span<const Vec<Dim>> impulse);
+  Vec<Dim> guess_of(const Flow<Dim>& flow, Guess guess, std::size_t i) const;
   void guess(const Flow<Dim>& flow);
-  void remember_change(const Flow<Dim>& flow);
-  bool is_last_pass(const Flow<Dim>& flow, std::span<const Vec<Dim>> before) const;
+  void remember(const Flow<Dim>& flow);
+  bool is_last_pass(const Flow<Dim>& flow, std::span<const Vec<Dim>> before, int pass);
   void find_wall_rates(const Flow<Dim>& flow, double dt);
   const LiquidTable& liquid_of(const Flow<Dim>& flow, std::size_t i) const {
     return liquids_[flow.setup.liquids.of(flow.state.particles.id[i])];
@@ -64,13 +70,17 @@ class ThickLiquid final : public Part<Dim> {
   bool has_converged_ = true;
   bool has_warned_ = false;
 
-  // The last step, until particles are reordered.
-  std::vector<Vec<Dim>> change_;  ///< m/s; v less the velocity before it, of owned particles
-  bool changes_evenly_ = false;   ///< whether the change hardly differed from that of the step before
+  // The last steps, until particles are reordered.
+  std::vector<Vec<Dim>> last_;         ///< m/s; v of owned particles in the last step
+  std::vector<Vec<Dim>> before_last_;  ///< m/s; and in the step before
+  Guess guess_ = Guess::present;       ///< the best one for the last step
+  double present_residual_ = 0.0;  ///< sqrt(W); of the last guess that was the present velocity, in the natural norm
+  double contraction_ = 1.0;       ///< what a pass moved over what the one before it did
 
   // The present step; owned particles, but the velocity of ghosts too.
   WallRates<Dim> walls_;            ///< at the end of the step
   std::vector<Vec<Dim>> velocity_;  ///< m/s; v
+  double moved_ = 0.0;              ///< m/s; by the last pass, root of the sum of squares
   std::vector<double> shear_rate_;  ///< 1/s
   std::vector<double> expansion_;   ///< 1/s; div v
   double work_ = 0.0;               ///< J
