@@ -89,7 +89,8 @@ template <int Dim>
 Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
 /// Errors: a place where the water would pour out of the case; water that can reach the back of a wall. Counts the
-/// water at the start and the inflow through open ends, which count as closed.
+/// water at the start and the inflow through open ends, which count as closed. Warning instead: a yielding liquid that
+/// may pour out before it comes to rest. Collective.
 template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <set>
 
+#include "case/rheology.h"
 #include "checks/cell_space.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
@@ -12,6 +15,91 @@
 
 namespace tailwater {
 namespace {
+
+/// A slump that inertia carries on comes farther than one that always is in balance: 10 % at a Reynolds number of 100
+/// (docs/theory/rheology.md). This allows for half of the way.
+constexpr double reach_with_inertia = 1.5;
+
+/// The yield stress over the weight of a volume [m], of the liquid that comes farthest; 0 if one has no yield stress.
+double least_yield_height(const CaseSpec& spec, double gravity) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const FluidTable& block : spec.fluid) {
+    if (block.liquid.empty()) return 0.0;
+    const LiquidTable& liquid = spec.liquids[index_of_liquid(spec, block.liquid)];
+    least = std::min(least, liquid.yield_stress / (liquid.density * gravity));
+  }
+  return spec.fluid.empty() ? 0.0 : least;
+}
+
+/// Where yielding liquids come to rest on level ground.
+template <int Dim>
+struct Slump {
+  Vec<Dim> start;  ///< m; the middle of the liquid, but on walls beside it
+  double reach;    ///< m; how far from there
+
+  double distance(const Vec<Dim>& down, const Vec<Dim>& x) const {
+    const Vec<Dim> way = x - start;
+    return (way - way.dot(down) * down).norm();
+  }
+};
+
+/// Whether a straight way from a cell leads to a wall, or round a periodic domain.
+template <int Dim>
+bool is_walled(const CellSpace<Dim>& space, const typename CellSpace<Dim>::Cell& from, int axis, int step) {
+  auto c = std::optional(from);
+  do {
+    if (space.face_beside(*c, axis, step) >= 0) return true;
+    c = space.next(*c, axis, step);
+  } while (c && *c != from);
+  return c.has_value();
+}
+
+/// Nothing if a liquid has no yield stress, or has walls on all sides. A wall on one side is a plane of symmetry. Of
+/// liquid that spreads to all sides the volume is V, of liquid between two walls the cross-section A. With the yield
+/// stress over the weight of a volume a, it comes to (225 V^2/(128 pi^2 a))^(1/5) (Roussel & Coussot 2005) or
+/// (9 A^2/(32 a))^(1/3) (Liu & Mei 1989). Collective.
+template <int Dim>
+std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>& space,
+                                     const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity) {
+  const double a = least_yield_height(spec, gravity.norm());
+  if (a == 0.0) return std::nullopt;
+  const Box<Dim> box = fluid.box();
+  Slump<Dim> slump{0.5 * (box.min() + box.max()), 0.0};
+  const auto middle = space.cell_of(slump.start);
+  double volume = fluid.ranks.sum(std::accumulate(fluid.volume.begin(), fluid.volume.end(), 0.0));
+  int free_axes = 0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (std::abs(gravity[axis]) > 0.5 * gravity.norm()) continue;
+    const bool below = is_walled(space, middle, axis, -1);
+    const bool above = is_walled(space, middle, axis, 1);
+    if (below && above) {
+      volume /= box.max()[axis] - box.min()[axis] + spec.particles.spacing;
+      continue;
+    }
+    ++free_axes;
+    if (below == above) continue;
+    volume *= 2.0;
+    slump.start[axis] = below ? box.min()[axis] : box.max()[axis];
+  }
+  if (free_axes == 0) return std::nullopt;
+  const double squared = volume * volume / a;
+  const double at_rest = free_axes == 2 ? std::pow(225.0 / (128.0 * std::numbers::pi * std::numbers::pi) * squared, 0.2)
+                                        : std::cbrt(9.0 / 32.0 * squared);
+  slump.reach = reach_with_inertia * at_rest;
+  return slump;
+}
+
+/// Whether no cell that water reaches is lower than the lowest of those that it begins in.
+template <int Dim>
+bool is_level(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
+              const Spread<Dim>& reached, const Vec<Dim>& down) {
+  const auto lowest = [&](const auto& cells) {
+    double depth = -std::numeric_limits<double>::infinity();
+    for (const auto& c : cells) depth = std::max(depth, space.centre(c).dot(down));
+    return depth;
+  };
+  return lowest(reached.cells) <= lowest(start) + 0.5 * space.edge();
+}
 
 /// Findings where water reaches the back of a wall, one per wall.
 template <int Dim>
@@ -74,16 +162,33 @@ template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.isZero(0.0) || boundary.faces.empty()) return {};
+  const Vec<Dim> down = gravity.normalized();
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
   const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), most_cells_of_case);
   std::vector<typename CellSpace<Dim>::Cell> wet = cells_of<Dim>(space, fluid);
   add_cells_at_ends(spec, boundary, space, wet);
-  const Spread<Dim> reached = spread(space, wet, Vec<Dim>(gravity.normalized()));
+  const Spread<Dim> reached = spread(space, wet, down);
   if (!reached.way_out) return water_behind(boundary, reached);
-  return {Finding::error("water-pours-out",
-                         {"the water would pour out of the case at {}, near {}", place(*reached.way_out),
-                          nearest_label(boundary, ends, *reached.way_out)},
-                         {"close it there, or make it higher"})};
+  const Vec<Dim>& way_out = *reached.way_out;
+  const auto where = place(way_out);
+  const CaseLabel beside = nearest_label(boundary, ends, way_out);
+  const std::optional<Slump<Dim>> slump = ends.empty() ? find_slump(spec, space, fluid, gravity) : std::nullopt;
+  if (!slump) {
+    return {Finding::error("water-pours-out", {"the water would pour out of the case at {}, near {}", where, beside},
+                           {"close it there, or make it higher"})};
+  }
+  if (!is_level(space, wet, reached, down)) {
+    return {Finding::warning(
+        "liquid-may-pour-out",
+        {"the liquid would pour out of the case at {}, near {}, unless it stops before", where, beside},
+        {"close it there, make it higher, or make the ground longer"})};
+  }
+  if (slump->distance(down, way_out) >= slump->reach) return water_behind(boundary, reached);
+  return {
+      Finding::warning("liquid-may-reach-edge",
+                       {"the liquid may pour out of the case at {}, near {}: it comes to rest up to {:.3g} m from {}",
+                        where, beside, slump->reach, place(slump->start)},
+                       {"let the ground reach that far to all sides, or close it there"})};
 }
 
 TAILWATER_IN_2D_AND_3D(check_leaks);

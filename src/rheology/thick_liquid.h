@@ -75,7 +75,7 @@ class ThickLiquid final : public Part<Dim> {
   std::vector<Vec<Dim>> before_last_;  ///< m/s; and in the step before
   Guess guess_ = Guess::present;       ///< the best one for the last step
   double present_residual_ = 0.0;  ///< sqrt(W); of the last guess that was the present velocity, in the natural norm
-  double contraction_ = 1.0;       ///< what a pass moved over what the one before it did
+  double contraction_ = 1.0;       ///< movement of a pass over that of the one before it
 
   // The present step; owned particles, but the velocity of ghosts too.
   WallRates<Dim> walls_;            ///< at the end of the step

@@ -370,6 +370,42 @@ TEST(Check, WaterThatPoursOutIn3D) {
   expect_only(check<3>(spec), Severity::error, {"pour out"});
 }
 
+// 0.16 m2 of mud with a yield stress of 0.1 m come to rest 0.42 m from their middle (Liu & Mei), on a table that ends
+// at `half`.
+CaseSpec mud_on_table(double half, double drop) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{-half, -drop}, {0.0, 0.0}, {half, -drop}})};
+  spec.fluid = {box_fluid({-0.2, 0}, {0.2, 0.4})};
+  LiquidTable mud = bingham(1000.0, 981.0);
+  mud.density = 1000.0;
+  fill_with(spec, mud);
+  return spec;
+}
+
+TEST(Check, AYieldingLiquidStopsOnAnOpenTable) {
+  EXPECT_TRUE(check(mud_on_table(0.8, 0.0)).empty()) << listed(check(mud_on_table(0.8, 0.0)));
+  expect_only(check(mud_on_table(0.4, 0.0)), Severity::warning, {"may pour out", "up to 0.624 m from"});
+  CaseSpec water = mud_on_table(0.8, 0.0);
+  water.liquids[0].yield_stress = 0.0;
+  expect_only(check(water), Severity::error, {"would pour out"});
+}
+
+TEST(Check, AYieldingLiquidOnASlopeMayPourOut) {
+  expect_among(check(mud_on_table(0.8, 0.3)), Severity::warning, {"would pour out", "unless it stops before"});
+}
+
+TEST(Check, AYieldingLiquidStopsOnAnOpenTableIn3D) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.fluid = {box_fluid({-0.2, -0.2, 0}, {0.2, 0.2, 0.4})};
+  spec.walls = {box_wall({-0.8, -0.8, 0}, {0.8, 0.8, 0.6}, {"+x", "-x", "+y", "-y", "+z"})};
+  fill_with(spec, mud_on_table(0.8, 0.0).liquids[0]);
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  spec.walls = {box_wall({-0.8, -0.2, 0}, {0.8, 0.2, 0.6}, {"+x", "-x", "+z"})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  spec.liquids[0].yield_stress = 98.1;
+  expect_only(check<3>(spec), Severity::warning, {"may pour out", "up to 1.34 m from"});
+}
+
 TEST(Check, WaterGoesRoundAPeriodicDomain) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {polyline({{0, 0}, {2, 0}})};
