@@ -29,19 +29,40 @@ double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, d
 
 }  // namespace
 
-/// The kernel costs more than all the rest of a product.
+/// Writes the weights of fluid of particle i, for products: the kernel costs more than all the rest of them. Returns
+/// their moment.
 template <int Dim>
-void ViscousOperator<Dim>::find_fluid_weights(const Flow<Dim>& flow) {
+[[gnu::flatten]] Mat<Dim> ViscousOperator<Dim>::weigh_fluid(const Flow<Dim>& flow, std::size_t i) {
   const Pairs<Dim>& pairs = flow.pairs();
-  make_room(fluid_weight_, pairs.j.size());
-  fluid_weight_.resize(pairs.j.size());
-  for_each(pairs.owned(), [&](std::size_t i) {
-    float* const row = fluid_weight_.data() + pairs.begin(i);
-    for_each_pair(pairs, i, [&](const auto& batch) {
-      const PlaceLanes<Dim> place = batch.place();
-      batch.store(place.volume_of_fluid() * batch.F(place.d), row);
-    });
+  float* const row = fluid_weight_.data() + pairs.begin(i);
+  SymmetricLanes<Dim> moment{};
+  for_each_pair(pairs, i, [&](const auto& batch) {
+    const PlaceLanes<Dim> place = batch.place();
+    const Lanes weight = batch.store(place.volume_of_fluid() * batch.F(place.d), row);
+    moment.add(weight * place.d, place.d);
   });
+  return sum_of(moment);
+}
+
+/// Adds up the walls beside fluid particle i, and returns their moment.
+template <int Dim>
+Mat<Dim> ViscousOperator<Dim>::weigh_walls(const Flow<Dim>& flow, const WallRates<Dim>& walls, std::size_t i) {
+  const Pairs<Dim>& pairs = flow.pairs();
+  const Particles<Dim>& particles = flow.state.particles;
+  Mat<Dim> moment = Mat<Dim>::Zero();
+  for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
+    const auto j = pairs.j[k];
+    if (particles.is_fluid(j)) continue;
+    const Vec<Dim> d = pairs.d(i, k);
+    const double F = pairs.F(i, k);
+    const auto row = particles.wall_row[j];
+    const double of_wall = particles.volume[j] * wall_factor(flow, row, d, F);
+    moment += flow.walls.friction[row] * particles.volume[j] * F * d * d.transpose();
+    wall_weight_[i] += of_wall;
+    wall_velocity_[i] += of_wall * walls.at(flow.walls, row, d);
+  }
+  if (wall_weight_[i] > 0.0) wall_velocity_[i] /= wall_weight_[i];
+  return moment;
 }
 
 template <int Dim>
@@ -49,42 +70,28 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, const WallRates<Dim>& w
   const Pairs<Dim>& pairs = flow.pairs();
   const Particles<Dim>& particles = flow.state.particles;
   const std::size_t owned = particles.owned;
+  make_room(fluid_weight_, pairs.j.size());
+  fluid_weight_.resize(pairs.j.size());
   inverse_moment_.assign(owned, Mat<Dim>::Zero());
   share_.assign(owned, 0.0);
   fluid_share_.assign(owned, 1.0);
   wall_weight_.assign(owned, 0.0);
   wall_velocity_.assign(owned, Vec<Dim>::Zero());
-  find_fluid_weights(flow);
   for_each(owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    Mat<Dim> moment = Mat<Dim>::Zero();
-    Mat<Dim> with_walls = Mat<Dim>::Zero();
-    for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
-      const auto j = pairs.j[k];
-      const Vec<Dim> d = pairs.d(i, k);
-      if (particles.is_fluid(j)) {
-        moment += fluid_weight_[k] * d * d.transpose();
-        continue;
-      }
-      const double F = pairs.F(i, k);
-      const double weight = particles.volume[j] * F;
-      const auto row = particles.wall_row[j];
-      const double of_wall = particles.volume[j] * wall_factor(flow, row, d, F);
-      with_walls += flow.walls.friction[row] * weight * d * d.transpose();
-      wall_weight_[i] += of_wall;
-      wall_velocity_[i] += of_wall * walls.at(flow.walls, row, d);
-    }
-    if (wall_weight_[i] > 0.0) wall_velocity_[i] /= wall_weight_[i];
+    const Mat<Dim> moment = weigh_fluid(flow, i);
+    const Mat<Dim> of_walls = weigh_walls(flow, walls, i);
     const double least = least_eigenvalue<Dim>(moment);
     share_[i] = std::clamp((least - no_moment) / (full_moment - no_moment), 0.0, 1.0);
     if (share_[i] == 0.0) return;
     inverse_moment_[i] = moment.inverse();
-    if (wall_weight_[i] > 0.0) fluid_share_[i] = least / least_eigenvalue<Dim>(moment + with_walls);
+    if (wall_weight_[i] > 0.0) fluid_share_[i] = least / least_eigenvalue<Dim>(moment + of_walls);
   });
 }
 
 template <int Dim>
-Mat<Dim> ViscousOperator<Dim>::gradient(const Flow<Dim>& flow, std::span<const Float4> velocity, std::size_t i) const {
+[[gnu::flatten]] Mat<Dim> ViscousOperator<Dim>::gradient(const Flow<Dim>& flow, std::span<const Float4> velocity,
+                                                         std::size_t i) const {
   MatLanes<Dim> sums{};
   for_each_pair(flow.pairs(), i, [&](const auto& batch) {
     const VecLanes<Dim> d = batch.place().d;
@@ -149,30 +156,35 @@ void ViscousOperator<Dim>::find_forces(const Flow<Dim>& flow, std::vector<Vec<Di
     for (int n = 0; n < Dim * Dim; ++n) end.transposed[n] = static_cast<float>(Q.data()[n]);
   });
   flow.halo().exchange(ends_);
-  const auto number = [](std::size_t offset) { return offset / sizeof(float); };
   for_each(particles.owned, [&](std::size_t i) {
     force[i].setZero();
-    if (!particles.is_fluid(i)) return;
-    const End& own = ends_[i];
-    const Lanes volume = in_all_lanes(particles.volume[i]);
-    VecSum<Dim> sum;
-    for_each_pair(flow.pairs(), i, [&](const auto& batch) {
-      const auto other = batch.j.numbers(ends_.data());
-      const Lanes weight = volume * batch.range.load(fluid_weight_.data());
-      const Lanes viscosity = own.viscosity + other[number(offsetof(End, viscosity))];
-      MatLanes<Dim> transposed;
-      for (int n = 0; n < Dim * Dim; ++n) {
-        transposed.column[n / Dim].at[n % Dim] = own.transposed[n] + other[number(offsetof(End, transposed)) + n];
-      }
-      VecLanes<Dim> terms = transposed.times(batch.place().d);
-      for (int a = 0; a < Dim; ++a) {
-        const Lanes difference = other[number(offsetof(End, velocity)) + a] - own.velocity[a];
-        terms.at[a] = weight * (viscosity * difference - terms.at[a]);
-      }
-      sum += terms;
-    });
-    force[i] = sum.total() - friction_of_walls(flow, i) * velocity[i];
+    if (particles.is_fluid(i)) force[i] = force_of_fluid(flow, i) - friction_of_walls(flow, i) * velocity[i];
   });
+}
+
+template <int Dim>
+[[gnu::flatten]] Vec<Dim> ViscousOperator<Dim>::force_of_fluid(const Flow<Dim>& flow, std::size_t i) const {
+  using End = StressEnd<Dim>;
+  const auto number = [](std::size_t offset) { return offset / sizeof(float); };
+  const End& own = ends_[i];
+  const Lanes volume = in_all_lanes(flow.state.particles.volume[i]);
+  VecSum<Dim> sum;
+  for_each_pair(flow.pairs(), i, [&](const auto& batch) {
+    const auto other = batch.j.numbers(ends_.data());
+    const Lanes weight = volume * batch.range.load(fluid_weight_.data());
+    const Lanes viscosity = own.viscosity + other[number(offsetof(End, viscosity))];
+    MatLanes<Dim> transposed;
+    for (int n = 0; n < Dim * Dim; ++n) {
+      transposed.column[n / Dim].at[n % Dim] = own.transposed[n] + other[number(offsetof(End, transposed)) + n];
+    }
+    VecLanes<Dim> terms = transposed.times(batch.place().d);
+    for (int a = 0; a < Dim; ++a) {
+      const Lanes difference = other[number(offsetof(End, velocity)) + a] - own.velocity[a];
+      terms.at[a] = weight * (viscosity * difference - terms.at[a]);
+    }
+    sum += terms;
+  });
+  return sum.total();
 }
 
 template <int Dim>

@@ -92,7 +92,9 @@ class ViscousOperator {
                             std::span<Vec<Dim>> force) const;
 
  private:
-  void find_fluid_weights(const Flow<Dim>& flow);
+  Mat<Dim> weigh_fluid(const Flow<Dim>& flow, std::size_t i);
+  Mat<Dim> weigh_walls(const Flow<Dim>& flow, const WallRates<Dim>& walls, std::size_t i);
+  Vec<Dim> force_of_fluid(const Flow<Dim>& flow, std::size_t i) const;
   Mat<Dim> gradient(const Flow<Dim>& flow, std::span<const Float4> velocity, std::size_t i) const;
 
   UnwrittenArray<float> fluid_weight_;    ///< 1/m^2; w_j F_ij of each pair of fluid, 0 of others
