@@ -46,6 +46,22 @@ double cells_over(const Box<Dim>& box, double spacing, const PeriodicDomain<Dim>
   return cells;
 }
 
+/// Whether x is behind another wall that is as near as the nearest one, of index `wall`, at `distance` (m). Where two
+/// walls touch, as a lid and the side walls around it, either of them may be the nearest one.
+template <int Dim>
+bool is_behind_touching_wall(const Boundary<Dim>& boundary, int wall, double distance, double tolerance,
+                             const Vec<Dim>& x) {
+  bool is_behind = false;
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    const double height = face.height(x);
+    if (is_behind || face.wall == wall || boundary.walls[face.wall].is_plate) return;
+    if (height >= 0.0 || height < -distance - tolerance) return;
+    is_behind = (closest_point(face, x) - x).norm() <= distance + tolerance;
+  });
+  return is_behind;
+}
+
 std::vector<std::int64_t> numbers_of(const std::vector<AirPocket>& pockets) {
   std::vector<std::int64_t> numbers;
   for (const AirPocket& pocket : pockets) numbers.push_back(pocket.number);
@@ -92,7 +108,11 @@ template <int Dim>
 bool AirWatch<Dim>::is_in_gap(const Boundary<Dim>& boundary, int face, const Vec<Dim>& x) const {
   const Vec<Dim> in_front = x + 0.5 * spacing_ * boundary.faces[face].normal;
   const NearestWall<Dim> other = boundary.nearest(in_front, search_distance * spacing_);
-  return other.face >= 0 && other.signed_distance < 0.0 && boundary.faces[other.face].wall != boundary.faces[face].wall;
+  if (other.face < 0) return false;
+  const int wall = boundary.faces[face].wall;
+  if (boundary.faces[other.face].wall != wall) return other.signed_distance < 0.0;
+  return is_behind_touching_wall(boundary, wall, std::abs(other.signed_distance), corner_tolerance * spacing_,
+                                 in_front);
 }
 
 /// Marks the cells near a row of a wall that are behind walls, or in a gap beside one that moves.

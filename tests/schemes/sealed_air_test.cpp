@@ -1,7 +1,9 @@
 // Spaces that walls seal keep their gas, and its pressure follows their volume at once.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "air/enclosed_air.h"
 #include "flow/measure.h"
@@ -124,6 +126,30 @@ TYPED_TEST(SealedAir, IsPressedTogetherByALidThatSinks) {
   }
 }
 
+// Tank and lid pass between the cells in which air is searched for, also where the lid is listed first.
+TYPED_TEST(SealedAir, IsClosedByALidThatMovesWithTheTank) {
+  constexpr int Dim = TypeParam::value;
+  for (const bool is_first : {false, true}) {
+    if (Dim == 3 && is_first) continue;
+    CaseSpec spec = tank_below_lid<Dim>(true);
+    for (WallTable& wall : spec.walls) {
+      wall.displacement = VectorField(Dim, 0.0);
+      wall.displacement[0] = "0.2*t";
+    }
+    if (is_first) std::swap(spec.walls[0], spec.walls[1]);
+    Flow<Dim> flow = make_flow<Dim>(spec);
+    start(flow);
+    const double gas = gas_of(flow);
+    while (flow.state.time < 0.25) {  // two cells
+      step(flow);
+      ASSERT_EQ(air_of(flow).state.pockets.size(), 1U) << flow.state.time;
+    }
+    EXPECT_NEAR(gas_of(flow), gas, 1e-12 * gas);
+    EXPECT_EQ(air_of(flow).state.hidden.size(), 0U);
+    EXPECT_NEAR(air_of(flow).measures().volume, 0.4 * std::pow(0.5, Dim - 1), 1e-3 * std::pow(0.5, Dim - 1));
+  }
+}
+
 // Pressure that all of the air has in common has no force.
 TYPED_TEST(SealedAir, OfLowPressureLeavesWaterAtRest) {
   constexpr int Dim = TypeParam::value;
@@ -173,8 +199,8 @@ double largest_rise(Flow<2>& flow, Visit&& visit) {
   return rise;
 }
 
-// Gas and volume are conserved to rounding. The work of walls is known to some (dx/depth)^2, so the energy rises
-// without air too; with it, it rises by no more.
+// Gas and volume are conserved to rounding. The density source and the shifts of particles lift the water and let it
+// sink, so the energy rises before there is a pocket; with air it rises by no more.
 TEST(SealedTank, KeepsItsGasWhileItRolls) {
   Flow<2> without = make_flow<2>(rolling_tank());
   start(without);
@@ -199,8 +225,8 @@ TEST(SealedTank, KeepsItsGasWhileItRolls) {
   EXPECT_LT(rise, rise_without + 1e-3 * scale);
 }
 
-// Air in both legs of a tube, of 0.4 and 0.5 m: two gas springs and the weight move 1.2 m of water to and fro.
-TEST(ClosedTube, SwingsBetweenItsPocketsOfAir) {
+/// Water 0.6 and 0.5 m high in the legs of a closed tube 1 m high, with air above.
+CaseSpec closed_tube(AirPockets gas) {
   CaseSpec spec;
   spec.particles.spacing = 0.025;
   WallTable tube;
@@ -215,23 +241,61 @@ TEST(ClosedTube, SwingsBetweenItsPocketsOfAir) {
     return water;
   };
   spec.fluid = {block({0.0, 0.0}, {0.2, 0.6}), block({0.2, 0.0}, {0.4, 0.2}), block({0.4, 0.0}, {0.6, 0.5})};
-  spec.air.pockets = AirPockets::isothermal;
-  Flow<2> flow = make_flow<2>(spec);
+  spec.air.pockets = gas;
+  return spec;
+}
+
+/// s; the period of the tube without gas: twice the time until the water turns.
+double open_period() {
+  Flow<2> flow = make_flow<2>(closed_tube(AirPockets::none));
+  start(flow);
+  double largest = 0.0;
+  double kinetic[3] = {};  // after the last three steps
+  double dt = 0.0;
+  do {
+    const double time = flow.state.time;
+    step(flow);
+    dt = flow.state.time - time;
+    kinetic[0] = kinetic[1];
+    kinetic[1] = kinetic[2];
+    kinetic[2] = measure(flow).kinetic_energy;
+    largest = std::max(largest, kinetic[2]);
+  } while (kinetic[2] < kinetic[1] || kinetic[2] > 0.1 * largest);
+  const double behind = 0.5 * (kinetic[0] - kinetic[2]) / (kinetic[0] - 2.0 * kinetic[1] + kinetic[2]) - 1.0;  // steps
+  return 2.0 * (flow.state.time + behind * dt);
+}
+
+// Two gas springs and the weight move 1.2 m of water to and fro. Its effective length is that of the open tube.
+TEST(ClosedTube, SwingsBetweenItsPocketsOfAir) {
+  Flow<2> flow = make_flow<2>(closed_tube(AirPockets::isothermal));
   start(flow);
   ASSERT_EQ(air_of(flow).state.pockets.size(), 2U);
   const double gas = gas_of(flow);
+  const double springs = atmosphere / 1000.0 * (1.0 / 0.4 + 1.0 / 0.5) / (2.0 * g);  // stiffness over the weight's
+  // Pa; at rest the pressures differ by the weight of 0.1 m of water, less what gives way.
+  const double settled = 1000.0 * g * 0.1 * springs / (1.0 + springs);
   double mean = 0.0;
+  double before = -settled;
+  std::vector<double> crossings;
   int steps = 0;
   while (flow.state.time < 1.0) {
+    const double time = flow.state.time;
     step(flow);
     const std::vector<AirPocket>& pockets = air_of(flow).state.pockets;
     ASSERT_EQ(pockets.size(), 2U);
-    mean += air_of(flow).pressure_of(pockets[1]) - air_of(flow).pressure_of(pockets[0]);
+    const double difference = std::abs(air_of(flow).pressure_of(pockets[1]) - air_of(flow).pressure_of(pockets[0]));
+    mean += difference;
     ++steps;
+    const double now = difference - settled;
+    if (before * now < 0.0) crossings.push_back(time + (flow.state.time - time) * before / (before - now));
+    before = now;
   }
   EXPECT_NEAR(gas_of(flow), gas, 1e-12 * gas);
-  // At rest the pressures differ by the weight of 0.1 m of water, less what gives way.
-  EXPECT_NEAR(std::abs(mean / steps), 1000.0 * g * 0.1, 0.1 * 1000.0 * g * 0.1);
+  EXPECT_NEAR(mean / steps, settled, 0.1 * settled);
+  ASSERT_GE(crossings.size(), 4U);
+  const double period = 2.0 * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+  const double expected = open_period() / std::sqrt(1.0 + springs);
+  EXPECT_NEAR(period, expected, 0.02 * expected);
 }
 
 }  // namespace
