@@ -68,7 +68,7 @@ void hand_on(const VoidGrid<Dim>& grid, const SealedSpaces<Dim>& spaces, const G
              std::vector<FoundPocket>& found, AirState& state) {
   std::vector<AirPocket> kept;
   for (AirPocket& hidden : state.hidden) {
-    const int space = spaces.of(hidden.cells);
+    const int space = spaces.of(grid, hidden.cells);
     if (space < 0) {
       state.gas_lost += hidden.gas;
       state.energy_lost += law.energy(hidden.gas, hidden.volume);

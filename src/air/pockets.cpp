@@ -191,12 +191,12 @@ std::vector<FoundPocket> follow_pockets(const VoidGrid<Dim>& grid, double spacin
     OldPocket old = find_cells(pocket, grid, voids);
     claim_cells(old, claimants);
     tear_off(old, pocket.torn + state.displacement, spacing, min_cells, torn);
-    end_pocket(old, spaces.of(pocket.cells) >= 0, law, state);
+    end_pocket(old, spaces.of(grid, pocket.cells) >= 0, law, state);
   }
   std::vector<FoundPocket> found = begin_pockets(voids, min_cells, std::move(claimants));
   std::ranges::move(torn, std::back_inserter(found));
   number_pockets(found, state);
-  for (FoundPocket& each : found) each.space = spaces.of(each.pocket.cells);
+  for (FoundPocket& each : found) each.space = spaces.of(grid, each.pocket.cells);
   return found;
 }
 

@@ -20,14 +20,22 @@ void SealedSpaces<Dim>::find_ways_out(const Voids<Dim>& voids) {
 }
 
 template <int Dim>
-int SealedSpaces<Dim>::of(std::span<const CellRun> cells) const {
+int SealedSpaces<Dim>::of(const VoidGrid<Dim>& grid, std::span<const CellRun> cells) const {
+  bool are_behind_wall = true;
   for (const CellRun& run : cells) {
     int space = -1;
     if (run.row < 0 || run.row >= walled_.rows()) continue;  // a checkpoint may hold any number
     walled_.visit_pieces(run, [&](const CellRun& /*piece*/, int part) {
+      are_behind_wall = false;
       if (space < 0 && is_sealed_[part] != 0) space = part;
     });
     if (space >= 0) return space;
+  }
+  if (!are_behind_wall) return -1;
+  for (const CellRun& run : cells) {
+    if (run.row < 0 || run.row >= walled_.rows()) continue;
+    const Vec<Dim> x = grid.centre(grid.cell(run.row, run.begin));
+    if (const int space = near(grid, x, 2.0 * grid.edge().maxCoeff()); space >= 0) return space;
   }
   return -1;
 }

@@ -23,8 +23,9 @@ class SealedSpaces {
   void set_yielding(int space) { is_rigid_[space] = 0; }
   bool is_rigid(int space) const { return is_rigid_[space] != 0; }
 
-  /// The sealed space of the first of these cells that is in one; -1: there is none.
-  int of(std::span<const CellRun> cells) const;
+  /// The sealed space of the first of these cells that is in one; -1: there is none. Where a wall has moved over all of
+  /// the cells, the space of the cells beside them.
+  int of(const VoidGrid<Dim>& grid, std::span<const CellRun> cells) const;
   /// The space of the cell nearest to x that no wall closes, within dx; -1 if that is not sealed.
   int near(const VoidGrid<Dim>& grid, const Vec<Dim>& x, double spacing) const;
 

@@ -24,11 +24,11 @@ class Basin {
   Basin() : grid_({Vec<2>::Zero(), Vec<2>(3.0, 1.0)}, dx, {}), walls_(grid_.rows(), grid_.length()) {}
 
   /// Closes the basin on all sides, 0.05 inside its border.
-  void seal() {
+  void seal(double left = 0.05) {
     for (int row = 0; row < grid_.rows(); ++row) {
       for (int place = 0; place < grid_.length(); ++place) {
         const Vec<2> x = grid_.centre(grid_.cell(row, place));
-        const bool is_inside = x[0] > 0.05 && x[0] < 2.95 && x[1] > 0.05 && x[1] < 0.95;
+        const bool is_inside = x[0] > left && x[0] < 2.95 && x[1] > 0.05 && x[1] < 0.95;
         if (!is_inside) walls_.mark(row, place, place + 1);
       }
     }
@@ -239,6 +239,19 @@ TEST(SealedBasin, KeepsGasThatHasNoPocketUntilThereIsOneAgain) {
   EXPECT_TRUE(basin.state.hidden.empty());
   EXPECT_NEAR(basin.gas(), gas, 1e-12);
   EXPECT_NEAR(basin.state.gas_found, gas, 1e-12);
+}
+
+TEST(SealedBasin, KeepsTheGasOfAPocketThatAWallMovesOver) {
+  Basin basin;
+  basin.seal();
+  basin.look({{0.0, 0.1}, {1.0, 2.0}});
+  ASSERT_EQ(basin.state.pockets.size(), 2U);
+  const double gas = basin.gas();
+  basin.seal(0.1);
+  basin.look({{0.0, 0.1}, {1.0, 2.0}});
+  ASSERT_EQ(basin.state.pockets.size(), 1U);
+  EXPECT_NEAR(basin.gas(), gas, 1e-12);
+  EXPECT_EQ(basin.state.gas_lost, 0.0);
 }
 
 TEST(SealedBasin, FillsAPocketThatBeginsFromItsNeighbour) {
