@@ -123,6 +123,20 @@ double change_pocket(AirPocket& pocket, double volume, const GasLaw& law, double
   return work;
 }
 
+/// Limits the volumes at the end of a step to a tenth of those at its start. In a sealed space the largest pocket loses
+/// the difference, so the volume of the space stays.
+template <int Dim>
+void limit_compression(const EnclosedAir<Dim>& air, std::vector<double>& volumes) {
+  const auto least = [&](std::size_t k) { return 0.1 * air.state.pockets[k].volume; };
+  for (std::size_t k = 0; k < volumes.size(); ++k) {
+    const int reference = air.watch.reference_of(static_cast<int>(k));
+    if (reference < 0 || static_cast<std::size_t>(reference) == k || volumes[k] >= least(k)) continue;
+    volumes[reference] -= least(k) - volumes[k];
+    volumes[k] = least(k);
+  }
+  for (std::size_t k = 0; k < volumes.size(); ++k) volumes[k] = std::max(volumes[k], least(k));
+}
+
 template <int Dim>
 GasStep gas_step_of(const EnclosedAir<Dim>& air, double dt) {
   return {air.watch.law(), air.state.pockets, air.watch.openings(), air.step.mobility, air.step.answers, dt};
@@ -195,11 +209,15 @@ void push_by_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, double dt) {
   });
   const std::vector<double> flow_after = growth(flow, air, [&](std::size_t i) { return velocity[i]; });
   const std::vector<double> by_walls = growth_by_walls(flow, air, dt);
+  std::vector<double> volumes;
   for (std::size_t k = 0; k < flow_after.size(); ++k) {
-    AirPocket& pocket = air.state.pockets[k];
     const double rate = 0.5 * (step.flow_before[k] + flow_after[k]) + by_walls[k];
-    const double volume = std::max(pocket.volume + dt * rate, 0.1 * pocket.volume);
-    step.work += change_pocket(pocket, volume, air.watch.law(), air.watch.openings()[k], dt, air.state);
+    volumes.push_back(air.state.pockets[k].volume + dt * rate);
+  }
+  limit_compression(air, volumes);
+  for (std::size_t k = 0; k < volumes.size(); ++k) {
+    AirPocket& pocket = air.state.pockets[k];
+    step.work += change_pocket(pocket, volumes[k], air.watch.law(), air.watch.openings()[k], dt, air.state);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/for_each.h"
 #include "flow/pressure_equation.h"
@@ -96,6 +97,24 @@ double refine_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, 
       largest_over(divergence.size(), 0.0, [&](std::size_t i) { return std::abs(change[i]); }));
 }
 
+/// A new response. Beside films of one or two particles passes may not converge, and their errors grow from pass to
+/// pass. A response is between 0 and 1, so the first change is at most 1, and each further one smaller than the last.
+template <int Dim>
+AirResponse<Dim> begin_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket, int& iterations) {
+  AirResponse<Dim> response = first_response(flow, sides, pocket, iterations);
+  double last = 1.0;
+  for (int pass = 0; pass < passes_at_start; ++pass) {
+    std::vector<double> before = response.pressure;
+    const double change = refine_response(flow, sides, pocket, response, iterations);
+    if (change > last) {
+      response.pressure = std::move(before);
+      break;
+    }
+    last = change;
+  }
+  return response;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -129,10 +148,7 @@ int find_response(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<const Pocket
     response.force.resize(flow.state.particles.size(), Vec<Dim>::Zero());
     goes_on = refine_response(flow, sides, pocket, response, iterations) <= largest_change;
   }
-  if (!goes_on) {
-    response = first_response(flow, sides, pocket, iterations);
-    for (int pass = 0; pass < passes_at_start; ++pass) refine_response(flow, sides, pocket, response, iterations);
-  }
+  if (!goes_on) response = begin_response(flow, sides, pocket, iterations);
   response.force = force_of(flow, sides, pocket, response.pressure);
   return iterations;
 }
