@@ -26,7 +26,7 @@ void show_program() {
 
 void print_line(const std::string& label, const std::string& text) { fmt::print("{:<10} {}\n", label + ":", text); }
 
-/// Prints the facts that a user needs before the numbers of a run are used. The summary of a run that is at work, or
+/// Prints the facts that a user needs before the numbers of a run are used. The summary of a run that goes on, or
 /// was killed, is that of its start, so its facts come from its tables.
 void show_digest(const std::filesystem::path& run, const Json& summary) {
   fmt::print("{}\n", printable(summary.at("title").get<std::string>()));
