@@ -117,9 +117,22 @@ FlowMeasures measure(const Flow<Dim>& flow) {
   return measures;
 }
 
+template <int Dim>
+DensestWater<Dim> densest_water(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  DensestWater<Dim> own;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: looks for the largest
+    if (!is_bulk(flow, i) || density_error_of(flow, i) <= own.error) continue;
+    own = {particles.position[i], density_error_of(flow, i), is_claimed(flow.role[i])};
+  }
+  const std::vector<DensestWater<Dim>> of_ranks = flow.setup.ranks.all_gather(own);
+  return *std::ranges::max_element(of_ranks, {}, [](const DensestWater<Dim>& one) { return one.error; });
+}
+
 TAILWATER_IN_2D_AND_3D(fluid_sums_of_rank);
 TAILWATER_IN_2D_AND_3D(amount_of);
 TAILWATER_IN_2D_AND_3D(largest_speed);
 TAILWATER_IN_2D_AND_3D(measure);
+TAILWATER_IN_2D_AND_3D(densest_water);
 
 }  // namespace tailwater

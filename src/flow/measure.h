@@ -47,4 +47,16 @@ struct FlowMeasures {
 template <int Dim>
 FlowMeasures measure(const Flow<Dim>& flow);
 
+/// The densest water of the bulk.
+template <int Dim>
+struct DensestWater {
+  Vec<Dim> position = Vec<Dim>::Zero();  ///< m
+  double error = 0.0;                    ///< C/C_0 - 1
+  bool is_prescribed = false;            ///< whether a part prescribes its velocity, as in the buffer of an opening
+};
+
+/// Collective.
+template <int Dim>
+DensestWater<Dim> densest_water(const Flow<Dim>& flow);
+
 }  // namespace tailwater

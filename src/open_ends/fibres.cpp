@@ -171,7 +171,9 @@ void find_fibres(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Inflow& i
   if (height_squared == 0.0) return set_speeds_into_air(end, inflow, state);
   fit_speeds(end, sums, state);
   const double share = inflow.froude * inflow.froude;
-  state.stretching = (1.0 - share) * sums[sums.size() - 2] / height_squared;
+  // Water that fills its section cannot become deeper, even if a jet rises to the lid before the buffer.
+  const bool is_full = state.is_full || state.depth >= end.height;
+  if (!is_full) state.stretching = (1.0 - share) * sums[sums.size() - 2] / height_squared;
   if (share == 0.0) return;
   const double change = share * (-inflow.speed - mean_below_surface(end, state));
   for (double& speed : state.fibre_speeds) speed += change;

@@ -130,6 +130,7 @@ Json RunOutput<Dim>::saved() const {
           {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
           {"warnings", warnings()},
           {"limits", limits_.saved()},
+          {"crowding", crowding_.saved()},
           {"warned_outside", warned_outside_}};
 }
 
@@ -149,6 +150,7 @@ void RunOutput<Dim>::restore(const Json& kept) {
   water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
   recall_warnings(kept.at("warnings"));
   limits_.restore(kept.at("limits"));
+  crowding_.restore(kept.at("crowding"));
   warned_outside_ = kept.at("warned_outside");
   const Json& cost = kept.at("cost");
   wall_seconds_before_ = cost.at("wall_seconds");
@@ -246,6 +248,7 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   const auto outside = static_cast<std::size_t>(water_outside(flow).particles);
   warn_if_outside(flow, outside);
   for (const auto& part : flow.parts) part->warn(flow);
+  crowding_.check(flow, measures.density_error_largest);
   statistics_.add(report, measures, outside);
   do_on_root(ranks_, [&] {
     require_folder_in_place();

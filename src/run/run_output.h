@@ -16,6 +16,7 @@
 #include "io/run_folder.h"
 #include "neighbours/decomposition.h"
 #include "probes/probe_set.h"
+#include "results/crowding_watch.h"
 #include "results/frame_output.h"
 #include "results/measurements.h"
 #include "results/probe_results.h"
@@ -98,6 +99,7 @@ class RunOutput {
   Progress progress_;
   RunStatistics statistics_;
   ResultLimits limits_;
+  CrowdingWatch crowding_;
   std::vector<ProbeResult> results_;  ///< at the end, on the root
   std::vector<MeasurementScore> scores_;
   WaterAmount water_at_start_;

@@ -5,6 +5,7 @@
 
 #include "base/json.h"
 #include "io/messages.h"
+#include "results/crowding_watch.h"
 #include "results/result_limits.h"
 #include "support/pond.h"
 
@@ -66,6 +67,30 @@ TEST(ResultLimits, TellsInTheEndWhatTheEnergyRoseTo) {
   EXPECT_NE(warnings().back().find("3.3e+03 %"), std::string::npos) << warnings().back();
   limits.warn_of_largest();
   EXPECT_EQ(run.count(), 2U);
+}
+
+/// A pile of particles lasts; a jet that lands is dense for a few steps.
+TEST(CrowdingWatch, WarnsOfAPileThatLastsAndNamesItsPlace) {
+  Flow<2> flow = make_flow<2>(pond_case<2>());
+  const std::size_t owned = flow.state.particles.owned;
+  flow.role.assign(owned, Role::water);
+  flow.surroundings.interior.assign(owned, 1.0);
+  flow.surroundings.concentration.assign(owned, 1.0);
+  flow.surroundings.concentration[3] = 3.2;
+  flow.state.particles.position[3] = {0.125, 0.25};
+  const std::size_t before = warnings().size();
+  CrowdingWatch watch;
+  for (int step = 0; step < 10; ++step) watch.check(flow, 2.2);
+  for (int step = 0; step < 1000; ++step) watch.check(flow, 0.9);
+  EXPECT_EQ(warnings().size(), before);
+  for (int step = 0; step < 50; ++step) watch.check(flow, 2.2);
+  ASSERT_EQ(warnings().size(), before + 1);
+  EXPECT_NE(warnings().back().find("at (0.125, 0.25), where the density is 3.2 times"), std::string::npos)
+      << warnings().back();
+  CrowdingWatch resumed;
+  resumed.restore(watch.saved());
+  for (int step = 0; step < 50; ++step) resumed.check(flow, 2.2);
+  EXPECT_EQ(warnings().size(), before + 1);
 }
 
 }  // namespace

@@ -137,6 +137,28 @@ TEST(SectionOfAnOpening, WaterHighAboveTheSurfaceFalls) {
   EXPECT_GT(rise(0.48), 0.0);
 }
 
+/// Water that rises before the end becomes deeper in the buffer, too, unless it fills the section: a jet may rise to
+/// the lid of a full conduit, and piles up there if the buffer rises with it.
+TEST(SectionOfAnOpening, DoesNotBecomeDeeperIfItIsFull) {
+  Flow<2> flow = flow_with_outlet();
+  const OpenEnd<2>& end = flow.part<OpenEnds<2>>().ends()[0];
+  flow.role.assign(flow.state.particles.owned, Role::water);
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
+    flow.state.particles.velocity[i] = {0.0, 3.0 * flow.state.particles.position[i][1]};
+  }
+  OpenEndState state;
+  state.depth = 0.5;
+  find_fibres(end, flow, {}, state);
+  EXPECT_NEAR(state.stretching, 3.0, 1e-12);
+  state.is_full = true;
+  find_fibres(end, flow, {}, state);
+  EXPECT_EQ(state.stretching, 0.0);
+  state.is_full = false;
+  state.depth = end.height;
+  find_fibres(end, flow, {}, state);
+  EXPECT_EQ(state.stretching, 0.0);
+}
+
 /// Bernoulli's law from the water at rest, and the characteristic that leaves the case.
 TEST(InflowOfHead, HasTheEnergyOfTheHeadAndTheCharacteristicFromInside) {
   const double g = 9.81;
