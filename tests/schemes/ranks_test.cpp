@@ -521,6 +521,27 @@ TYPED_TEST(RanksTest, RanksWithoutParticlesWork) {
   expect_same<Dim>(spec, 1.0, as_it_is);
 }
 
+/// All ranks name the place at which the density error is largest, whichever of them owns it.
+TEST(RanksTest, TheDensestWaterIsTheSameOnAllRanks) {
+  Flow<2> flow = make_flow<2>(jittered_tank<2>(), Communicator::world());
+  start(flow);
+  const Particles<2>& particles = flow.state.particles;
+  flow.surroundings.interior.assign(particles.size(), 1.0);
+  for (std::int64_t dense = 0; dense < 40; dense += 13) {
+    Vec<2> expected = Vec<2>::Zero();
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      const bool is_dense = particles.is_fluid(i) && particles.id[i] == dense;
+      flow.surroundings.concentration[i] = is_dense ? 2.5 : 1.0;
+      if (is_dense) expected = particles.position[i];
+    }
+    flow.setup.ranks.sum_each(expected[0], expected[1]);
+    const DensestWater<2> densest = densest_water(flow);
+    EXPECT_EQ(densest.position, expected) << dense;
+    EXPECT_EQ(densest.error, 1.5);
+    EXPECT_FALSE(densest.is_prescribed);
+  }
+}
+
 /// From the collapse to the impact, after which the flow is chaotic. In scheme B particles and ghosts move between the
 /// prediction and its divergence.
 TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
