@@ -19,7 +19,7 @@ NOT_RUN, NO_TARGET = "not run", "no target"
 KINDS = (("pressure", "pressure"), ("impulse", "pressure"), ("discharge", "discharge"), ("contraction", "discharge"),
          ("jet, from", "discharge"), ("force", "force"), ("front", "front"), ("arrival", "front"), ("reaches the gauge", "front"),
          ("depth", "level"), ("level", "level"), ("height", "level"), ("surface", "level"), ("profile", "level"),
-         ("gauge", "level"), ("run-up", "level"), ("speed", "velocity"), ("period", "motion"), ("place of rest", "motion"))
+         ("gauge", "level"), ("run-up", "level"), ("speed", "velocity"), ("period", "motion"), ("draught at rest", "motion"))
 
 
 def kind_of(words):
@@ -114,7 +114,7 @@ def spacing_text(found):
     """Spacing, and whether there are several: without three of them there is no interval."""
     if found["spacing_m"] is None:
         return ""
-    rows = f", {found['rows_over_depth']:.3g} rows" if found["rows_over_depth"] else ""
+    rows = f" (depth/{found['rows_over_depth']:.3g})" if found["rows_over_depth"] else ""
     return f"{found['spacing_m']:.3g} m{rows}" + ("" if found["spacings"] > 2 else "; one spacing")
 
 

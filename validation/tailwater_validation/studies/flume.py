@@ -136,9 +136,9 @@ def solitary_wave(plan):
                           8.0 * (n / 8) ** 3.1) for n in plan.at((8,), (12, 16), (12, 20)))
     quantities = (("speed_error", "speed between gauges 2 m apart, relative error", "Fenton (1972), third order", 0.005),
                   ("wall_error", "run-up on an upright wall, relative error", "Su & Mirie (1980), third order", 0.05),
-                  ("force_error", "largest force on the wall, less that at rest, relative error", "potential flow", 0.05),
+                  ("force_error", "largest wave force on the wall, relative error", "potential flow", 0.05),
                   ("force_rms", "force on the wall over the largest, rms error while the wave is there", "potential flow", 0.03),
-                  ("pressure_error", "largest pressure on the wall, less that at rest, relative error", "potential flow", 0.05),
+                  ("pressure_error", "largest wave pressure on the wall, relative error", "potential flow", 0.05),
                   ("height_lost", "share of its height that the wave loses in 10 depths", "none", None))
     return Study(
         "solitary-wave", "Solitary wave in a channel and at a wall", EXACT,
@@ -207,9 +207,9 @@ def draw_waves(run, names=("a1", "b1")):
 
 LIGHT = ("parameters.H=B", "parameters.share=0.1")
 ROLL = ("body[0].free=[\"rotation\"]", "parameters.up=0", "parameters.tilt=0.05")
-BOXES = {"heave": ("heave of a box half as heavy as water", ()), "roll": ("roll of the same", ROLL),
-         "light_heave": ("heave of a box a tenth as heavy as water", LIGHT),
-         "light_roll": ("roll of the same", (*LIGHT, *ROLL))}
+BOXES = {"heave": ("heave of a half-submerged box", ()), "roll": ("roll of a half-submerged box", ROLL),
+         "light_heave": ("heave of a box one tenth submerged", LIGHT),
+         "light_roll": ("roll of a box one tenth submerged", (*LIGHT, *ROLL))}
 
 
 def draw_boxes(*runs):
@@ -232,11 +232,11 @@ def floating_box(plan):
         runs.append(run)
         quantities = [("period_error", f"period, {words}", "", "linear potential theory", 0.02)]
         if "heave" in name:
-            quantities.append(("draught_error_dx", f"place of rest, {words}", "dx", "Archimedes", 0.1))
+            quantities.append(("draught_error_dx", f"draught at rest, {words}", "dx", "Archimedes", 0.1))
         checks += [Check(Metric(f"floating-box.{name}.{key}", text, unit, against, high=high), (run,),
                          partial(exact, "floating-box", key)) for key, text, unit, against, high in quantities]
     return Study(
-        "floating-box", "A box that floats: draught, heave and roll", EXACT,
+        "floating-box", "Floating box: draught, heave and roll", EXACT,
         "A box in a narrow tank is let go a fortieth of its breadth above its draught, or tilted by 0.05, "
         "and swings: period from seven passages through its place of rest, and that place.",
         "Linear theory of the tank with the box in it, added mass and waves included, solved on finite volumes and extrapolated over their size. Linear: "

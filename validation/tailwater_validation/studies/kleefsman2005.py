@@ -102,7 +102,7 @@ def of_heights(run):
     """A run that ends before END has no target."""
     end = end_of(run)
     is_whole = end == END
-    columns = (("", "joined with the bed", "connected_m"), (" highest", "highest water", "highest_m"))
+    columns = (("", "without spray", "connected_m"), (" highest", "highest water", "highest_m"))
     return [measure(Metric(f"mean error {gauge}{suffix}", f"water height {gauge}, {label}, mean error over t = 0..{end:.3g} s",
                            "% of H", "laboratory", high=HEIGHT_BARS.get(gauge) if is_whole and not suffix else None),
                     partial(mean_error, run, gauge, end, column))
@@ -176,7 +176,7 @@ def draw(run):
 
     return [*(beside(sensor, [("computed", computed(run, sensor), "run")], f"{sensor}, z = {height:g} m", "pressure (Pa)",
                      (0.3, 1.3), None) for sensor, height in SENSORS.items()),
-            *(beside(gauge, [("joined with the bed", computed(run, gauge), "run"),
+            *(beside(gauge, [("without spray", computed(run, gauge), "run"),
                              ("highest water", computed(run, gauge, "highest_m"), "aside")], gauge, "height (m)",
                      (0, end_of(run)), (0, DEPTH)) for gauge in GAUGES)]
 

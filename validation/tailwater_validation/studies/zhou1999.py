@@ -167,7 +167,7 @@ def zhou_run(plan, dx, integrator="explicit", variant="", settings=()):
 
 
 def depth_checks(run):
-    columns = (("wet_m", "", "wet length of a wire gauge"), ("connected_m", ".joined", "joined with the bed"),
+    columns = (("wet_m", "", "wet length of a wire gauge"), ("connected_m", ".joined", "without spray"),
                ("highest_m", ".highest", "highest water"))
     return [Check(Metric(f"zhou1999.{gauge}.T{end:g}{key}", f"depth {gauge}, {words}, RMS over T = {start:g}..{end:g}", "H",
                          "mean over two readings of the laboratory's curve", high=None if key else bar), (run,),
@@ -262,8 +262,8 @@ def study(plan):
         "0.02 H (H2). The instant of release is known to 0.03 s, T = 0.12. Sources disagree on the height the pressure "
         "gauge stands for: 0.12 m, 0.16 m or the mean over 0.115..0.205 m; all are given, the target is put on 0.12 m "
         "(cases/zhou1999/README.md argues why). After T = 6 the laboratory's wave encloses air, which is not computed: the level "
-        "H1 then depends on what is read: a wire gauge, which the laboratory had, reads the length under water; the water joined with the bed "
-        "and the highest water are given beside it. No error bars were published.",
+        "H1 then depends on what is read: a wire gauge, which the laboratory had, reads the length under water; the depth without "
+        "spray and the highest water are given beside it. No error bars were published.",
         tuple(checks),
         (Plot("Pressure on the wall. Points: two readings of the laboratory's curve, whose time is known to "
               f"T = {TIME_UNCERTAINTY}.", runs, draw_pressure),
