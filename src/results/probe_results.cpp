@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string_view>
 
 #include "case/probe_columns.h"
 #include "probes/discharge.h"
@@ -77,13 +78,33 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
   return quantity(column.largest_of_last, at(last_time));
 }
 
-/// Four digits, without an exponent for sizes from 1e-4 to 1e7.
-std::string number_in_words(double value) {
+/// Four digits of the size `largest`, without an exponent for sizes from 1e-4 to 1e7. Less than a thousandth of it is
+/// 0: where a component is 0 by symmetry, rounding and noise are left of it.
+std::string number_in_words(double value, double largest) {
   const double size = std::abs(value);
-  if (size != 0.0 && (size < 1e-4 || size >= 1e7)) return fmt::format("{:.3e}", value);
+  if (size < 1e-3 * largest) return "0";
+  if (largest != 0.0 && (largest < 1e-4 || largest >= 1e7)) return fmt::format("{:.3e}", value);
   if (size == std::floor(size) && size >= 1000.0) return fmt::format("{:.0f}", value);
-  const int digits = size == 0.0 ? 0 : std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 7);
+  const int digits = largest == 0.0 ? 0 : std::clamp(3 - static_cast<int>(std::floor(std::log10(largest))), 0, 7);
   return fmt::format("{:.{}f}", value, digits);
+}
+
+double size_of(const Quantity& quantity) {
+  return std::max(std::abs(quantity.value), std::abs(quantity.to.value_or(0.0)));
+}
+
+/// The size of the largest component of the vector to which a quantity belongs; 0 if it is no component of one.
+double size_of_vector(const std::vector<Quantity>& quantities, const Quantity& component) {
+  const auto is_component = [](const Quantity& quantity) {
+    return quantity.label.size() == 1 && std::string_view("xyzuvw").find(quantity.label[0]) != std::string_view::npos;
+  };
+  double largest = 0.0;
+  if (!is_component(component)) return largest;
+  for (const Quantity& other : quantities) {
+    const bool is_of_the_vector = is_component(other) && other.unit == component.unit && other.what == component.what;
+    if (is_of_the_vector) largest = std::max(largest, size_of(other));
+  }
+  return largest;
 }
 
 }  // namespace
@@ -92,10 +113,12 @@ std::string ProbeResult::words() const {
   std::string text;
   for (std::size_t k = 0; k < quantities.size(); ++k) {
     const Quantity& quantity = quantities[k];
+    const double vector = size_of_vector(quantities, quantity);
+    const auto in_words = [vector](double value) { return number_in_words(value, std::max(vector, std::abs(value))); };
     if (k > 0) text += ", ";
     if (!quantity.label.empty()) text += quantity.label + " ";
-    text += number_in_words(quantity.value);
-    if (quantity.to) text += " to " + number_in_words(*quantity.to);
+    text += in_words(quantity.value);
+    if (quantity.to) text += " to " + in_words(*quantity.to);
     if (!quantity.unit.empty()) text += " " + quantity.unit;
     const bool is_last_of_these = k + 1 == quantities.size() || quantities[k + 1].what != quantity.what;
     if (is_last_of_these) text += fmt::format(" ({})", quantity.what);
