@@ -21,6 +21,7 @@ weir, in 2D, the template of `tailwater new weir`, Tailwater and interFoam to 8 
 --from draws and prints an earlier file again. The picture of the documentation:
     benchmarks/work_precision.py --json validation/tailwater_validation/work_precision.json \\
                                  --picture docs/images/work_precision.webp
+    scripts/picture_record.py docs/images/work_precision.webp
 The tables of the documentation are of such files; those of other flows end in _box.json and _weir.json.
 """
 import argparse

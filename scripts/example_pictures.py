@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 import pages
+import picture_record
 
 PAGE = "docs/reference/examples.md"
 LARGEST = 60e3  # bytes of a picture
@@ -18,7 +19,8 @@ SECTION = re.compile(r"```toml\n(?P<text>[^`]*)```\n\n!\[.*?\]\((?P<picture>.*?)
 
 
 def draw(text, picture):
-    """Writes the preview of the case of a block of TOML, with fewer particles where it is large. Throws RuntimeError if the block has faults."""
+    """Writes the preview of the case of a block of TOML, with fewer particles where it is large. Throws RuntimeError if the
+    block has faults."""
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         file, faults = pages.assemble(pages.Block(1, "toml", text))
         if faults:
@@ -38,6 +40,7 @@ def main():
         picture = (page.parent / section["picture"]).resolve()
         picture.parent.mkdir(exist_ok=True)
         draw(section["text"], picture)
+        picture_record.write(picture)
         print(f"example_pictures.py: {picture.relative_to(pages.ROOT)}, {picture.stat().st_size / 1e3:.0f} kB")
     return 0
 

@@ -4,8 +4,9 @@
 Usage: scripts/gallery.py [TEMPLATE ...]    runs those that are named, or all, where out/gallery has no whole run of them
        scripts/gallery.py --coarse ...      the same with twice the spacing, where there is no run yet; the page says so
 
-The head of its case describes a template, its run gives the cost. The pictures go to docs/images/gallery.
-All need about ten minutes of CPU time. Exit code 1 if a run of a template as it stands has warned.
+The head of its case describes a template, its run gives the cost. The pictures go to docs/images/gallery, with a record
+of their inputs. scripts/gallery_pictures.py lists their contents. Without a run, a section of the page stays as it is.
+All need about 15 minutes of CPU time. Exit code 1 if a run of a template as it stands has warned.
 """
 import pathlib
 import re
@@ -22,19 +23,14 @@ from PIL import Image  # noqa: E402
 from tailwater import pictures, plots  # noqa: E402
 from tailwater.fields import list_frames, read_frame  # noqa: E402
 from tailwater.program import call  # noqa: E402
+import picture_record  # noqa: E402
+from gallery_pictures import PICTURES, Picture  # noqa: E402
 
 PAGE = ROOT / "docs" / "gallery.md"
 IMAGES = ROOT / "docs" / "images" / "gallery"
 RUNS = ROOT / "out" / "gallery"
 WIDTH = 900  # pixels of a picture
-# s; the moment that is shown, where it is not the end.
-MOMENTS = {"dam-break": 0.8, "dam-break-box": 0.6, "shore": 3.6, "pier": 0.6, "run-up": 3.4, "solitary-wave": 2.0,
-           "sloshing": 4.5, "floating-box": 0.1}
-COLOURS = {"tank": "pressure"}  # instead of the speed, where nothing should move
-# Keys of runs that are only drawn, of templates whose own spacing leaves a jet of two particles or a coarse roller.
-DRAWN_WITH = {"weir": {"particles.spacing": "P/40", "time.end": 3.0},
-              "hydraulic-jump": {"particles.spacing": "h1/10", "time.end": 6.0, "output.fields_interval": 0.05}}
-MEAN_SINCE = {"hydraulic-jump": 3.0}  # s; where a mean is shown, because the vortices of one instant hide the flow
+CURVE_COLOURS = (plots.BLUE, plots.ORANGE)
 NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "seconds")
 HEAD = """\
 # Gallery
@@ -44,8 +40,8 @@ NAME my.toml` writes one; then
 
     tailwater check my.toml && tailwater run my.toml --out my_run --pictures 6
 
-checks and runs it. Colours show the speed; those of the tank show the pressure, and those of the hydraulic jump a mean
-velocity. CPU times are of one core of a busy machine (`scripts/gallery.py`): {processor}.
+checks and runs it. Colours show the speed unless the scale names another quantity. CPU times are for one core of a busy
+machine (`scripts/gallery.py`): {processor}.
 """
 
 
@@ -71,30 +67,39 @@ def is_whole(folder):
     return (folder / "summary.json").is_file() and tw.Run(folder).summary.get("status") == "done"
 
 
+def run_of(name):
+    """A whole run of the template, of twice its spacing only where there is no other; None without one."""
+    return next((tw.Run(folder) for folder in (RUNS / name, RUNS / f"{name}-coarse") if is_whole(folder)), None)
+
+
 def finished(name, may_be_coarse):
     """A whole run of the template, made if it is not there; in a folder NAME-coarse if it is a coarse one."""
-    folders = [RUNS / name, RUNS / f"{name}-coarse"]
-    for folder in folders[:2 if may_be_coarse else 1]:
-        if is_whole(folder):
-            return tw.Run(folder)
+    run = run_of(name)
+    if run and (may_be_coarse or run.path.name == name):
+        return run
     print(f"gallery.py: {name}", flush=True)
     case = tw.Case.template(name)
     if may_be_coarse:
         case["particles.spacing"] = f"2*({case['particles.spacing']})"
-    folder = folders[may_be_coarse]
+    folder = RUNS / (f"{name}-coarse" if may_be_coarse else name)
     case.run(folder, force=folder.exists())
     return tw.Run(folder)
 
 
+def picture_of(name):
+    return PICTURES.get(name, Picture())
+
+
 def drawn(name, may_be_coarse):
     """The run that the picture of a template shows."""
-    if name not in DRAWN_WITH:
+    keys = picture_of(name).keys
+    if not keys:
         return finished(name, may_be_coarse)
     folder = RUNS / f"{name}-drawn"
     if not is_whole(folder):
         print(f"gallery.py: {name}, for its picture", flush=True)
         case = tw.Case.template(name)
-        for key, value in DRAWN_WITH[name].items():
+        for key, value in keys.items():
             case[key] = value
         case.run(folder, force=folder.exists())
     return tw.Run(folder)
@@ -125,24 +130,40 @@ def draw_mean(run, since, file):
         figure.savefig(file, dpi=plots.DPI)
 
 
+def draw_curves(run, probes, file):
+    """The first column of some probes of one quantity over time."""
+    with matplotlib.rc_context(plots.STYLE):
+        figure = plots.new_figure(plots.WIDTH, 3.2)
+        axes = figure.subplots()
+        for (probe, column), colour in zip(probes, CURVE_COLOURS, strict=True):
+            curve = run.curve(probe, column)
+            axes.plot(curve.time, curve.value, color=colour, linewidth=1.2, label=probe)
+        axes.set(xlabel="time (s)", ylabel="depth of the water (m)", xlim=(0, None), ylim=(0, None))
+        axes.legend(loc="lower right", frameon=False)
+        axes.set_title(f"{run.title}\ndx = {run.spacing:.4g} m", loc="left", fontsize=10)
+        figure.savefig(file, dpi=plots.DPI)
+
+
 def draw(name, run):
-    """Into docs/images/gallery: a picture of its moment, if there is none of this run."""
-    image_file = IMAGES / f"{name}.webp"
-    if image_file.is_file() and image_file.stat().st_mtime > (run.path / "summary.json").stat().st_mtime:
-        return
+    """Into docs/images/gallery: the picture of a template, unless there is a newer one than the run."""
+    image_file, wanted = IMAGES / f"{name}.webp", picture_of(name)
     with tempfile.TemporaryDirectory() as scratch:
-        if name in MEAN_SINCE:
-            file = pathlib.Path(scratch) / "mean.png"
-            draw_mean(run, MEAN_SINCE[name], file)
+        file = pathlib.Path(scratch) / "picture.png"
+        if wanted.mean_since is not None:
+            draw_mean(run, wanted.mean_since, file)
+        elif wanted.curves:
+            draw_curves(run, wanted.curves, file)
         else:
             for picture in (run.path / "pictures").glob("*.png"):
                 picture.unlink()
-            folder = pictures.draw(run, times=[MOMENTS.get(name, run.times[-1])], by=COLOURS.get(name, "speed"))
+            time = run.times[-1] if wanted.time is None else wanted.time
+            folder = pictures.draw(run, times=[time], look_from=wanted.look_from or plots.LOOK_FROM, by=wanted.colour)
             file = next(folder.glob("*.png"))
         image = Image.open(file).convert("RGB")
         image.thumbnail((WIDTH, WIDTH))
         IMAGES.mkdir(parents=True, exist_ok=True)
         image.save(image_file, quality=80, method=6)
+    picture_record.write(image_file)
 
 
 def duration(seconds):
@@ -155,10 +176,11 @@ def section(name, run):
             for probe, result in run.results.items()]
     particles = summary["particles"]
     other = " The picture is of a run with twice the template's spacing." if run.path.name.endswith("-coarse") else ""
-    if name in DRAWN_WITH:
+    wanted = picture_of(name)
+    if "particles.spacing" in wanted.keys:
         other = f" The picture is of a run with particles of {tw.Run(RUNS / f'{name}-drawn').spacing:.3g} m."
-    if name in MEAN_SINCE:
-        other += " It shows a mean over time: the vortices of one instant look like stripes."
+    if wanted.note:
+        other += f" {wanted.note}"
     return "\n".join([
         f"\n## {name}\n", textwrap.fill(what_it_shows(name) + other, 118) + "\n", f"![{name}](images/gallery/{name}.webp)\n",
         f"{run.dimension}D, {particles['fluid'] + particles['wall']} particles (dx = {run.spacing:.3g} m), "
@@ -175,13 +197,14 @@ def main(arguments):
         return 2
     for name in asked or names:
         draw(name, drawn(name, may_be_coarse))
-    if missing := [name for name in names if not any(map(is_whole, (RUNS / name, RUNS / f"{name}-coarse")))]:
-        print(f"gallery.py: no page yet; not run: {', '.join(missing)}")
-        return 0
-    runs = {name: finished(name, True) for name in names}
+    runs = {name: run for name in names if (run := run_of(name))}
+    page = PAGE.read_text(encoding="utf-8")
+    kept = {name: text for text, name in re.findall(r"^(## (.+?)$.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)}
     processor = next(iter(runs.values())).summary["machine"]["processor"]
-    text = HEAD.format(processor=processor) + "".join(section(*run) for run in runs.items())
-    PAGE.write_text(text, encoding="utf-8")
+    sections = [section(name, runs[name]) if name in runs else f"\n{kept[name].strip()}\n" for name in names]
+    PAGE.write_text(HEAD.format(processor=processor) + "".join(sections), encoding="utf-8")
+    if missing := [name for name in names if name not in runs]:
+        print(f"gallery.py: sections kept, because there is no run: {', '.join(missing)}")
     print(f"gallery.py: {PAGE}, {sum(run.summary['cost']['cpu_s'] for run in runs.values()):.0f} s of CPU time")
     warned = [f"{name}: {warning}" for name, run in runs.items() if run.path.name == name for warning in run.summary["warnings"]]
     print("".join(f"gallery.py: {line}\n" for line in warned), end="")

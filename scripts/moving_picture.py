@@ -19,6 +19,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 
+import picture_record  # noqa: E402
 from tailwater import Run, plots  # noqa: E402
 from tailwater.fields import list_frames, read_frame  # noqa: E402
 
@@ -55,6 +56,7 @@ def main(arguments):
     pictures = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     spacing = 1000 * SLOWER * (frames[-1].time - frames[0].time) / max(1, len(frames) - 1)
     pictures[0].save(arguments[1], save_all=True, append_images=pictures[1:], duration=round(spacing), loop=0, optimize=True)
+    picture_record.write(arguments[1])
     return 0
 
 

@@ -16,6 +16,7 @@ sys.path[:0] = [str(ROOT / "build/release/lib/python3/dist-packages"), str(ROOT 
 import matplotlib  # noqa: E402
 import numpy as np  # noqa: E402
 import pages  # noqa: E402
+import picture_record  # noqa: E402
 import tailwater as tw  # noqa: E402
 from PIL import Image  # noqa: E402
 from tailwater import pictures, plots  # noqa: E402
@@ -66,13 +67,19 @@ def run_blocks(guide, old="", new=""):
     return names
 
 
-def picture(run, time, name):
+def save(png, name, size, quality):
+    """Saves a drawing as a picture of the documents, at most `size` pixels wide."""
+    file = IMAGES / f"{name}.webp"
+    image = Image.open(png).convert("RGB")
+    image.thumbnail((size, size))
+    image.save(file, quality=quality, method=6)
+    picture_record.write(file)
+
+
+def picture(run, time, name, colour="speed"):
     for old in (run.path / "pictures").glob("*.png"):
         old.unlink()
-    folder = pictures.draw(run, times=[time])
-    image = Image.open(next(folder.glob("*.png"))).convert("RGB")
-    image.thumbnail((900, 900))
-    image.save(IMAGES / f"{name}.webp", quality=80, method=6)
+    save(next(pictures.draw(run, times=[time], by=colour).glob("*.png")), name, 900, 80)
 
 
 def curves(runs, probe, column, scale, label, lines, name):
@@ -88,9 +95,7 @@ def curves(runs, probe, column, scale, label, lines, name):
         axes.set(xlabel="time (s)", ylabel=label, xlim=(0, None))
         axes.legend(loc="upper left", ncols=5, frameon=False, bbox_to_anchor=(0, 1.16))
         figure.savefig("curves.png", dpi=plots.DPI)
-    image = Image.open("curves.png").convert("RGB")
-    image.thumbnail((1000, 1000))
-    image.save(IMAGES / f"{name}.webp", quality=85, method=6)
+    save("curves.png", name, 1000, 85)
 
 
 def draw_waves_on_a_wall(runs, names):
@@ -126,9 +131,7 @@ def draw_sloshing(runs, names):
         axes.set(xlabel="period of the motion (s)", ylabel="force (N/m)", ylim=(0, 1250))
         axes.legend(loc="upper right", frameon=False)
         figure.savefig("curves.png", dpi=plots.DPI)
-    image = Image.open("curves.png").convert("RGB")
-    image.thumbnail((1000, 1000))
-    image.save(IMAGES / "sloshing_force.webp", quality=85, method=6)
+    save("curves.png", "sloshing_force", 1000, 85)
 
 
 def draw_overtopping(runs, names):

@@ -16,6 +16,7 @@ sys.path[:0] = [str(ROOT / "build/release/lib/python3/dist-packages"), str(ROOT 
 import matplotlib  # noqa: E402
 import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
+import picture_record  # noqa: E402
 from tailwater import Run, plots  # noqa: E402
 
 SCALE = 1000 * 9.81 * 0.6  # rho g H, Pa
@@ -52,6 +53,7 @@ def main(arguments):
         with tempfile.TemporaryDirectory() as folder:
             figure.savefig(f"{folder}/picture.png", dpi=plots.DPI)
             Image.open(f"{folder}/picture.png").convert("RGB").save(arguments[1], quality=85, method=6)
+    picture_record.write(arguments[1])
     return 0
 
 

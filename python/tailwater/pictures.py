@@ -32,11 +32,13 @@ def choose_frames(frames, times, count):
 
 
 def draw_plane(axes, run, frame, view, colours):
-    """Draws particles, each with its spacing and coloured by a Colouring, and walls. Returns the drawn particles."""
+    """Draws particles, each with its spacing and coloured by a Colouring, walls, and porous layers. Returns the drawn
+    particles."""
     style = {"facecolors": plots.SKY} if colours is None else {
         "cmap": plots.COLOURS, "clim": colours.limits, "array": colours.values(frame)}
     dots = plots.draw_particles(axes, frame.position, spacings_of(run, frame), view.exaggeration, **style)
     plots.draw_walls(axes, run, frame.time)
+    plots.draw_porous(axes, run)
     view.apply(axes)
     axes.set_xlabel("x (m)")
     axes.set_ylabel(view.label_of_heights())

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from .errors import DataError
 from .fields import Frame, list_frames, spacings_of
+from .run import wall_chain
 from .vtp import read_points
 from .whole_file import write_whole
 
@@ -21,7 +22,6 @@ STYLE = {"font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "legend.fon
          "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True}
 WIDTH = 11.5
 LOOK_FROM = (1.0, -1.6, 0.9)  # direction from the middle of the walls to the camera, in 3D
-MOST_STRETCHED = 2  # highest exaggeration of heights at which particles are drawn as discs
 FLATTEST = 0.11  # lowest height over width of a particle picture; flatter pictures have exaggerated heights
 SHOWN_SHARE = 99.7  # percent of the particles that a picture must show; the others are spray
 COLOURED_SHARE = 99.5  # percent of the particles whose speed lies within the colour scale
@@ -67,10 +67,10 @@ class View:
 
 
 def draw_particles(axes, position, spacing, exaggeration=1, **style):
-    """Draws each particle as a disc that covers the area of its water; `spacing` is one number, or one of each particle. With exaggerated heights, where discs would be
-    spikes, each particle is a rectangle about dx high."""
+    """Draws each particle as a disc that covers the area of its water; `spacing` is one number, or one of each particle.
+    With exaggerated heights, where discs would be spikes, each particle is a rectangle about dx high."""
     x, y, share = position[:, 0], position[:, 1], 2**0.5
-    if exaggeration > MOST_STRETCHED:
+    if exaggeration > 1:
         wide, high = share, 1.1  # without gaps
         half = 0.5 * np.reshape(spacing, (-1, 1, 1)) * np.array([[-wide, -high], [wide, -high], [wide, high], [-wide, high]])
         dots = PolyCollection(np.stack([x, y], axis=1)[:, None, :] + half, linewidths=0, rasterized=True, zorder=2, **style)
@@ -99,6 +99,12 @@ def wall_lines(run, time):
 
 def draw_walls(axes, run, time):
     axes.add_collection(LineCollection(wall_lines(run, time), colors=BLACK, linewidths=1.6, capstyle="projecting", zorder=3))
+
+
+def draw_porous(axes, run):
+    """Draws the outlines of porous layers in 2D."""
+    outlines = [wall_chain(layer) for layer in run.case.get("porous", [])]
+    axes.add_collection(LineCollection(outlines, colors=BLACK, linewidths=1.0, linestyles="dashed", zorder=3))
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 // Makes the pictures of the page in the documents, docs/images/view_*.webp, from runs of its own: npm run pictures.
 // They take some five minutes of CPU time. Somebody looks at them before they are committed.
+import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -11,7 +12,9 @@ const images = join(process.env["TAILWATER_WEB"]!, "../docs/images");
 
 /** What the page shows now, as of a run that goes on. */
 async function saveNow(page: Page, name: string): Promise<void> {
-  await page.screenshot({ path: join(images, `view_${name}.webp`), type: "webp", quality: 80 });
+  const path = join(images, `view_${name}.webp`);
+  await page.screenshot({ path, type: "webp", quality: 80 });
+  execFileSync(join(images, "../../scripts/picture_record.py"), [path]);
 }
 
 /** What the page shows, once the picture is whole and rests. */
