@@ -48,7 +48,7 @@ int write_parts(const std::filesystem::path& path, std::span<const std::string_v
   return error_number;
 }
 
-/// Most bytes in one call of MPI-IO, whose counts are ints.
+/// Maximum number of bytes in one call of MPI-IO, whose counts are ints.
 constexpr std::size_t largest_write = std::size_t{1} << 30;
 
 /// MPI's message for `code`; empty for success.

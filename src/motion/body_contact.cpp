@@ -14,7 +14,7 @@ Boundary<Dim> part_of(const Boundary<Dim>& boundary, double reach, IsPart&& is_p
   Boundary<Dim> part;
   part.walls = boundary.walls;
   for (WallProperties& wall : part.walls) wall.body = resting_body;
-  part.plates = boundary.plates;  // that there are any; they are not asked for their faces
+  part.plates = boundary.plates;  // only their presence matters: their faces are not used
   boundary.visit_plain_faces([&](int f) {
     if (is_part(boundary.faces[f].wall)) part.faces.push_back(boundary.faces[f]);
   });

@@ -31,22 +31,22 @@ constexpr double most_absorbed = 0.5;
 /// than dx for this many averaging times is reported.
 constexpr double depths_of_watch = 5.0;
 constexpr double windows_until_told = 2.0;
-/// [dx]; the entering lattice gets a row more or less when the depth has left its rows by this much. 0.5 is the least;
-/// more keeps a level that oscillates slightly from changing the rows again and again.
+/// [dx]; the entering lattice gains or loses a row when the depth differs from its rows by more than this. The lowest
+/// possible value is 0.5; a larger one prevents a slightly oscillating level from changing the rows repeatedly.
 constexpr double most_row_error = 0.75;
 
-/// Sums over the water before the buffer, over all ranks, weighted by a tent that counts a lattice exactly wherever it
-/// stands.
+/// Sums over the water before the buffer, over all ranks, weighted by a hat function, which sums a lattice exactly at
+/// any offset.
 struct Reading {
   double volume = 0.0;  ///< m^Dim
   double flux = 0.0;    ///< m^(Dim+1)/s; times the velocity along the opening's normal
-  double push = 0.0;    ///< N m; times the pressure
+  double thrust = 0.0;  ///< N m; times the pressure
   double mass = 0.0;    ///< kg
 
   Reading& operator+=(const Reading& other) {
     volume += other.volume;
     flux += other.flux;
-    push += other.push;
+    thrust += other.thrust;
     mass += other.mass;
     return *this;
   }
@@ -63,7 +63,7 @@ Reading read_gauge(const OpenEnd<Dim>& end, const Flow<Dim>& flow) {
     return {volume, volume * end.opening.normal.dot(particles.velocity[i]), volume * particles.pressure[i],
             volume * flow.density_of(i)};
   });
-  flow.setup.ranks.sum_each(gauge.volume, gauge.flux, gauge.push, gauge.mass);
+  flow.setup.ranks.sum_each(gauge.volume, gauge.flux, gauge.thrust, gauge.mass);
   return gauge;
 }
 
@@ -100,8 +100,8 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   const double discharge = reading.flux / end.gauge;
   // rho g h^2/2 is the force of the flow; before the first step there is no pressure yet.
   const double density = flow.setup.liquids.are_several() ? reading.mass / reading.volume : flow.setup.liquid.density;
-  const double push = std::max(0.0, reading.push) / (density * end.gauge * breadth);
-  const double celerity_squared = push > 0.0 ? std::sqrt(2.0 * end.gravity * push) : end.gravity * area / breadth;
+  const double thrust = std::max(0.0, reading.thrust) / (density * end.gauge * breadth);
+  const double celerity_squared = thrust > 0.0 ? std::sqrt(2.0 * end.gravity * thrust) : end.gravity * area / breadth;
   const double celerity = std::sqrt(celerity_squared);
   if (end.gravity > 0.0) water.rise = celerity_squared / end.gravity;
   const double invariant = speed - 2.0 * celerity;
@@ -133,8 +133,8 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   return water;
 }
 
-/// Remembers how far the water before an end is off a level `head` [m] above the floor. What comes in has its energy;
-/// water that falls over a brink, so that critical flow stands above the level, does not feel it.
+/// Records the error of the water level before an end, relative to a level `head` [m] above the floor. Inflow has the
+/// energy of this level. Water that falls over a brink, with critical flow above the level, is not affected by it.
 template <int Dim>
 void watch_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double head, double depth, double dt,
                  OpenEndState& state) {
@@ -276,9 +276,8 @@ void OpenEnds<Dim>::begin_step(Flow<Dim>& flow, double dt) {
   driven_change_ += kinetic_energy_in_driven_ends(flow);
 }
 
-/// Where the buffer goes with the water inside, it goes with its velocity at the end of the step, as that water does.
-/// With the velocity before, the buffer would be a step late, and a flow that is accelerated would leave a gap before
-/// it, or a pile.
+/// A buffer that moves with the water inside has the velocity of that water at the end of the step. With the velocity
+/// before the step, the buffer would be a step late, and accelerated flow would leave a gap or a pile in front of it.
 template <int Dim>
 void OpenEnds<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
   driven_change_ -= kinetic_energy_in_driven_ends(flow);
