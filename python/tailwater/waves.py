@@ -410,12 +410,12 @@ def separation_lines(numbers):
     lines = []
     if "separation" in numbers:
         found = numbers["separation"]
-        lines.append(f"Hm0 {found['Hm0_there_m']:.4f} m there and {found['Hm0_back_m']:.4f} m back: "
-                     f"{100 * found['reflection']:.1f} % reflected; the waves run {found['runs']}")
+        lines.append(f"Hm0 {found['Hm0_there_m']:.4f} m incident, {found['Hm0_back_m']:.4f} m reflected "
+                     f"({100 * found['reflection']:.1f} %); the waves run {found['runs']}")
     if "regular" in numbers:
         found = numbers["regular"]
-        lines.append(f"regular waves: H {found['H_there_m']:.4f} m there and {found['H_back_m']:.4f} m back: "
-                     f"{100 * found['reflection']:.1f} % reflected; wavelength {found['wavelength_m']:.4g} m")
+        lines.append(f"regular waves: H {found['H_there_m']:.4f} m incident, {found['H_back_m']:.4f} m reflected "
+                     f"({100 * found['reflection']:.1f} %); wavelength {found['wavelength_m']:.4g} m")
         if "second_m" in found:
             lines.append("second harmonic: " + ", ".join(f"{name.replace('_', ' ')} {value:.5f} m"
                                                          for name, value in found["second_m"].items()))

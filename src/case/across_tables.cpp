@@ -301,7 +301,7 @@ void check_densities(const CaseSpec& spec, const toml::table& root, Problems& pr
   const auto k = static_cast<std::size_t>(light - spec.liquids.begin());
   problems.add("liquid-densities-too-far", &root["liquid"][k].node()->source(), CaseLabel("liquid", k),
                fmt::format("liquid[{}]: its density {:g} kg/m^3 is less than 1/{:g} of {:g}, that of \"{}\"; give "
-                           "densities within this ratio, and air by [air] or as empty space",
+                           "densities within this ratio, and model air with [air] or as empty space",
                            k, light->density, largest_density_ratio, heavy->density, heavy->name));
 }
 

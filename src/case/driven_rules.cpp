@@ -132,7 +132,8 @@ void check(const MooringTable& mooring, TableReader& reader) {
     if (bodies.empty()) {
       reader.missing("mooring-without-body", "body", "a mooring holds a body; give its name");
     } else if (bodies.size() > 2) {
-      reader.wrong("mooring-of-three-bodies", "body", "a line has two ends; name one body, or the two that it ties");
+      reader.wrong("mooring-of-three-bodies", "body",
+                   "a line has two ends; name one body, or the two that it connects");
     }
   }
   if (mooring.stiffness == 0.0 && (mooring.damping == 0.0 || mooring.length > 0.0) && !reader.is_wrong("stiffness")) {

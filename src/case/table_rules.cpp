@@ -121,8 +121,7 @@ void check(const LiquidTable& liquid, TableReader& reader) {
                  liquid.viscosity);
   }
   if (liquid.index > 1.0) {
-    reader.wrong("carreau-index", "index",
-                 "is above 1, with which the viscosity would rise beyond that at rest; give at most 1");
+    reader.wrong("carreau-index", "index", "is above 1, so the viscosity would exceed that at rest; give at most 1");
   }
 }
 

@@ -184,7 +184,7 @@ void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, con
                           "program {} there",
                           label, end.label(), place(wall.point), depth,
                           end.meets_air ? "follows the jet" : "adds a duct with the prescribed flow"},
-                         {"end the walls at the {}, or move it out to where they end", end.label().table}));
+                         {"end the walls at the {}, or move it out to the ends of the walls", end.label().table}));
     }
     return;
   }

@@ -9,8 +9,8 @@ Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   if (boundary.plates.empty() || !traits_of(spec).walls.on_wall) return {};
   return {
       Finding::error("plate-needs-robust",
-                     {"{} is a plate, and the formulation puts particles on the wall itself, with which the water on "
-                      "both sides would interact",
+                     {"{} is a plate, and the formulation puts particles on the wall itself: the water on both sides "
+                      "would interact with them",
                       wall_label(boundary, boundary.plates.front().wall)},
                      {"choose scheme.formulation = \"robust\", or draw a wall with two faces"})};
 }

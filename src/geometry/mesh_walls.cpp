@@ -209,11 +209,12 @@ class SoundMesh {
     for (const Vec<3>& x : mesh.points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
     const double round_off = file_precision * farthest * file.scale;
     if (round_off > largest_round_off * spec.particles.spacing) {
-      refuse("mesh-far-from-origin",
-             {"its coordinates reach {:.6g}, so that seven digits, which mesh files often have, are {:.2g}, too coarse "
-              "beside a spacing of {:.6g} m",
-              farthest, Amount{round_off, "m"}, spec.particles.spacing},
-             {"move the mesh to the origin before it is exported, or correct scale = {:g}", file.scale});
+      refuse(
+          "mesh-far-from-origin",
+          {"its coordinates reach {:.6g}, where the seven digits of most mesh files resolve {:.2g}, too coarse for a "
+           "spacing of {:.6g} m",
+           farthest, Amount{round_off, "m"}, spec.particles.spacing},
+          {"move the mesh to the origin before it is exported, or correct scale = {:g}", file.scale});
     }
     put_in_place(file, owner, mesh);
     const double torn = torn_points * farthest * file.scale;

@@ -161,7 +161,7 @@ WaveZone<Dim>::WaveZone(const CaseSpec& spec, const DampingTable& table)
   }
   if (gravity.norm() == 0.0 || std::abs(gravity[axis_]) > 1e-9 * gravity.norm()) {
     throw CaseError("damping-along-gravity", {"{}: its waves run along gravity", owner},
-                    {"give a horizontal direction in towards"});
+                    {"choose a horizontal direction for towards"});
   }
   up_ = -gravity.normalized();
   bed_ = table.level - waves->depth;
