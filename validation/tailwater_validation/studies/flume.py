@@ -167,8 +167,8 @@ def wave_flume(plan):
     rows, settings, seconds = plan.at((3, short, 17.0), (4, (), 300.0), (8, (), 2500.0))
     run = plan.run(f"wave_flume_H{rows}", "wave_flume/case.toml", (f"particles.spacing=H/{rows}", *settings), seconds)
     quantities = (("height_error", "height near the maker over what was asked for, less 1", "maker's transfer function", None, None),
-                  ("height_left", "share of the height that ten wavelengths leave", "all of it", 0.97, None),
-                  ("reflection", "height that the absorber sends back over that which comes", "none", None, 0.05))
+                  ("height_left", "fraction of the wave height left after ten wavelengths", "all of it", 0.97, None),
+                  ("reflection", "height reflected by the absorber over the incident height", "none", None, 0.05))
     return Study(
         "wave-flume", "Regular waves over ten wavelengths", EXACT,
         f"A piston makes waves of kh = 1, 0.4 of the depth high, {rows} particles per height, which run to a damping zone.",
@@ -187,7 +187,7 @@ def irregular_waves(plan):
     quantities = (("height_error", "significant height, relative error", made, 0.05),
                   ("period_error", "period of the peak, relative error", made, 0.02),
                   ("parts_error", "energy below, at and above the peak, largest relative error", made, None),
-                  ("reflection", "height that the absorber sends back over that which comes", "none", None),
+                  ("reflection", "height reflected by the absorber over the incident height", "none", None),
                   ("height_of_draw", "height of the sines made in this record over the spectrum's, less 1", "JONSWAP spectrum", None),
                   ("height_scatter", "standard deviation of that in records as long", "", None))
     return Study(

@@ -168,7 +168,7 @@ def study(plan):
         "The channel's width, 0.30 m, is assumed: with 0.20 m the mean errors are 1.6 and 2.2 % smaller, without side walls 2.2 and "
         "4.3 % larger (scheme F, h0/12).",
         runs, (("profile points", "mean error profile"), ("gauge points", "mean error gauge")), "mean error (%)", FARMANI,
-        errors, (Check(Metric(f"{NAME}.water", "water of the start that is neither inside nor counted as out", "particles",
+        errors, (Check(Metric(f"{NAME}.water", "initial water that is neither inside nor counted as outflow", "particles",
                               "the outlet's balance is exact", 0, 0), runs[-1:], water_error),
                  AllChecks(f"{NAME}.farmani2020", metrics, (two_step,), errors, FARMANI, ", scheme B")),
         moments=tuple(T * TIME_SCALE for T in (8, 15.16, 23.05, 41.84)), time_scale=TIME_SCALE)
