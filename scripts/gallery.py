@@ -55,12 +55,12 @@ def what_it_shows(name):
     case = tw.Case.template(name)
     head = re.match(r"(#.*\n)+", case.file.read_text(encoding="utf-8"))[0]
     comment = " ".join(line.lstrip("# ") for line in head.splitlines())
-    told = []
+    sentences = []
     for sentence in re.findall(r".+?[.?](?=\s|$)", comment):
         if sentence.strip().startswith(NOT_SHOWN):
             break
-        told.append(sentence.strip())
-    return " ".join(told)
+        sentences.append(sentence.strip())
+    return " ".join(sentences)
 
 
 def is_whole(folder):
@@ -90,16 +90,20 @@ def picture_of(name):
     return PICTURES.get(name, Picture())
 
 
+def folder_drawn(name):
+    """The folder of the run that the picture of a template shows, made with keys of its own or the template's."""
+    return RUNS / f"{name}-drawn" if picture_of(name).keys else run_of(name).path
+
+
 def drawn(name, may_be_coarse):
-    """The run that the picture of a template shows."""
-    keys = picture_of(name).keys
-    if not keys:
+    """The run that the picture of a template shows, made if it is not there."""
+    if not picture_of(name).keys:
         return finished(name, may_be_coarse)
-    folder = RUNS / f"{name}-drawn"
+    folder = folder_drawn(name)
     if not is_whole(folder):
         print(f"gallery.py: {name}, for its picture", flush=True)
         case = tw.Case.template(name)
-        for key, value in keys.items():
+        for key, value in picture_of(name).keys.items():
             case[key] = value
         case.run(folder, force=folder.exists())
     return tw.Run(folder)
@@ -137,8 +141,8 @@ def draw_curves(run, probes, file):
         axes = figure.subplots()
         for (probe, column), colour in zip(probes, CURVE_COLOURS, strict=True):
             curve = run.curve(probe, column)
-            axes.plot(curve.time, curve.value, color=colour, linewidth=1.2, label=probe)
-        axes.set(xlabel="time (s)", ylabel="depth of the water (m)", xlim=(0, None), ylim=(0, None))
+            axes.plot(curve.time, curve.value, color=colour, linewidth=1.2, label=probe.replace("_", " "))
+        axes.set(xlabel="time (s)", ylabel="depth (m)", xlim=(0, None), ylim=(0, None))
         axes.legend(loc="lower right", frameon=False)
         axes.set_title(f"{run.title}\ndx = {run.spacing:.4g} m", loc="left", fontsize=10)
         figure.savefig(file, dpi=plots.DPI)
@@ -172,20 +176,20 @@ def duration(seconds):
 
 def section(name, run):
     summary = run.summary
-    told = [textwrap.fill(f"- `{probe}`: {result['words']}", 120, subsequent_indent="  ", break_on_hyphens=False)
-            for probe, result in run.results.items()]
+    results = [textwrap.fill(f"{probe}: {result['words']}", 120, subsequent_indent="  ", break_on_hyphens=False)
+               for probe, result in run.results.items()]
     particles = summary["particles"]
     other = " The picture is of a run with twice the template's spacing." if run.path.name.endswith("-coarse") else ""
     wanted = picture_of(name)
     if "particles.spacing" in wanted.keys:
-        other = f" The picture is of a run with particles of {tw.Run(RUNS / f'{name}-drawn').spacing:.3g} m."
+        other = f" The picture is of a run with particles of {tw.Run(folder_drawn(name)).spacing:.3g} m."
     if wanted.note:
         other += f" {wanted.note}"
     return "\n".join([
         f"\n## {name}\n", textwrap.fill(what_it_shows(name) + other, 118) + "\n", f"![{name}](images/gallery/{name}.webp)\n",
         f"{run.dimension}D, {particles['fluid'] + particles['wall']} particles (dx = {run.spacing:.3g} m), "
-        f"{summary['time_s']['reached']:.3g} s of water in {duration(summary['cost']['cpu_s'])} of CPU time."
-        + (" Results of its probes:\n" if told else ""), *told]) + "\n"
+        f"{summary['time_s']['reached']:.3g} s simulated in {duration(summary['cost']['cpu_s'])} of CPU time."
+        + " Results of its probes:\n", "```text", *results, "```"]) + "\n"
 
 
 def main(arguments):
@@ -197,7 +201,7 @@ def main(arguments):
         return 2
     for name in asked or names:
         draw(name, drawn(name, may_be_coarse))
-    runs = {name: run for name in names if (run := run_of(name))}
+    runs = {name: run for name in names if (run := run_of(name)) and is_whole(folder_drawn(name))}
     page = PAGE.read_text(encoding="utf-8")
     kept = {name: text for text, name in re.findall(r"^(## (.+?)$.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)}
     processor = next(iter(runs.values())).summary["machine"]["processor"]

@@ -43,7 +43,8 @@ RULES = [
     ("kleefsman2005.webp", "scripts/case_pictures.py kleefsman2005",
      ["scripts/case_pictures.py#PICTURES.kleefsman2005", "cases/kleefsman2005/case.toml", *PLOTS_3D]),
     ("spillway_spacing.webp", "scripts/case_pictures.py spillway_spacing",
-     ["scripts/case_pictures.py#PICTURES.spillway_spacing", "src/app/templates/spillway.toml", *PLOTS_3D]),
+     ["scripts/case_pictures.py#PICTURES.spillway_spacing", "scripts/gallery_pictures.py#PICTURES.spillway",
+      "src/app/templates/spillway.toml", *PLOTS_3D]),
     ("stl_part.webp", "scripts/case_pictures.py stl_part",
      ["scripts/case_pictures.py#PICTURES.stl_part", "docs/guide/stl.md#code", *PLOTS_3D]),
     *((pattern, f"scripts/walk_guides.py {guide}", [f"docs/guide/{guide}.md#code", f"scripts/walk_guides.py#draw_{guide}", *PLOTS])
@@ -129,7 +130,9 @@ def write(*paths):
     for path in map(pathlib.Path, paths):
         if path.resolve().is_relative_to(IMAGES):
             picture = str(path.resolve().relative_to(IMAGES))
-            record[picture] = entry(picture)
+            old, record[picture] = record.get(picture), entry(picture)
+            if old and old["picture"] == record[picture]["picture"]:
+                record[picture]["made"] = old["made"]  # kept
     lines = (f"{json.dumps(name)}: {json.dumps(record[name])}" for name in sorted(record) if (IMAGES / name).is_file())
     RECORD.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
 

@@ -24,6 +24,7 @@ WATER, WALL, EDGE, MARK = (0.22, 0.52, 0.80), (0.86, 0.84, 0.80), (0.35, 0.35, 0
 SHARP = 30  # degrees; an edge is drawn between faces whose normals differ by a larger angle
 FINER = 2  # drawn pixels per shown pixel along each side: smooth edges with any renderer
 MARGIN = 0.02  # over the width of the picture, around its contents
+NEARER = 200  # units of VTK's polygon offset by which walls are drawn nearer than they are
 MARK_SIZE = 0.012  # radius of a mark over the diagonal of the scene
 
 _has_display = False
@@ -87,7 +88,9 @@ def wall_actors(walls):
     faces.GetProperty().BackfaceCullingOn()
     faces.GetProperty().SetAmbient(0.7)
     faces.GetProperty().SetDiffuse(0.35)
+    # nearer, because ripples of the water's surface behind a plate reach through it
     faces.GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
+    faces.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -NEARER)
     edges = vtkFeatureEdges()
     edges.SetInputConnection(clean.GetOutputPort())
     edges.SetFeatureAngle(SHARP)
@@ -96,6 +99,8 @@ def wall_actors(walls):
     lines = actor_of(edges.GetOutput(), EDGE)
     lines.GetProperty().SetLineWidth(1.2 * FINER)
     lines.GetProperty().LightingOff()
+    lines.GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
+    lines.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -1.1 * NEARER)
     return [faces, lines]
 
 
