@@ -30,7 +30,6 @@ PAGE = ROOT / "docs" / "gallery.md"
 IMAGES = ROOT / "docs" / "images" / "gallery"
 RUNS = ROOT / "out" / "gallery"
 WIDTH = 900  # pixels of a picture
-CURVE_COLOURS = (plots.BLUE, plots.ORANGE)
 NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "seconds")
 HEAD = """\
 # Gallery
@@ -134,20 +133,6 @@ def draw_mean(run, since, file):
         figure.savefig(file, dpi=plots.DPI)
 
 
-def draw_curves(run, probes, file):
-    """The first column of some probes of one quantity over time."""
-    with matplotlib.rc_context(plots.STYLE):
-        figure = plots.new_figure(plots.WIDTH, 3.2)
-        axes = figure.subplots()
-        for (probe, column), colour in zip(probes, CURVE_COLOURS, strict=True):
-            curve = run.curve(probe, column)
-            axes.plot(curve.time, curve.value, color=colour, linewidth=1.2, label=probe.replace("_", " "))
-        axes.set(xlabel="time (s)", ylabel="depth (m)", xlim=(0, None), ylim=(0, None))
-        axes.legend(loc="lower right", frameon=False)
-        axes.set_title(f"{run.title}\ndx = {run.spacing:.4g} m", loc="left", fontsize=10)
-        figure.savefig(file, dpi=plots.DPI)
-
-
 def draw(name, run):
     """Into docs/images/gallery: the picture of a template, unless there is a newer one than the run."""
     image_file, wanted = IMAGES / f"{name}.webp", picture_of(name)
@@ -155,13 +140,11 @@ def draw(name, run):
         file = pathlib.Path(scratch) / "picture.png"
         if wanted.mean_since is not None:
             draw_mean(run, wanted.mean_since, file)
-        elif wanted.curves:
-            draw_curves(run, wanted.curves, file)
         else:
             for picture in (run.path / "pictures").glob("*.png"):
                 picture.unlink()
             time = run.times[-1] if wanted.time is None else wanted.time
-            folder = pictures.draw(run, times=[time], look_from=wanted.look_from or plots.LOOK_FROM, by=wanted.colour)
+            folder = pictures.draw(run, times=[time], by=wanted.colour)
             file = next(folder.glob("*.png"))
         image = Image.open(file).convert("RGB")
         image.thumbnail((WIDTH, WIDTH))
@@ -179,10 +162,11 @@ def section(name, run):
     results = [textwrap.fill(f"{probe}: {result['words']}", 120, subsequent_indent="  ", break_on_hyphens=False)
                for probe, result in run.results.items()]
     particles = summary["particles"]
-    other = " The picture is of a run with twice the template's spacing." if run.path.name.endswith("-coarse") else ""
-    wanted = picture_of(name)
+    wanted, other = picture_of(name), ""
+    if run.path.name.endswith("-coarse"):
+        other = f" {'Results' if wanted.keys else 'Picture and results'} are of a run with twice the template's spacing."
     if "particles.spacing" in wanted.keys:
-        other = f" The picture is of a run with particles of {tw.Run(folder_drawn(name)).spacing:.3g} m."
+        other += f" The picture is of a run with particles of {tw.Run(folder_drawn(name)).spacing:.3g} m."
     if wanted.note:
         other += f" {wanted.note}"
     return "\n".join([

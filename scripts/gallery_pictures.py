@@ -5,15 +5,12 @@ from typing import NamedTuple
 class Picture(NamedTuple):
     """`time` [s] is that of the picture, the end without one. `colour` is one of those of `tailwater pictures`. `keys` are
     those of a run made for the picture only, for instance where the template leaves a jet of two particles. `mean_since`
-    [s] asks for a mean over time, because the vortices of one instant hide the flow. `curves` are (probe, column) of one
-    quantity over time."""
+    [s] asks for a mean over time, because the vortices of one instant hide the flow."""
 
     time: float | None = None
     colour: str = "speed"
     keys: dict = {}
     mean_since: float | None = None
-    curves: tuple = ()
-    look_from: tuple | None = None
     note: str = ""
 
 
@@ -27,6 +24,10 @@ PICTURES = {
                               mean_since=3.0, note="It shows a mean over time: the vortices of one instant look like stripes."),
     "spillway": Picture(time=0.7, note="In the picture the zone reaches 0.09 m below the bed.",
                         keys={"time.end": 0.71, "output.fields_interval": 0.35, "refinement.notch.min": [-0.25, -1.0, -0.09]}),
+    "circulation": Picture(colour="pressure",
+                           keys={"particles.spacing": "H/8", "parameters.L": "20*H", "time.end": 40.0,
+                                 "case.title": "Even flow that circulates through a channel 20 depths long"},
+                           note="It shows a channel of a fifth of the length."),
     "shore": Picture(time=3.6),
     "pier": Picture(time=0.6),
     "run-up": Picture(time=3.4),

@@ -28,7 +28,7 @@ VIEWER = ["web/dist/view.html", "web/test/pictures/pictures.test.ts"]
 WEIR = "cases/flume/weir.toml"
 ZHOU = "cases/zhou1999/case.toml"
 GUIDE = ("waves_on_a_wall", "floating_box", "sloshing", "overtopping", "gate_and_basin")
-DRAWN_BY = {"hydraulic-jump": ["scripts/gallery.py#draw_mean"], "circulation": ["scripts/gallery.py#draw_curves"]}
+DRAWN_BY = {"hydraulic-jump": ["scripts/gallery.py#draw_mean"]}
 # Pattern of the picture, script, and inputs: FILE, or FILE#PART as `part_of` names them.
 RULES = [
     ("examples/*.svg", "scripts/example_pictures.py",
