@@ -21,7 +21,8 @@ HEAD = """\
 For users who look up an error or a warning. Every error about a case and every warning ends with its id in brackets:
 
     case.toml:9:1: the gap of 0.03 m between wall 'bed' and wall 'pier' at (1, 0) counts as closed, because it is
-    narrower than half a spacing; let them touch, or for water that passes use a spacing of at most 0.006 m [gap-closed]
+    narrower than half a spacing; let the walls touch, or use a spacing of at most 0.006 m to let water pass
+    [gap-closed]
 
 Search this page for the id. An error stops the command, and a warning does not. Errors of the command line, of files
 and of the solver have no id. `tailwater check --json` has the id under `id`, and the lines under `warnings` in

@@ -141,7 +141,7 @@ bool is_root_in_environment() {
 
 ExitCode launch_ranks(int count, const std::vector<std::string>& arguments, const std::filesystem::path& out) {
   if (!is_in_batch_job() && count > usable_cores()) {
-    warn("more-ranks-than-cores", "{} ranks on {} core(s) take turns; remedy: -n {}", count, usable_cores(),
+    warn("more-ranks-than-cores", "{} ranks on {} core(s) take turns; remedy: use -n {}", count, usable_cores(),
          usable_cores());
   }
   require_room_for_mpi(count);

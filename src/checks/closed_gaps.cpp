@@ -228,7 +228,7 @@ Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx
         "gap-closed",
         {"the gap of {:.3g} between {} and {} at {} counts as closed, because it is narrower than half a spacing",
          width, a, b, place(gap.where)},
-        {"let them touch, or for water that passes use a spacing of at most {:.3g} m", good_spacing});
+        {"let the walls touch, or use a spacing of at most {:.3g} m to let water pass", good_spacing});
   }
   return Finding::warning(
       "gap-few-rows",

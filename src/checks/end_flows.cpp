@@ -239,7 +239,7 @@ class EndFlowCheck {
             {"give one above the bed there"});
     } else if (end_.gravity > 0.0 && level > end_.floor + end_.height && !has_lid_) {
       error("level-above-opening",
-            {"{} = {:.6g} at t = {:.6g} s is above the top of the opening, {:.6g} m, where no wall is",
+            {"{} = {:.6g} at t = {:.6g} s is above the top of the opening, {:.6g} m, where there is no wall",
              label_.with_key("level"), Amount{level, "m"}, time, end_.floor + end_.height},
             {"make the opening and the walls beside it higher, or lower the level"});
     }
@@ -269,7 +269,7 @@ class EndFlowCheck {
       if (level > end_.floor + end_.height && !has_lid_) {
         warn("rating-curve-above-opening",
              {"{} = {:.4g} at q = {:.4g}, of up to {:.4g} that flow in, is above the top of the opening, {:.6g} m, "
-              "where no wall is",
+              "where there is no wall",
               label_.with_key("level"), Amount{level, "m"}, q, Amount{inflow_, discharge_unit},
               end_.floor + end_.height},
              {"make the opening and the walls beside it higher, or correct the expression"});

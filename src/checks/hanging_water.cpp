@@ -75,7 +75,7 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
   if (spec.physics.tension > largest_tension) {
     findings.push_back(Finding::warning(
         "tension-above-atmosphere",
-        {"{} = {:.3g} is more than the pressure of the atmosphere, {:.0e} Pa: real water boils before it hangs so high",
+        {"{} = {:.3g} is more than the pressure of the atmosphere, {:.0e} Pa: real water boils at this tension",
          CaseLabel("physics").with_key("tension"), Amount{spec.physics.tension, "Pa"}, largest_tension},
         {"give at most {:.0e} Pa", largest_tension}));
   }

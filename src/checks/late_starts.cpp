@@ -7,9 +7,9 @@ Findings check_late_starts(const CaseSpec& spec) {
   const auto check = [&](const CaseLabel& owner, double start) {
     if (start < spec.time.end) return;
     findings.push_back(Finding::warning("motion-after-end",
-                                        {"{} begins to move at {:.6g}, and the run ends at {:.6g} s: it rests", owner,
-                                         Amount{start, "s"}, spec.time.end},
-                                        {"end the run later, or let it start earlier"}));
+                                        {"{} begins to move at {:.6g}, but the run ends at {:.6g} s: it never moves",
+                                         owner, Amount{start, "s"}, spec.time.end},
+                                        {"end the run later, or give an earlier start"}));
   };
   for (const GateTable& gate : spec.gates) check(CaseLabel("gate", gate.name), gate.start);
   for (const WaveMakerTable& maker : spec.wave_makers) {

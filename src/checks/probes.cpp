@@ -64,7 +64,7 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
   if (probe.averaging_time > spec.time.end) {
     findings.push_back(Finding::warning("averaging-longer-than-run",
                                         {"{}: averaging_time = {:.6g} is longer than the run of {:.6g} s: its largest "
-                                         "pressure is no mean over that time",
+                                         "pressure is not a mean over that time",
                                          label(probe), Amount{probe.averaging_time, "s"}, spec.time.end},
                                         {"give a shorter one, or end the run later"}));
   }

@@ -79,8 +79,8 @@ FolderLock::FolderLock(const fs::path& folder) : path_(folder / lock_file_name) 
     if (take_lock(file_)) continue;
     if (errno == EWOULDBLOCK) throw_busy(std::exchange(file_, -1), folder);
     warn("folder-without-locks",
-         "the file system of '{}' has no locks ({}): see to it that no two runs write into this folder",
-         folder.string(), std::generic_category().message(errno));
+         "the file system of '{}' has no locks ({}): two runs could write into this folder at once", folder.string(),
+         std::generic_category().message(errno));
     break;
   } while (!is_file(file_, path_));
   const std::string holder = this_process();

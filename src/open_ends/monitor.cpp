@@ -77,8 +77,8 @@ void OpenEnds<Dim>::warn_at_end(const Flow<Dim>& flow) const {
         miss.lasts > 0.0 ? fmt::format("still {:.3g} m too {}", std::abs(miss.mean), miss.mean < 0.0 ? "low" : "high")
                          : "within a spacing again";
     tailwater::warn("level-off-at-end",
-                    "at t = {:.4g} s the level at {}, not held for {:.3g} s and off by {:.3g} m at the most, is {}",
-                    flow.state.time, ends_[e].opening.label(), miss.total, std::abs(miss.most), now);
+                    "at t = {:.4g} s the level at {} is {}; it was off for {:.3g} s, by up to {:.3g} m",
+                    flow.state.time, ends_[e].opening.label(), now, miss.total, std::abs(miss.most));
   }
 }
 
