@@ -23,7 +23,7 @@ import picture_record  # noqa: E402
 from tailwater import Run, plots  # noqa: E402
 from tailwater.fields import list_frames, read_frame  # noqa: E402
 
-WIDTH, DPI, COLOURS = 7.6, 100, 48  # inches, dots per inch, of the whole picture
+WIDTH, DPI, COLOURS = 6.4, 100, 40  # inches, dots per inch, of the whole picture
 SLOWER = 2.0  # than the water
 
 
