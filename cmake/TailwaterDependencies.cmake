@@ -9,7 +9,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
-# The flags that Debian built PETSc with. With them a room could not use the precompiled header of the others.
+# The flags that Debian built PETSc with. With them a module could not use the precompiled header of the others.
 set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 # Its functions are loaded when the first system needs them (src/linear/petsc.h).
 set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_LINK_LIBRARIES "" INTERFACE_LINK_DIRECTORIES "")

@@ -1,4 +1,4 @@
-# What `cmake --install` puts where: the program, what it needs at run time in share/tailwater, the library of all rooms
+# Places of `cmake --install`: the program, its files for run time in share/tailwater, the library of all modules
 # with its headers for find_package(Tailwater), and the documents. Nothing installed looks at the sources.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
