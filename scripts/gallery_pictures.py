@@ -20,6 +20,7 @@ PICTURES = {
     "tank": Picture(colour="pressure"),
     "channel": Picture(colour="pressure"),
     "weir": Picture(keys={"particles.spacing": "P/40", "time.end": 3.0}),
+    "broad-weir": Picture(keys={"particles.spacing": "P/20", "time.end": 2.5}),
     "hydraulic-jump": Picture(keys={"particles.spacing": "h1/10", "time.end": 6.0, "output.fields_interval": 0.05},
                               mean_since=3.0, note="It shows a mean over time: the vortices of one instant look like stripes."),
     "spillway": Picture(time=0.7, note="In the picture the zone reaches 0.09 m below the bed.",
@@ -36,6 +37,6 @@ PICTURES = {
     "debris-flow": Picture(time=6.0, keys={"particles.spacing": "h/16", "time.end": 6.2}),
     "concrete-slump": Picture(time=0.21,
                               keys={"particles.spacing": "a/10", "time.end": 0.22, "output.fields_interval": 0.07}),
-    "sloshing": Picture(time=4.5),
+    "sloshing": Picture(time=10.9, colour="pressure"),
     "floating-box": Picture(time=0.1, keys={"particles.spacing": "h/40", "time.end": 0.2}),
 }
