@@ -37,6 +37,7 @@ PICTURES = {
     "debris-flow": Picture(time=6.0, keys={"particles.spacing": "h/16", "time.end": 6.2}),
     "concrete-slump": Picture(time=0.21,
                               keys={"particles.spacing": "a/10", "time.end": 0.22, "output.fields_interval": 0.07}),
+    "lock-exchange": Picture(colour="liquid"),
     "sloshing": Picture(time=10.9, colour="pressure"),
     "floating-box": Picture(time=0.1, keys={"particles.spacing": "h/40", "time.end": 0.2}),
 }
