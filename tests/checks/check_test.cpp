@@ -211,7 +211,7 @@ TEST(Check, WaveLowerThanTwoSpacings) {
   EXPECT_TRUE(check_wave_makers<2>(spec, fluid).empty());
   spec.wave_makers[0].height = 0.038;
   expect_only(check_wave_makers<2>(spec, fluid), Severity::error,
-              {"height = 0.038 m is 0.38 spacings", "lower than 0.5 spacings grow", "at most 0.0188 m"});
+              {"height = 0.038 m is 0.38 spacings", "lower than 0.5 spacings do not keep", "at most 0.0188 m"});
 }
 
 /// A floating box from `left` to `right` [m] between walls at 0 and 2 m.
