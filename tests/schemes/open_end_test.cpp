@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "geometry/cases.h"
 #include "parts/section_counters.h"
 #include "published/make_flow.h"
 #include "schemes/open_ends.h"
@@ -271,6 +272,25 @@ TEST(OpenEnd, AnInletThatIsReversedTakesWaterOut) {
   EXPECT_GT(outlet.arrived.particles, 0) << "the tailwater comes back";
   EXPECT_EQ(at_start + outlet.arrived.particles,
             static_cast<std::int64_t>(count_fluid(flow)) + inlet.departed.particles + outlet.departed.particles);
+}
+
+/// A pump draws the prescribed volume to a row of particles, though four rows do not fill its opening exactly.
+TEST(OpenEnd, APumpInTheFloorDrawsTheVolumeThatIsPrescribed) {
+  using testing_cases::polyline;
+  CaseSpec spec = testing_cases::empty_case(0.02);
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.4, 0.0}}), polyline({{0.48, 0.0}, {1.2, 0.0}, {1.2, 0.6}})};
+  spec.fluid = {testing_cases::box_fluid({0.0, 0.0}, {1.2, 0.3})};
+  InletTable pump;
+  pump.name = "pump";
+  pump.from = {0.4, 0.0};
+  pump.to = {0.48, 0.0};
+  pump.direction = {0.0, 1.0};
+  pump.discharge = -0.05;
+  spec.inlets = {pump};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  while (flow.state.time < 2.0) pass_and_step(flow);
+  EXPECT_NEAR(state_of_end(flow, 0).departed.volume, 0.05 * flow.state.time, 0.02 * 0.08);
 }
 
 /// Water at rest between an inlet without discharge and a tailwater at its level stays at rest. Only the flow that an
