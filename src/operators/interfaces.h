@@ -33,12 +33,13 @@ struct Interfaces {
   Lanes density_of(const Batch& batch) const {
     return 0.5F * (density[batch.i] + batch.of(std::span<const float>(density)));
   }
-  /// 2 p_ij; `own` and `other` are the pressures of the two particles.
+  /// 2 p_ij; `own` and `other` are the pressures of the two particles. Written as twice the mean and a correction, it
+  /// is the same for both particles to the last bit; of a sum of two products the compiler may round either.
   template <class Batch>
   Lanes twice_pressure_of(const Batch& batch, const Lanes& own, const Lanes& other) const {
     const Lanes of_other = batch.of(std::span<const float>(density));
     const float of_own = density[batch.i];
-    return 2.0F * (of_other * own + of_own * other) / (of_own + of_other);
+    return own + other + (of_own - of_other) * (other - own) / (of_own + of_other);
   }
 };
 
