@@ -21,6 +21,7 @@ PICTURES = {
     "channel": Picture(colour="pressure"),
     "weir": Picture(keys={"particles.spacing": "P/40", "time.end": 3.0}),
     "broad-weir": Picture(keys={"particles.spacing": "P/20", "time.end": 2.5}),
+    "ogee": Picture(keys={"particles.spacing": "Hd/20", "time.end": 2.5}),
     "hydraulic-jump": Picture(keys={"particles.spacing": "h1/10", "time.end": 6.0, "output.fields_interval": 0.05},
                               mean_since=3.0, note="It shows a mean over time: the vortices of one instant look like stripes."),
     "spillway": Picture(time=0.7, note="In the picture the zone reaches 0.09 m below the bed.",
