@@ -157,23 +157,37 @@ def duration(seconds):
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
+def heading(name, is_coarse):
+    """The name of a template, its contents and its picture; `is_coarse` is whether its results have twice the spacing."""
+    wanted, other = picture_of(name), ""
+    if is_coarse:
+        other = f" {'Results' if wanted.keys else 'Picture and results'} are of a run with twice the template's spacing."
+    if "particles.spacing" in wanted.keys and is_whole(folder_drawn(name)):
+        other += f" The picture is of a run with particles of {tw.Run(folder_drawn(name)).spacing:.3g} m."
+    if wanted.note:
+        other += f" {wanted.note}"
+    return f"\n## {name}\n\n{textwrap.fill(what_it_shows(name) + other, 118)}\n\n![{name}](images/gallery/{name}.webp)\n"
+
+
 def section(name, run):
     summary = run.summary
     results = [textwrap.fill(f"{probe}: {result['words']}", 120, subsequent_indent="  ", break_on_hyphens=False)
                for probe, result in run.results.items()]
     particles = summary["particles"]
-    wanted, other = picture_of(name), ""
-    if run.path.name.endswith("-coarse"):
-        other = f" {'Results' if wanted.keys else 'Picture and results'} are of a run with twice the template's spacing."
-    if "particles.spacing" in wanted.keys:
-        other += f" The picture is of a run with particles of {tw.Run(folder_drawn(name)).spacing:.3g} m."
-    if wanted.note:
-        other += f" {wanted.note}"
     return "\n".join([
-        f"\n## {name}\n", textwrap.fill(what_it_shows(name) + other, 118) + "\n", f"![{name}](images/gallery/{name}.webp)\n",
+        heading(name, run.path.name.endswith("-coarse")),
         f"{run.dimension}D, {particles['fluid'] + particles['wall']} particles (dx = {run.spacing:.3g} m), "
         f"{summary['time_s']['reached']:.3g} s simulated in {duration(summary['cost']['cpu_s'])} of CPU time."
         + " Results of its probes:\n", "```text", *results, "```"]) + "\n"
+
+
+def kept_section(name, text):
+    """The section of a template without a run: its figures are those of the page."""
+    figures = text.partition(".webp)\n")[2].strip()
+    has_own_spacing = "particles.spacing" in picture_of(name).keys and not is_whole(folder_drawn(name))
+    if has_own_spacing:
+        return f"\n{text.strip()}\n"
+    return heading(name, "twice the template's spacing" in text.replace("\n", " ")) + f"\n{figures}\n"
 
 
 def main(arguments):
@@ -189,7 +203,7 @@ def main(arguments):
     page = PAGE.read_text(encoding="utf-8")
     kept = {name: text for text, name in re.findall(r"^(## (.+?)$.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)}
     processor = next(iter(runs.values())).summary["machine"]["processor"]
-    sections = [section(name, runs[name]) if name in runs else f"\n{kept[name].strip()}\n" for name in names]
+    sections = [section(name, runs[name]) if name in runs else kept_section(name, kept[name]) for name in names]
     PAGE.write_text(HEAD.format(processor=processor) + "".join(sections), encoding="utf-8")
     if missing := [name for name in names if name not in runs]:
         print(f"gallery.py: sections kept, because there is no run: {', '.join(missing)}")
