@@ -19,17 +19,18 @@
 namespace tailwater {
 namespace {
 
-/// A solve ends when the energy norm of its error is this fraction of that of the present velocity. An end at a
-/// fraction of the velocity instead would stop slow changes before a flow is steady. With 0.01, error in motions that
-/// dissipate little made a liquid of 3e5 Pa s at rest explode.
-constexpr double reduction = 1e-4;
+/// A solve ends when the energy norm of its error, before the last correction (viscous_solve.cpp), is this fraction of
+/// that of the present velocity. An end at a fraction of the velocity instead would stop slow changes before a flow is
+/// steady. With 0.01 of a guess that contains the present velocity, error in motions that dissipate little made a
+/// liquid of 3e5 Pa s at rest explode.
+constexpr double reduction = 3e-4;
 constexpr int max_iterations = 500;
 
 /// Passes in which the law follows the velocity of the same step, at most, and the end of each: a fraction of the error
 /// of its guess, because the next pass has other viscosities, or of that of the present velocity.
 constexpr int max_passes = 3;
-constexpr double reduction_of_pass = 0.1;
-constexpr double reduction_of_passes = 2e-3;
+constexpr double reduction_of_pass = 0.25;
+constexpr double reduction_of_passes = 5e-3;
 /// A pass is the last one if the next one would move less than this fraction of the change of the step.
 constexpr double change_of_next_pass = 0.03;
 
