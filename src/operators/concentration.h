@@ -1,7 +1,7 @@
 // Sums of the kernel and of its gradient over a particle's neighbours:
 //
 //   C_i = w_i W(0) + sum_j w_j W_ij,    grad C_i = sum_j w_j dW e_ij,    M_i = sum_j w_j r (-dW) e_ij e_ij
-//   crowding_i = sum_j w_j [1 + max(0, (W_ij^4 - W(0.7 dx)^4)/W(dx)^4)] dW e_ij
+//   crowding_i = sum_j w_j [1 + 0.2 max(0, (W_ij^4 - W(0.8 dx)^4)/W(dx)^4)] dW e_ij
 //
 // C is the filled fraction of the space around the particle: 1 inside (up to quadrature, see lattice.h) and smaller at
 // a surface; -grad C points out of the fluid. M, the first moment, is the result of the kernel's gradient for the
@@ -39,7 +39,7 @@ KernelSums<Dim> kernel_sums(const Pairs<Dim>& pairs, std::size_t i, const Kernel
     const Lanes W = batch.kernel_at(place.d);
     const Lanes ratio = batch.kernel_over_spacing(W) * inverse_W;
     const Lanes squared_ratio = ratio * ratio;
-    const Lanes pairing = 1.0F + max_of(squared_ratio * squared_ratio - close, Lanes{});
+    const Lanes pairing = 1.0F + 0.2F * max_of(squared_ratio * squared_ratio - close, Lanes{});
     const VecLanes<Dim> weights = place.volume() * batch.F(place.d) * place.d;
     concentration += place.volume() * W;
     gradient -= weights;

@@ -16,13 +16,13 @@ struct LatticeSums {
 struct KernelValues {
   double W_0;        ///< W(0)
   double W_spacing;  ///< W(dx)
-  double close;      ///< (W(0.7 dx)/W(dx))^4, no unit: the weight against pairing acts between closer particles
+  double close;      ///< (W(0.8 dx)/W(dx))^4, no unit: the weight against pairing acts between closer particles
 };
 
 template <int Dim>
 KernelValues kernel_values_of(const Kernel<Dim>& kernel, double spacing) {
   const double W_spacing = kernel_value(kernel, spacing);
-  const double ratio = kernel_value(kernel, 0.7 * spacing) / W_spacing;
+  const double ratio = kernel_value(kernel, 0.8 * spacing) / W_spacing;
   return {kernel_value(kernel, 0.0), W_spacing, ratio * ratio * ratio * ratio};
 }
 

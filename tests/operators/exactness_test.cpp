@@ -210,8 +210,8 @@ TYPED_TEST(ExactnessTest, KernelSumsAreThoseOfThePairs) {
     double steepnesses = 0.0;  // 1/m; magnitude of the terms that may cancel
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       const double volume = set.particles.volume[pairs.j[k]];
-      const double closeness = std::pow(pairs.value(i, k), 4) - std::pow(kernel_value(kernel, 0.7 * dx), 4);
-      const double pairing = 1.0 + std::max(0.0, closeness / std::pow(values.W_spacing, 4));
+      const double closeness = std::pow(pairs.value(i, k), 4) - std::pow(kernel_value(kernel, 0.8 * dx), 4);
+      const double pairing = 1.0 + 0.2 * std::max(0.0, closeness / std::pow(values.W_spacing, 4));
       expected.concentration += volume * pairs.value(i, k);
       expected.gradient += volume * pairs.gradient(i, k);
       expected.first_moment -= volume * pairs.d(i, k) * pairs.gradient(i, k).transpose();
