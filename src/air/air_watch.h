@@ -110,6 +110,8 @@ class AirWatch {
            const PeriodicDomain<Dim>& domain);
 
   bool is_on() const { return grid_ != nullptr; }
+  /// The cells in which air is searched for; not to be called if !is_on().
+  const VoidGrid<Dim>& grid() const { return *grid_; }
   const GasLaw& law() const { return law_; }
 
   /// Whether water may have gone so far since the last search that a new one is needed.

@@ -1,7 +1,12 @@
 #include "air/enclosed_air.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "air/pocket_pressure.h"
 #include "base/box.h"
@@ -31,11 +36,13 @@ constexpr double min_rows_of_tension = 2.0;
 /// Number of times in a run at which walls are evaluated, for the box around all their places.
 constexpr int looks_at_moving_walls = 1000;
 
-/// Box around walls, wherever they go, and openings.
+/// Box around walls, wherever they go, and openings. Its lowest corner is a whole number of cells from that of the
+/// walls as drawn, so that cells lie where they would in a run with another end.
 template <int Dim>
 Box<Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary) {
   Box<Dim> box = box_around(boundary.faces);
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
+  const Vec<Dim> drawn = box.isEmpty() ? Vec<Dim>(Vec<Dim>::Zero()) : box.min();
   const MotionState<Dim> start = initial_motion<Dim>(spec);
   for (const auto& moving : setup.wall_motion->moving()) {
     if (moving.body >= 0) continue;  // it stays where water is
@@ -46,7 +53,61 @@ Box<Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup, const Boundar
       }
     }
   }
+  if (box.isEmpty()) return box;
+  const double cell = 0.5 * spec.particles.spacing;
+  Vec<Dim> low = drawn;
+  for (int d = 0; d < Dim; ++d) low[d] -= cell * std::ceil((drawn[d] - box.min()[d]) / cell - 1e-6);
+  box.extend(low);
   return box;
+}
+
+/// The grid to which saved cells belong: the place of its first cell, and the number of cells along the second axis.
+template <int Dim>
+Json save_grid(const VoidGrid<Dim>& grid) {
+  const Vec<Dim> first = grid.centre({});
+  return {{"first", std::vector<double>(first.begin(), first.end())}, {"count", grid.count(1)}};
+}
+
+/// Moves runs of cells by `shift` cells, from a grid with `count` cells along the second axis. A run that is resumed
+/// may have another end, and walls that go farther. Parts outside of the grid are left out.
+template <int Dim>
+std::vector<CellRun> in_grid(const VoidGrid<Dim>& grid, const std::array<std::int64_t, Dim>& shift, int count,
+                             const std::vector<CellRun>& runs) {
+  std::vector<CellRun> moved;
+  for (const CellRun& run : runs) {
+    typename VoidGrid<Dim>::Cell cell{};
+    bool is_inside = true;
+    for (int d = 0; d < Dim - 1; ++d) {
+      const int former = Dim == 2 ? run.row : d == 0 ? run.row / count : run.row % count;
+      const std::int64_t now = former + shift[d];
+      is_inside = is_inside && now >= 0 && now < grid.count(d);
+      if (is_inside) cell[d] = static_cast<int>(now);
+    }
+    const std::int64_t begin = std::max<std::int64_t>(0, run.begin + shift[Dim - 1]);
+    const std::int64_t end = std::min<std::int64_t>(grid.length(), run.end + shift[Dim - 1]);
+    if (!is_inside || begin >= end) continue;
+    moved.push_back({grid.row_of(cell), static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)});
+  }
+  return moved;
+}
+
+/// Moves the cells of all pockets from the grid that save_grid has saved. Returns false for a grid that cannot be.
+template <int Dim>
+bool move_cells(const Json& saved, const VoidGrid<Dim>& grid, AirState& state) {
+  constexpr double most_cells = 1e9;
+  const auto first = saved.at("first").get<std::vector<double>>();
+  const auto count = saved.at("count").get<std::int64_t>();
+  if (first.size() != Dim || count <= 0 || count > std::numeric_limits<int>::max()) return false;
+  std::array<std::int64_t, Dim> shift;
+  for (int d = 0; d < Dim; ++d) {
+    const double offset = first[d] - grid.centre({})[d];
+    if (!(std::abs(offset) < most_cells * grid.edge()[d])) return false;
+    shift[d] = std::lround(offset / grid.edge()[d]);
+  }
+  for (std::vector<AirPocket>* pockets : {&state.pockets, &state.hidden}) {
+    for (AirPocket& pocket : *pockets) pocket.cells = in_grid<Dim>(grid, shift, static_cast<int>(count), pocket.cells);
+  }
+  return true;
 }
 
 template <int Dim>
@@ -119,12 +180,15 @@ void EnclosedAir<Dim>::begin(Flow<Dim>& flow) {
 
 template <int Dim>
 Json EnclosedAir<Dim>::save() const {
-  return state;
+  Json saved = state;
+  if (watch.is_on()) saved["grid"] = save_grid(watch.grid());
+  return saved;
 }
 
 template <int Dim>
 bool EnclosedAir<Dim>::restore(const Json& saved) {
   saved.get_to(state);
+  if (watch.is_on() && saved.contains("grid") && !move_cells(saved.at("grid"), watch.grid(), state)) return false;
   const auto is_sound = [](const AirPocket& p) { return p.gas >= 0.0 && p.volume > 0.0; };
   return std::ranges::all_of(state.pockets, is_sound) && std::ranges::all_of(state.hidden, is_sound);
 }

@@ -134,6 +134,15 @@ class BitForBit(Resumed):
         self.call("resume", "part0", "--quiet")
         assert_same_results(self, "part0", "whole0")
 
+    def test_to_a_later_end_that_takes_a_tank_farther_keeps_its_air(self):
+        """The grid in which air is searched for contains all places of the tank until the end."""
+        tank = ("--set", "wall=[{shape='box', min=[0, 0], max=[1, 1], displacement=['-2*t', '0']}]", "--set",
+                "air.pockets=adiabatic")
+        self.run_case("run", "--set", "time.end=0.1", *tank)
+        self.call("resume", "run", "--set", "time.end=0.4", "--quiet")
+        pockets = self.summary("run")["pockets"]
+        self.assertEqual((pockets["begun"], pockets["gas_lost_m3"]), (1, 0.0))
+
     def test_a_time_step_that_collapses_is_compared_with_the_first(self):
         """The gate accelerates and then jumps away. The first step is 0.01 s, that at half time 2 ms, the last 9 us.
         Compared with the step at half time, the last step would never be too small."""
