@@ -48,6 +48,7 @@ class PetscFunction<PetscErrorCode(Arguments...)> {
 TAILWATER_LOADED(KSPConvergedDefaultSetUIRNorm);
 TAILWATER_LOADED(KSPCreate);
 TAILWATER_LOADED(KSPDestroy);
+TAILWATER_LOADED(KSPFCGSetNprealloc);
 TAILWATER_LOADED(KSPGMRESSetRestart);
 TAILWATER_LOADED(KSPGetConvergedReason);
 TAILWATER_LOADED(KSPGetConvergedReasonString);

@@ -6,12 +6,16 @@
 namespace tailwater {
 namespace {
 
+/// Directions with memory from the start, which PETSc fills with zeros. It makes room for more where they are needed.
+constexpr int directions_at_first = 3;
+
 void set_up(KSP solver, ShellSystem& system, const ShellGoal& goal) {
   PC preconditioner = nullptr;
   check_petsc(KSPGetPC(solver, &preconditioner));
   check_petsc(PCSetType(preconditioner, PCSHELL));
   attach_shell(preconditioner, system);
   check_petsc(KSPSetType(solver, KSPFCG));
+  check_petsc(KSPFCGSetNprealloc(solver, directions_at_first));
   check_petsc(KSPSetNormType(solver, KSP_NORM_NATURAL));
   check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   check_petsc(KSPConvergedDefaultSetUIRNorm(solver));  // `reduction` is of the residual of the guess
