@@ -6,7 +6,7 @@
 namespace tailwater {
 namespace {
 
-/// Directions with memory from the start, which PETSc fills with zeros. It makes room for more where they are needed.
+/// Directions with memory from the start, which PETSc fills with zeros. It adds more where they are needed.
 constexpr int directions_at_first = 3;
 
 void set_up(KSP solver, ShellSystem& system, const ShellGoal& goal) {
