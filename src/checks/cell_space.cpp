@@ -129,6 +129,15 @@ bool CellSpace<Dim>::is_behind_walls(const Cell& c) const {
 }
 
 template <int Dim>
+int CellSpace<Dim>::face_at(const Cell& c) const {
+  const Vec<Dim> x = centre(c);
+  for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
+    if ((closest_point(faces_[near_list_[k]], x) - x).norm() <= tolerance_) return near_list_[k];
+  }
+  return -1;
+}
+
+template <int Dim>
 int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
   int first = -1;
   double least = std::numeric_limits<double>::infinity();  // fraction of the line before the first face

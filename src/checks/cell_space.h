@@ -52,6 +52,8 @@ class CellSpace {
   /// Whether the centre of a cell is behind the walls next to it. A centre on a wall is on neither side. Beside a
   /// convex edge a centre is in front, although it may be behind the plane of one of the faces that meet there.
   bool is_behind_walls(const Cell& c) const;
+  /// The face on which the centre of a cell lies; -1 if none.
+  int face_at(const Cell& c) const;
   /// The first face that the line passes, which begins in cell `c` and is no longer than a cell; -1 if none. A line
   /// that cuts a corner off a body passes two faces: into the body and out again.
   int face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;

@@ -29,7 +29,7 @@ class DrySpaces {
   template <class Visit>
   void find(Visit&& visit) {
     for (std::size_t first = 0; first < space_.count(); ++first) {
-      if (is_known_[first] || !may_be_dry(first)) continue;
+      if (is_known_[first] || !may_be_dry(first) || space_.face_at(space_.cell(first)) >= 0) continue;
       const std::size_t count = closed_around(first);
       if (count > 0) visit(space_.centre(space_.cell(first)), static_cast<double>(count) * space_.volume());
     }
@@ -47,11 +47,13 @@ class DrySpaces {
     using Cell = typename CellSpace<Dim>::Cell;
     bool is_closed = true;
     const auto go = [&](const Cell& c, int axis, int step) -> std::optional<Cell> {
-      if (const int face = space_.face_beside(c, axis, step); face >= 0) {
+      const std::optional<Cell> beside = space_.next(c, axis, step);
+      int face = space_.face_beside(c, axis, step);
+      if (face < 0 && beside) face = space_.face_at(*beside);
+      if (face >= 0) {
         is_closed = is_closed && static_cast<std::size_t>(face) < walls_;
         return std::nullopt;
       }
-      const std::optional<Cell> beside = space_.next(c, axis, step);
       if (beside && may_be_dry(space_.index(*beside))) return beside;
       is_closed = false;
       return std::nullopt;

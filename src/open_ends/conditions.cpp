@@ -212,7 +212,7 @@ void go_on(const OpenEnd<Dim>& end, const WaterInside& water, OpenEndState& stat
       state.is_wet && end.gravity > 0.0 ? water.bottom + 0.25 * twice_celerity * twice_celerity / end.gravity : 0.0;
 }
 
-/// What water that is drawn must add to its discharge [m^Dim/s], so that its volume is right on average: the rows of
+/// The discharge that drawn water needs in addition [m^Dim/s], so that its volume is right on average: the rows of
 /// particles do not fill an opening of a few spacings exactly. The volume that is missing comes while the water moves
 /// by some spacings, but at most a tenth of the discharge is added.
 template <int Dim>
