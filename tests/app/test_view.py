@@ -475,6 +475,10 @@ class OfACase(Viewed):
         first = len(small.splitlines()) + 1
         self.assertEqual([drawing[what][0]["lines"] for what in ("pockets", "vents")],
                          [[first + 2, first + 4], [first + 5, first + 7]])
+        # Layers are checked when they are made.
+        (self.folder / "far.toml").write_text(small + "[[porous]]\nmin = [90, 0]\nmax = [91, 1]\nporosity = 0.4\ngrain_size = 0.1\n")
+        far = json.loads(self.call("check", "far.toml", "--json").stdout)["findings"]
+        self.assertEqual([one["id"] for one in far], ["porous-layer-outside-walls"])
         findings = json.loads(result.stdout)["findings"]
         self.assertIn((2, "case.titel"), [(one["line"], one.get("key")) for one in findings])
 
