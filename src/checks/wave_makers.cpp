@@ -57,9 +57,10 @@ Findings check_height(const WaveKeys& waves, const CaseLabel& owner, double dx) 
       {"use a spacing of at most {:.3g} m, better a tenth of the height", 0.99 * waves.height / lowest_resolved_wave})};
 }
 
-/// Crests of a focused group that cannot have come to their focus by its time, at the group velocity of the peak.
+/// Crests of a focused group that cannot have come to their focus by its time, at the group velocity of the peak. A
+/// zone may leave its depth to the wave maker; then nothing is checked.
 Findings check_focus(const WaveKeys& waves, const CaseLabel& owner, double depth, double gravity) {
-  if (waves.waves != WaveKind::focused || gravity == 0.0) return {};
+  if (waves.waves != WaveKind::focused || gravity == 0.0 || depth == 0.0) return {};
   const double omega = 2.0 * std::numbers::pi / waves.period;
   const double k = wave_number(omega, gravity, depth);
   const double group_velocity = 0.5 * omega / k * (1.0 + 2.0 * k * depth / std::sinh(2.0 * k * depth));
@@ -122,7 +123,7 @@ Findings check_current(const CaseSpec& spec, const DampingTable& zone) {
       return {Finding::warning("damping-brakes-flow",
                                {"{} stands between {} and {}, and brakes the water to rest",
                                 CaseLabel("damping", zone.name), in.label(), out.label()},
-                               {"give transport, the discharge over the depth in the direction towards"})};
+                               {"give transport, the discharge over the depth, positive in the direction of towards"})};
     }
   }
   return {};
