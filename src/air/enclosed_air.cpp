@@ -91,17 +91,18 @@ std::vector<CellRun> in_grid(const VoidGrid<Dim>& grid, const std::array<std::in
   return moved;
 }
 
-/// Moves the cells of all pockets from the grid that save_grid has saved. Returns false for a grid that cannot be.
+/// Moves the cells of all pockets from the grid that save_grid has saved. Returns false if no grid can have these
+/// numbers.
 template <int Dim>
 bool move_cells(const Json& saved, const VoidGrid<Dim>& grid, AirState& state) {
-  constexpr double most_cells = 1e9;
+  constexpr double max_shift = 1e9;  // cells
   const auto first = saved.at("first").get<std::vector<double>>();
   const auto count = saved.at("count").get<std::int64_t>();
   if (first.size() != Dim || count <= 0 || count > std::numeric_limits<int>::max()) return false;
   std::array<std::int64_t, Dim> shift;
   for (int d = 0; d < Dim; ++d) {
     const double offset = first[d] - grid.centre({})[d];
-    if (!(std::abs(offset) < most_cells * grid.edge()[d])) return false;
+    if (!(std::abs(offset) < max_shift * grid.edge()[d])) return false;
     shift[d] = std::lround(offset / grid.edge()[d]);
   }
   for (std::vector<AirPocket>* pockets : {&state.pockets, &state.hidden}) {

@@ -40,7 +40,8 @@ class EnclosedAir final : public Part<Dim> {
 
   /// Pa; pressure of the gas in a pocket, above the atmosphere's.
   double pressure_of(const AirPocket& pocket) const { return watch.law().pressure(pocket.gas, pocket.volume); }
-  /// The pressure [Pa] of the air at a place, above the atmosphere's; empty without pockets. Borrows this.
+  /// The pressure [Pa] of the air at a place, above the atmosphere's; empty without pockets. Borrows this and
+  /// the boundary.
   std::function<double(const Vec<Dim>&)> pressure_field(const Boundary<Dim>& boundary) const;
   AirMeasures measures() const;
 

@@ -16,11 +16,11 @@
 namespace tailwater {
 namespace {
 
-/// A slump that inertia carries on comes farther than one that always is in balance: 10 % at a Reynolds number of 100
-/// (docs/theory/rheology.md). This allows for half of the way.
+/// Inertia carries a slump farther than a balance of forces does: by 10 % at a Reynolds number of 100
+/// (docs/theory/rheology.md). This factor allows for 50 %.
 constexpr double reach_with_inertia = 1.5;
 
-/// The yield stress over the weight of a volume [m], of the liquid that comes farthest; 0 if one has no yield stress.
+/// The least yield stress over the weight of a unit volume [m], of all liquids; 0 if one has no yield stress.
 double least_yield_height(const CaseSpec& spec, double gravity) {
   double least = std::numeric_limits<double>::infinity();
   for (const FluidTable& block : spec.fluid) {
@@ -34,8 +34,8 @@ double least_yield_height(const CaseSpec& spec, double gravity) {
 /// Where yielding liquids come to rest on level ground.
 template <int Dim>
 struct Slump {
-  Vec<Dim> start;  ///< m; the middle of the liquid, but on walls beside it
-  double reach;    ///< m; how far from there
+  Vec<Dim> start;  ///< m; the middle of the liquid, or a place on the wall on its one side
+  double reach;    ///< m; level distance from there
 
   double distance(const Vec<Dim>& down, const Vec<Dim>& x) const {
     const Vec<Dim> way = x - start;
@@ -54,10 +54,11 @@ bool is_walled(const CellSpace<Dim>& space, const typename CellSpace<Dim>::Cell&
   return c.has_value();
 }
 
-/// Nothing if a liquid has no yield stress, or has walls on all sides. A wall on one side is a plane of symmetry. Of
-/// liquid that spreads to all sides the volume is V, of liquid between two walls the cross-section A. With the yield
-/// stress over the weight of a volume a, it comes to (225 V^2/(128 pi^2 a))^(1/5) (Roussel & Coussot 2005) or
-/// (9 A^2/(32 a))^(1/3) (Liu & Mei 1989). Collective.
+/// The slump of liquids that all have a yield stress and are not walled in on all sides; else nothing. A wall on one
+/// side is a plane of symmetry. A volume V that spreads to all sides reaches (225 V^2/(128 pi^2 a))^(1/5) (Roussel &
+/// Coussot 2005), and a cross-section A between two walls (9 A^2/(32 a))^(1/3) (Liu & Mei 1989), where a is the yield
+/// stress over the weight of a unit volume. Both assume that the whole heap yields: heaps longer than that are not
+/// covered. Collective.
 template <int Dim>
 std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>& space,
                                      const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity) {

@@ -11,8 +11,8 @@ namespace tailwater {
 
 /// Two points nearer than this fraction of dx are the same corner.
 inline constexpr double corner_tolerance = 1e-6;
-/// [dx]; so far may a place on a mesh be off its triangles, and a section of a mesh off the mesh: coordinates of meshes
-/// have single precision, some 1e-7 of the size of the case.
+/// [dx]; distance within which a place counts as on a wall that may be a mesh. Coordinates of meshes have single
+/// precision, an error of some 1e-7 of the size of the case: this allows for a thousand spacings.
 inline constexpr double mesh_tolerance = 1e-4;
 
 /// One flat piece of a wall. `normal` has length 1 and points into the fluid. In 2D the fluid is on the left in the

@@ -212,17 +212,17 @@ void go_on(const OpenEnd<Dim>& end, const WaterInside& water, OpenEndState& stat
       state.is_wet && end.gravity > 0.0 ? water.bottom + 0.25 * twice_celerity * twice_celerity / end.gravity : 0.0;
 }
 
-/// The discharge that drawn water needs in addition [m^Dim/s], so that its volume is right on average: the rows of
-/// particles do not fill an opening of a few spacings exactly. The volume that is missing comes while the water moves
-/// by some spacings, but at most a tenth of the discharge is added.
+/// The addition to the discharge of a pump [m^Dim/s] that makes the drawn volume right on average: the rows of
+/// particles do not fill an opening of a few spacings exactly. It makes up for the missing volume while the water moves
+/// by ten spacings, and is limited to a tenth of the discharge.
 template <int Dim>
 double missing_discharge(const OpenEnd<Dim>& end, const OpenEndState& state, double discharge, double area) {
   constexpr double spacings_to_catch_up = 10.0;
-  constexpr double most_added = 0.1;
+  constexpr double max_fraction = 0.1;
   if (discharge >= 0.0) return 0.0;
   const double missing = state.asked - (state.arrived.volume - state.departed.volume);
-  const double share = missing / (spacings_to_catch_up * end.spacing * area);
-  return std::clamp(share, -most_added, most_added) * std::abs(discharge);
+  const double fraction = missing / (spacings_to_catch_up * end.spacing * area);
+  return std::clamp(fraction, -max_fraction, max_fraction) * std::abs(discharge);
 }
 
 /// Where a discharge or a velocity is prescribed: the depth follows the water inside, unless it is prescribed too.

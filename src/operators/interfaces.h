@@ -34,7 +34,8 @@ struct Interfaces {
     return 0.5F * (density[batch.i] + batch.of(std::span<const float>(density)));
   }
   /// 2 p_ij; `own` and `other` are the pressures of the two particles. Written as twice the mean and a correction, it
-  /// is the same for both particles to the last bit; of a sum of two products the compiler may round either.
+  /// is the same for both particles to the last bit. In a sum of two products the compiler may fuse either product with
+  /// the sum, so that the result depends on the order of the particles.
   template <class Batch>
   Lanes twice_pressure_of(const Batch& batch, const Lanes& own, const Lanes& other) const {
     const Lanes of_other = batch.of(std::span<const float>(density));

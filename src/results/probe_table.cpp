@@ -130,7 +130,8 @@ void ColumnDigest::add_stretch(double begin, double from_value, double end, doub
 }
 
 double ColumnDigest::mean_of_second_half() const {
-  double length = 0.0, integral = 0.0;
+  double length = 0.0;
+  double integral = 0.0;
   for (const Quarter& quarter : quarters_) {
     length += quarter.length;
     integral += quarter.integral;
@@ -139,12 +140,12 @@ double ColumnDigest::mean_of_second_half() const {
 }
 
 int ColumnDigest::trend_in_second_half() const {
-  constexpr double least_change = 0.01;
+  constexpr double min_change = 0.01;
   if (std::ranges::any_of(quarters_, [](const Quarter& quarter) { return quarter.length == 0.0; })) return 0;
   std::array<double, 4> means{};
   std::ranges::transform(quarters_, means.begin(), [](const Quarter& one) { return one.integral / one.length; });
   const double size = std::max(std::abs(means.front()), std::abs(means.back()));
-  if (std::abs(means.back() - means.front()) <= least_change * size) return 0;
+  if (std::abs(means.back() - means.front()) <= min_change * size) return 0;
   if (std::ranges::is_sorted(means)) return 1;
   return std::ranges::is_sorted(means, std::greater<>()) ? -1 : 0;
 }

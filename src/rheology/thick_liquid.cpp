@@ -100,7 +100,7 @@ void ThickLiquid<Dim>::remember(const Flow<Dim>& flow) {
   flow.setup.ranks.sum_each(errors[0], errors[1], errors[2]);
   int best = 0;
   for (int n = 1; n < guess_count; ++n) {
-    if (errors[n] <= errors[best]) best = n;  // equal: it was not there yet, and is worth a trial
+    if (errors[n] <= errors[best]) best = n;  // equal without earlier solutions: the higher guess is tried next
   }
   guess_ = static_cast<Guess>(best);
   before_last_ = std::move(last_);
