@@ -198,10 +198,15 @@ def main(arguments):
         print(f"{__doc__}\nno template {', '.join(unknown)}", file=sys.stderr)
         return 2
     for name in asked or names:
+        finished(name, may_be_coarse)  # for the figures of the section, also where the picture is of another run
         draw(name, drawn(name, may_be_coarse))
     runs = {name: run for name in names if (run := run_of(name)) and is_whole(folder_drawn(name))}
     page = PAGE.read_text(encoding="utf-8")
     kept = {name: text for text, name in re.findall(r"^(## (.+?)$.*?)(?=^## |\Z)", page, re.MULTILINE | re.DOTALL)}
+    if unseen := [name for name in names if name not in runs and name not in kept]:
+        print(f"gallery.py: neither a run nor a section on the page: {', '.join(unseen)}; remedy: name them, to run them",
+              file=sys.stderr)
+        return 2
     processor = next(iter(runs.values())).summary["machine"]["processor"]
     sections = [section(name, runs[name]) if name in runs else kept_section(name, kept[name]) for name in names]
     PAGE.write_text(HEAD.format(processor=processor) + "".join(sections), encoding="utf-8")

@@ -96,7 +96,7 @@ def part_of(text, suffix, part):
                 return without_docstrings(node)
             if key and isinstance(node, ast.Assign) and node.targets[0].id == table:
                 return "".join(ast.dump(value) for name, value in zip(node.value.keys, node.value.values) if name.value == key)
-        raise KeyError(part)
+        raise KeyError(f"no function or table {part}")
     if part == "code":
         return "".join(re.findall(r"^```(?:toml|python)\n.*?^```|^    tailwater .*?$", text, re.MULTILINE | re.DOTALL))
     return text[:text.index(part)].rpartition("```toml\n")[2]
@@ -145,7 +145,11 @@ def findings():
         if picture not in record or picture not in pictures:
             yield f"docs/images/{picture}: {'no record' if picture in pictures else 'a record without the picture'}"
             continue
-        old, new = record[picture], entry(picture)
+        try:
+            old, new = record[picture], entry(picture)
+        except (KeyError, OSError) as error:  # no rule, or an input that is gone
+            yield f"docs/images/{picture}: {error.args[0] if isinstance(error, KeyError) else error}"
+            continue
         changed = [name for name in sorted(set(old["inputs"]) | set(new["inputs"])) if old["inputs"].get(name) != new["inputs"].get(name)]
         if old["picture"] != new["picture"]:
             yield f"docs/images/{picture}: the picture is not the recorded one; remedy: {new['script']}"
