@@ -57,8 +57,9 @@ bool is_walled(const CellSpace<Dim>& space, const typename CellSpace<Dim>::Cell&
 /// The slump of liquids that all have a yield stress and are not walled in on all sides; else nothing. A wall on one
 /// side is a plane of symmetry. A volume V that spreads to all sides reaches (225 V^2/(128 pi^2 a))^(1/5) (Roussel &
 /// Coussot 2005), and a cross-section A between two walls (9 A^2/(32 a))^(1/3) (Liu & Mei 1989), where a is the yield
-/// stress over the weight of a unit volume. Both assume that the whole heap yields: heaps longer than that are not
-/// covered. Collective.
+/// stress over the weight of a unit volume. Both assume that the whole heap yields. Of a heap that is long for its
+/// height H only the ends move: a front that has come to rest is H^2/(2a) long (Liu & Mei), a third of it beyond the
+/// start. Collective.
 template <int Dim>
 std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>& space,
                                      const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity) {
@@ -68,6 +69,8 @@ std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>&
   Slump<Dim> slump{0.5 * (box.min() + box.max()), 0.0};
   const auto middle = space.cell_of(slump.start);
   double volume = fluid.ranks.sum(std::accumulate(fluid.volume.begin(), fluid.volume.end(), 0.0));
+  const double height = std::abs((box.max() - box.min()).dot(gravity)) / gravity.norm() + spec.particles.spacing;
+  double longest = 0.0;  // m; from the start to the end of the heap
   int free_axes = 0;
   for (int axis = 0; axis < Dim; ++axis) {
     if (std::abs(gravity[axis]) > 0.5 * gravity.norm()) continue;
@@ -78,6 +81,8 @@ std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>&
       continue;
     }
     ++free_axes;
+    const double length = box.max()[axis] - box.min()[axis] + spec.particles.spacing;
+    longest = std::max(longest, below == above ? 0.5 * length : length);
     if (below == above) continue;
     volume *= 2.0;
     slump.start[axis] = below ? box.min()[axis] : box.max()[axis];
@@ -87,6 +92,8 @@ std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>&
   const double at_rest = free_axes == 2 ? std::pow(225.0 / (128.0 * std::numbers::pi * std::numbers::pi) * squared, 0.2)
                                         : std::cbrt(9.0 / 32.0 * squared);
   slump.reach = reach_with_inertia * at_rest;
+  const double front = height * height / (2.0 * a);
+  if (longest > 2.0 / 3.0 * front) slump.reach = std::max(slump.reach, longest + reach_with_inertia * front / 3.0);
   return slump;
 }
 

@@ -390,6 +390,16 @@ TEST(Check, AYieldingLiquidStopsOnAnOpenTable) {
   expect_only(check(water), Severity::error, {"would pour out"});
 }
 
+/// Only the ends of a long dyke move: 0.8 m of front, a third of it beyond the start, and half as much for its inertia.
+TEST(Check, TheEndsOfALongDykeOfYieldingLiquidMayPourOut) {
+  CaseSpec spec = mud_on_table(5.36, 0.0);
+  spec.fluid[0].min[0] = -5.0;
+  spec.fluid[0].max[0] = 5.0;
+  expect_only(check(spec), Severity::warning, {"may pour out", "up to 5.4 m from"});
+  spec.walls = mud_on_table(5.5, 0.0).walls;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, AYieldingLiquidOnASlopeMayPourOut) {
   expect_among(check(mud_on_table(0.8, 0.3)), Severity::warning, {"would pour out", "unless it stops before"});
 }
