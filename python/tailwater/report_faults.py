@@ -12,6 +12,7 @@ MIN_SPACINGS = 3
 # Warnings of the program, found by words of its messages (a test checks that the sources still contain them).
 MESSAGES = {"the energy rose": re.compile(r"energy rose"),
             "the water is too dense or too light": re.compile(r"mean density of the water"),
+            "particles pile up": re.compile(r"particles pile up"),
             "a level is not held": re.compile(r"not hold its level|level at .* not held"),
             "an open end does not deliver the prescribed discharge": re.compile(r"(brings|draws|passes) (less|more) water than")}
 
