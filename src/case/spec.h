@@ -627,8 +627,8 @@ struct DampingTable : WaveKeys {
     v.number("level", self.level, "m", {}, "Height of the still water's surface, from the origin of the case");
     v.number(
         "transport", self.transport, "m/s", {},
-        "Discharge over depth, averaged over the waves, in their direction; with waves = \"none\" in the direction "
-        "`towards`. 0 where the case is closed");
+        "Discharge over depth, averaged over the waves: in their direction, away from the side `towards`; with waves = "
+        "\"none\" in the direction `towards`. 0 where the case is closed");
     v.number("direction", self.direction, "degrees", Range::between(-75.0, 75.0),
              "3D: angle between the waves and the way out of the zone, positive towards the level axis across it. In "
              "a case that is periodic across, it is changed until whole waves fit into the period");

@@ -108,7 +108,7 @@ bool CellSpace<Dim>::passes(const WallFace<Dim>& face, const Vec<Dim>& from, con
   const double after = face.height(to);
   const bool leads_behind = before >= -tolerance_ && after < -tolerance_;
   if ((before >= 0.0) == (after >= 0.0) && !leads_behind) return false;
-  const Vec<Dim> hit = meet(face, from, to);
+  const Vec<Dim> hit = before < 0.0 && leads_behind ? from : meet(face, from, to);
   return (closest_point(face, hit) - hit).norm() <= tolerance_;
 }
 
