@@ -139,7 +139,7 @@ void check_sound(const CaseSpec& spec, const std::string& origin, TrialSteps tri
     answer["summary"].push_back(fmt::format("Zone '{}': particles {:.4g} m apart {}", zone.name,
                                             spec.particles.spacing * std::exp2(-zone.level), place_of_zone(zone)));
   }
-  make_probes<Dim>(spec, boundary);  // only for its exceptions
+  make_probes<Dim>(spec, boundary);                                        // only for its exceptions
   if (!spec.porous.empty() && !has_error(geometry)) make_flow<Dim>(spec);  // likewise: layers are checked when made
   if (trial == TrialSteps::some && !has_error(geometry)) add_time<Dim>(spec, answer);
 }

@@ -103,7 +103,8 @@ std::string probe_reference_markdown() {
       "  Compare largest pressures at first contacts over the same `averaging_time`. The default is the same from\n"
       "  dx = H/30 on.\n"
       "  A mean is *still rising* if the averages over the four quarters of the second half increase from quarter to\n"
-      "  quarter, by more than 1 % in all, and *still falling* if they decrease. A longer run then gives another mean.\n"
+      "  quarter, by more than 1 % in all, and *still falling* if they decrease. A longer run then gives another "
+      "mean.\n"
       "- *Totals* are numbers of the whole run in `summary.json`, in `probes`.\n";
   for (std::size_t k = 0; k < choices<ProbeType>.size(); ++k) text += section_of(info_of(static_cast<ProbeType>(k)));
   return text;
