@@ -4,7 +4,7 @@
 Counts the reads, writes and operations of each pass over pairs, takes the machine's bandwidth and multiply-adds from the
 speed benchmark, and adds up. Bytes are those of arrays with an entry per pair, and of each particle's own once per pass:
 its neighbours' are taken to be in a cache.
-Usage: benchmarks/floor.py speed/speed.json    of `tailwater bench speed --part rooms`
+Usage: benchmarks/floor.py speed/speed.json    of `tailwater bench speed --part modules`
 """
 import json
 import math
@@ -124,11 +124,11 @@ def memory(d, pairs, numbers, label):
 
 def table(d, numbers):
     """Markdown for one dimension, or nothing if the benchmark has no modules of it."""
-    sizes = sorted({name.split(".")[1] for name in numbers if name.startswith(f"rooms.{d}D ")},
+    sizes = sorted({name.split(".")[1] for name in numbers if name.startswith(f"modules.{d}D ")},
                    key=lambda size: float(size.split()[1]))
     if not sizes:
         return ""
-    label = f"rooms.{sizes[-1]}"
+    label = f"modules.{sizes[-1]}"
     pairs, iterations = numbers[f"{label}.pairs"], numbers[f"{label}.step/whole.iterations"]
     found = rows(d, pairs, iterations, numbers["machine/triad"], numbers["machine/multiply_add"])
     lines = [f"{d}D, {float(sizes[-1].split()[1]):.0f} particles, {pairs:.1f} pairs per fluid particle, "
@@ -153,7 +153,7 @@ def main():
     told = json.loads(pathlib.Path(sys.argv[1]).read_text())
     numbers = {number["name"]: number["value"] for number in told["numbers"]}
     if "machine/triad" not in numbers:
-        sys.exit(f"error: {sys.argv[1]} has no rooms; remedy: tailwater bench speed --part rooms")
+        sys.exit(f"error: {sys.argv[1]} has no modules; remedy: tailwater bench speed --part modules")
     print(f"Commit {told['commit']}, {told['machine']['processor']}: {numbers['machine/triad']:.1f} GB/s, "
           f"{numbers['machine/multiply_add']:.1f} GFlop/s on one core.\n")
     print("\n".join(text for text in (table(2, numbers), table(3, numbers)) if text), end="")

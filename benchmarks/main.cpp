@@ -1,6 +1,6 @@
 // Benchmarks of the modules on a flow of a case after some steps. `tailwater bench speed` runs it; by hand:
-//   bench_rooms CASE [--set KEY=VALUE]... [--steps N] [--benchmark_filter=REGEX and other options of Google Benchmark]
-//   bench_rooms machine
+//   bench_modules CASE [--set KEY=VALUE]... [--steps N] [--benchmark_filter=REGEX and other options of Google
+//   Benchmark] bench_modules machine
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -40,7 +40,7 @@ void add_memory(const Stage<Dim>& stage, double bytes_before) {
 }
 
 template <int Dim>
-void run_rooms(const CaseSpec& spec, int steps) {
+void run_modules(const CaseSpec& spec, int steps) {
   const double bytes_before = bytes_on_heap();
   Stage<Dim> stage(spec, steps);
   add_context("provenance", provenance().dump());
@@ -48,7 +48,8 @@ void run_rooms(const CaseSpec& spec, int steps) {
   add_context("particles", stage.flow.state.particles.owned);
   add_context("pairs", stage.flow.pairs().j.size());
   add_memory(stage, bytes_before);
-  const std::string scratch_file = std::filesystem::temp_directory_path() / fmt::format("bench_rooms_{}.vtp", getpid());
+  const std::string scratch_file =
+      std::filesystem::temp_directory_path() / fmt::format("bench_modules_{}.vtp", getpid());
   add_passes(stage, spec, scratch_file);
   add_pressure(stage);
   add_steps(stage);
@@ -57,7 +58,7 @@ void run_rooms(const CaseSpec& spec, int steps) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Benchmarks of the rooms");
+  CLI::App app("Benchmarks of the modules");
   std::string case_file;
   std::vector<std::string> overrides;
   int steps = 10;
@@ -82,7 +83,7 @@ int run(int argc, char** argv) {
   }
   const LinearSession session;
   const CaseSpec spec = read_case(case_file, overrides);
-  spec.general.dimension == 2 ? run_rooms<2>(spec, steps) : run_rooms<3>(spec, steps);
+  spec.general.dimension == 2 ? run_modules<2>(spec, steps) : run_modules<3>(spec, steps);
   return 0;
 }
 

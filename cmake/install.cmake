@@ -56,12 +56,12 @@ if(TAILWATER_DEBIAN_FILES)
                                 COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
 endif()
 
-get_property(rooms GLOBAL PROPERTY tailwater_rooms)
-foreach(room ${rooms})
-  set_target_properties(tailwater_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS tailwater_${room} EXPORT Tailwater ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/tailwater
+get_property(modules GLOBAL PROPERTY tailwater_modules)
+foreach(module ${modules})
+  set_target_properties(tailwater_${module} PROPERTIES EXPORT_NAME ${module})
+  install(TARGETS tailwater_${module} EXPORT Tailwater ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/tailwater
           COMPONENT library)
-  install(DIRECTORY src/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tailwater COMPONENT library
+  install(DIRECTORY src/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tailwater COMPONENT library
           FILES_MATCHING PATTERN *.h)
 endforeach()
 set_target_properties(tailwater_options PROPERTIES EXPORT_NAME options)

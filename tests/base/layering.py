@@ -1,6 +1,6 @@
 """A module of src/ includes only modules below it, and a flow includes few headers and has few members.
 
-Checks every #include of src/ against the `ROOMS` of the module's CMakeLists.txt, and these against the order of modules
+Checks every #include of src/ against the `MODULES` of the module's CMakeLists.txt, and these against the order of modules
 in src/CMakeLists.txt. The core of a flow cannot name a part: modules that take the steps link no module of parts. No
 other code asks whether a flow has a part, because an absent part is an empty one. Counts the headers of src/ behind
 flow/flow.h, which most files of the modules above read, and the members of a flow.
@@ -19,30 +19,30 @@ MOST_BEHIND_FLOW = 40
 MOST_MEMBERS = {"Setup": 15, "State": 6, "Flow": 10}  # half of those before there were parts
 
 
-def room_order(src):
+def module_order(src):
     text = (src / "CMakeLists.txt").read_text()
     return re.search(r"foreach\(name ([a-z_ ]+)\)", text).group(1).split()
 
 
-def declared_rooms(room):
-    """Modules that the module `room` links; None for the program, which may use all."""
-    call = re.search(r"\nroom\(\w+(.*?)\)", "\n" + (room / "CMakeLists.txt").read_text(), re.DOTALL)
+def declared_modules(module):
+    """Modules that the module `module` links; None for the program, which may use all."""
+    call = re.search(r"\nmodule\(\w+(.*?)\)", "\n" + (module / "CMakeLists.txt").read_text(), re.DOTALL)
     if call is None:
         return None
-    words = re.search(r"\bROOMS\b(.*?)(\bLIBRARIES\b|$)", call.group(1), re.DOTALL)
+    words = re.search(r"\bMODULES\b(.*?)(\bLIBRARIES\b|$)", call.group(1), re.DOTALL)
     return words.group(1).split() if words else []
 
 
 def violations(src):
-    order = room_order(src)
+    order = module_order(src)
     for name in order:
         below = order[: order.index(name)]
-        declared = declared_rooms(src / name)
+        declared = declared_modules(src / name)
         for other in declared or []:
             if other not in below:
-                yield f"src/{name}/CMakeLists.txt: room {name} links {other}, which does not stand below it"
+                yield f"src/{name}/CMakeLists.txt: module {name} links {other}, which does not stand below it"
         for part in sorted(PARTS & set(declared or [])) if name in CORE else []:
-            yield f"src/{name}/CMakeLists.txt: room {name} links {part}, so that it could ask whether a flow has that part"
+            yield f"src/{name}/CMakeLists.txt: module {name} links {part}, so that it could ask whether a flow has that part"
         allowed = set(below if declared is None else declared) | {name}
         for file in sorted((src / name).rglob("*")):
             if file.suffix not in {".h", ".cpp"}:
@@ -52,7 +52,7 @@ def violations(src):
                 yield f"{file}: asks whether a flow has a part; use what an empty part gives"
             for included in re.findall(r'#include "(\w+)/', text):
                 if included in order and included not in allowed:
-                    yield f"{file}: includes room {included}, which room {name} does not link"
+                    yield f"{file}: includes module {included}, which module {name} does not link"
 
 
 def headers_behind(src, header):
@@ -88,7 +88,7 @@ def main():
         if count[name] > most:
             found.append(f"{name} has {count[name]} members, at most {most}; give a part or a struct of its own what "
                          f"belongs together: {', '.join(members(src, name))}")
-    counts = f"{len(room_order(src))} rooms, {len(behind_flow)} headers behind flow/flow.h, members {count}"
+    counts = f"{len(module_order(src))} modules, {len(behind_flow)} headers behind flow/flow.h, members {count}"
     print("\n".join(found) or f"{counts}; no include goes up, and nobody asks for a part")
     sys.exit(1 if found else 0)
 

@@ -95,9 +95,9 @@ def lengths(root):
 
 def local_names(root):
     """With two local functions of one name and other arguments, a call in either file may take the other's."""
-    for room in sorted(path for path in (root / "src").iterdir() if path.is_dir()):
+    for module in sorted(path for path in (root / "src").iterdir() if path.is_dir()):
         seen = {}  # name: file
-        for file in sorted(room.glob("*.cpp")):
+        for file in sorted(module.glob("*.cpp")):
             is_local = False
             for number, line in numbered(file):
                 is_local = line == "namespace {" or is_local and line != "}  // namespace"

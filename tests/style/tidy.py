@@ -73,19 +73,19 @@ def findings(text, root, folder):
 
 def main():
     root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-    rooms = sys.argv[3:]
+    modules = sys.argv[3:]
     if shutil.which("clang-tidy") is None:
         sys.exit("clang-tidy is not installed; run scripts/install.sh")
-    sources = [source for room in rooms for source in sorted((root / "src" / room).rglob("*.cpp"))]
+    sources = [source for module in modules for source in sorted((root / "src" / module).rglob("*.cpp"))]
     # A file that the build joins from several sources stands below BUILD/src/MODULE.
     entries = [entry for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-               if any(pathlib.Path(entry["file"]).is_relative_to(top / "src" / room)
-                      for room in rooms for top in (root, build))]
+               if any(pathlib.Path(entry["file"]).is_relative_to(top / "src" / module)
+                      for module in modules for top in (root, build))]
     if not sources or not entries:
-        sys.exit(f"src/{{{','.join(rooms)}}} has {len(sources)} source files and {len(entries)} entries in "
-                 f"{build}/compile_commands.json; give rooms of src/CMakeLists.txt that have source files")
-    folder = build / "style" / rooms[0]
-    unit = folder / "rooms.cpp"
+        sys.exit(f"src/{{{','.join(modules)}}} has {len(sources)} source files and {len(entries)} entries in "
+                 f"{build}/compile_commands.json; give modules of src/CMakeLists.txt that have source files")
+    folder = build / "style" / modules[0]
+    unit = folder / "modules.cpp"
     copies = [copied(source, root, folder) for source in sources]
     unit.write_text("".join(f'#include "{copy}"\n' for copy in copies), encoding="utf-8")
     result = subprocess.run(

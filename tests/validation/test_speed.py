@@ -17,7 +17,7 @@ from pathlib import Path
 
 from fake_program import ProgramTest
 from tailwater.errors import DataError
-from tailwater_validation import speed, speed_profile, speed_report, speed_rooms, speed_runs
+from tailwater_validation import speed, speed_profile, speed_report, speed_modules, speed_runs
 from tailwater_validation.metric import Metric
 
 PROVENANCE = {"version": "1", "commit": "abc", "compiler": "GNU 12", "options": "-O3", "libraries": "PETSc",
@@ -53,7 +53,7 @@ class Steps(unittest.TestCase):
     def test_columns_have_about_as_many_particles_as_asked_for(self):
         # Rounding to whole particles changes a side of n by half a particle at most.
         for level in speed.LEVELS.values():
-            for sizes in (level.growth, level.rooms, level.ranks):
+            for sizes in (level.growth, level.modules, level.ranks):
                 for dimension, numbers in sizes.items():
                     water = speed_runs.WATERS[dimension]
                     for particles in numbers if isinstance(numbers, tuple) else (numbers,):
@@ -82,35 +82,35 @@ class Rooms(unittest.TestCase):
         result = google(("a", 5.0, "us", {}), ("a", 4.0, "us", {}), ("b", 2.0, "ms", {}))
         result["benchmarks"].append({"name": "a_mean", "run_name": "a/manual_time", "run_type": "aggregate",
                                      "real_time": 1.0, "time_unit": "us"})
-        found = speed_rooms.times(result)
+        found = speed_modules.times(result)
         self.assertEqual({name: round(seconds, 12) for name, (seconds, _) in found.items()}, {"a": 4e-6, "b": 2e-3})
 
     def test_an_error_of_a_benchmark_is_told(self):
         with self.assertRaisesRegex(DataError, "a: broke"):
-            speed_rooms.times(google(("a", 0.0, "us", {"error_occurred": True, "error_message": "broke"})))
+            speed_modules.times(google(("a", 0.0, "us", {"error_occurred": True, "error_message": "broke"})))
 
     def test_solves_are_measured_in_products(self):
         result = google(("pressure/product", 100.0, "us", {"bytes": 4e5, "rows": 1000}),
                         ("pressure/cold", 6.0, "ms", {"iterations_of_solve": 12}), **self.SIZES)
-        found = {metric.name: metric for metric in speed_rooms.metrics_of("2D 1000", 2, result)}
-        cold = found["rooms.2D 1000.pressure/cold.products"]
+        found = {metric.name: metric for metric in speed_modules.metrics_of("2D 1000", 2, result)}
+        cold = found["modules.2D 1000.pressure/cold.products"]
         self.assertAlmostEqual(cold.value, 60, places=9)
         self.assertEqual(cold.verdict, "missed")
         for name, expected in (("pressure/cold.iterations", 12), ("pressure/product.bandwidth", 4), ("pairs", 25),
                                ("bytes.all", 4000), ("pressure/product", 100)):
-            self.assertAlmostEqual(found[f"rooms.2D 1000.{name}"].value, expected, places=9)
+            self.assertAlmostEqual(found[f"modules.2D 1000.{name}"].value, expected, places=9)
 
     def test_growth_of_what_all_sizes_have(self):
         results = [google(("a", size**1.2, "us", {}), *extra, fluid=str(size))
                    for size, extra in ((1000, (("b", 1.0, "us", {}),)), (8000, ()))]
-        metrics = speed_rooms.growth(3, results)
-        self.assertEqual([metric.name for metric in metrics], ["rooms.3D.a.exponent"])
+        metrics = speed_modules.growth(3, results)
+        self.assertEqual([metric.name for metric in metrics], ["modules.3D.a.exponent"])
         self.assertAlmostEqual(metrics[0].value, 1.2, places=9)
 
     def test_benchmarks_of_another_commit_are_refused(self):
-        speed_rooms.require_same_commit(google(), "abc")
+        speed_modules.require_same_commit(google(), "abc")
         with self.assertRaisesRegex(DataError, "commit abc, the program at def"):
-            speed_rooms.require_same_commit(google(), "def")
+            speed_modules.require_same_commit(google(), "def")
 
 
 class Profile(unittest.TestCase):
@@ -251,8 +251,8 @@ class Command(ProgramTest):
         self.assertIn("is written", err)
         self.assertEqual(self.numbers()["zhou.0.06.0.2.explicit"]["value"], 8.0)
 
-    def test_rooms_that_are_not_built(self):
-        code, _, err = self.bench("--part", "cases", "--part", "rooms")
+    def test_modules_that_are_not_built(self):
+        code, _, err = self.bench("--part", "cases", "--part", "modules")
         self.assertEqual(code, 2)
         self.assertIn("--target benchmarks", err)
         self.assertEqual(self.calls(), [])
@@ -277,7 +277,7 @@ class Command(ProgramTest):
     def test_bad_input_is_refused_before_anything_is_measured(self):
         self.fake(FAKE_REFUSES="bogus")
         nothing = str(self.folder / "nothing.json")
-        for arguments, part in ((("--part", "romos"), "parts: rooms, cases"), (("--level", "some"), "quick"),
+        for arguments, part in ((("--part", "romos"), "parts: modules, cases"), (("--level", "some"), "quick"),
                                 (("--compare", nothing), "No such file"),
                                 (("--compare", nothing, nothing, nothing), "one file, or two"),
                                 (("--bogus",), "--help"), (("--part", "cases", "--set", "bogus=1"), "not accepted")):

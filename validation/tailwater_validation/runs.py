@@ -59,12 +59,12 @@ class TestRun:
     """The GoogleTest program of a module of the build, for the numbers that the tests matching `tests` record."""
 
     name: str
-    room: str
+    module: str
     tests: str
     seconds: float = 10.0
 
     def file(self, program):
-        return program.path.with_name(f"test_{self.room}")
+        return program.path.with_name(f"test_{self.module}")
 
     def recipe(self, program):
         return {"tests": digest(self.file(program)), "filter": self.tests}

@@ -20,13 +20,13 @@ from pathlib import Path
 from tailwater.command_line import complain
 from tailwater.errors import DataError, IoError
 
-from . import command, speed_profile, speed_report, speed_rooms
+from . import command, speed_profile, speed_report, speed_modules
 from .metric import Metric
 from .runs import INTERRUPTED
 from .speed_runs import WATERS, ZHOU, Runner, box_of_rows, exponent, least, step_cost
 from .text_table import text_table
 
-PARTS = ("rooms", "cases", "growth", "deep", "ranks", "profile")  # the last only if it is asked for
+PARTS = ("modules", "cases", "growth", "deep", "ranks", "profile")  # the last only if it is asked for
 PROFILED_STEPS = 40
 INTEGRATORS = ("explicit", "implicit")
 MEMORY_BARS = {2: 1200, 3: 3000}  # bytes per fluid particle
@@ -42,7 +42,7 @@ class Level:
     zhou: tuple  # (dx, end in sqrt(H/g))
     dam_break_3d: tuple  # (dx, end in s)
     growth: dict  # numbers of fluid particles, by dimension
-    rooms: dict
+    modules: dict
     ranks: dict
     deep: tuple  # rows of depth
     steps: int  # counted
@@ -79,11 +79,11 @@ class Bench:
             self.add(name, what, "", None, note=str(error))
 
     def measure(self, part, options, commit):
-        if part != "rooms":
+        if part != "modules":
             getattr(self, part)()
             return
-        with self.measuring("rooms", "rooms"):
-            for metrics in speed_rooms.measure(rooms_program(options.program), self.level, commit, options.settings,
+        with self.measuring("modules", "modules"):
+            for metrics in speed_modules.measure(modules_program(options.program), self.level, commit, options.settings,
                                                self.say):
                 self.metrics += metrics
 
@@ -162,7 +162,7 @@ class Bench:
 
     def profile(self):
         """Profile of the first steps, start of the run included."""
-        for dimension, sizes in self.level.rooms.items():
+        for dimension, sizes in self.level.modules.items():
             name, what = f"profile.{dimension}D", f"{dimension}D, {sizes[0]:g} particles, where the time goes"
             with self.measuring(name, what):
                 water = WATERS[dimension]
@@ -170,8 +170,8 @@ class Bench:
                 self.metrics += speed_profile.measure(self.runner, dimension, run)
 
 
-def rooms_program(program):
-    return program.with_name("bench_rooms")
+def modules_program(program):
+    return program.with_name("bench_modules")
 
 
 def choose_parts(options):
@@ -183,13 +183,13 @@ def choose_parts(options):
     if "profile" in options.parts:
         speed_profile.require_perf()
     chosen = [name for name in PARTS if name in (options.parts or PARTS[:-1])]
-    if "rooms" in chosen and not rooms_program(options.program).is_file():
-        remedy = (f"the benchmarks of the rooms are not built; remedy: scripts/install.sh benchmarks, then "
+    if "modules" in chosen and not modules_program(options.program).is_file():
+        remedy = (f"the benchmarks of the modules are not built; remedy: scripts/install.sh benchmarks, then "
                   f"cmake --build {options.program.parent.parent} --target benchmarks")
         if options.parts:
             raise DataError(remedy)
         print(f"left out: {remedy}", file=sys.stderr)
-        chosen.remove("rooms")
+        chosen.remove("modules")
     return chosen
 
 
@@ -230,7 +230,7 @@ def make_parser():
     parser.add_argument("--level", choices=LEVELS, default="quick",
                         help="tiny: seconds, to test the benchmark; quick: three minutes; full: hours, on an idle machine")
     parser.add_argument("--part", action="append", default=[], metavar="NAME", dest="parts",
-                        help="part to measure: rooms (modules), cases, growth, deep, ranks or profile; may be repeated "
+                        help="part to measure: modules, cases, growth, deep, ranks or profile; may be repeated "
                         "(default: all except profile, which needs perf)")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
                         help="override a key in all runs; may be repeated")

@@ -1,4 +1,4 @@
-"""The benchmarks of the modules: runs the program bench_rooms (benchmarks/) and reads what Google Benchmark writes."""
+"""The benchmarks of the modules: runs the program bench_modules (benchmarks/) and reads what Google Benchmark writes."""
 
 import json
 import subprocess
@@ -46,7 +46,7 @@ def run(program, arguments, min_time, repetitions):
 def require_same_commit(result, commit):
     told = json.loads(result["context"]["provenance"])["commit"]
     if told != commit:
-        raise DataError(f"bench_rooms was built at commit {told}, the program at {commit}; remedy: build both")
+        raise DataError(f"bench_modules was built at commit {told}, the program at {commit}; remedy: build both")
 
 
 def metrics_of(label, dimension, result):
@@ -55,7 +55,7 @@ def metrics_of(label, dimension, result):
     fluid = int(context["fluid"])
 
     def metric(name, what, unit, value, high=None):
-        return Metric(f"rooms.{label}.{name}", f"{label}, {what}", unit, "", high=high, value=value)
+        return Metric(f"modules.{label}.{name}", f"{label}, {what}", unit, "", high=high, value=value)
 
     metrics = [metric(name, name, "ns per fluid particle", 1e9 * seconds / fluid)
                for name, (seconds, _) in found.items()]
@@ -83,7 +83,7 @@ def growth(dimension, results):
     found = [(int(result["context"]["fluid"]), times(result)) for result in results]
     shared = [name for name in found[0][1] if all(name in other for _, other in found)]
     sizes = [fluid for fluid, _ in found]
-    return [Metric(f"rooms.{dimension}D.{name}.exponent", f"{dimension}D, {name}: growth with particles", "exponent",
+    return [Metric(f"modules.{dimension}D.{name}.exponent", f"{dimension}D, {name}: growth with particles", "exponent",
                    "", value=exponent(sizes, [other[name][0] for _, other in found])) for name in shared]
 
 
@@ -98,11 +98,11 @@ def measure(program, level, commit, settings, say):
     """Yields the numbers of the modules, flow by flow. Throws DataError if the program fails."""
     say("the machine")
     yield machine(run(program, ["machine"], level.min_time, level.repeats))
-    for dimension, sizes in level.rooms.items():
+    for dimension, sizes in level.modules.items():
         results = []
         for particles in sizes:
             water = WATERS[dimension]
-            say(f"rooms, {dimension}D, {particles:g} particles")
+            say(f"modules, {dimension}D, {particles:g} particles")
             words = ["--steps", str(level.steps)]
             for setting in (*settings, *water.at(water.spacing(particles)), "particles.jitter=0.1"):
                 words += ["--set", setting]
