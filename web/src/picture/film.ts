@@ -29,6 +29,7 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
   const chunks: Blob[] = [];
   recorder.ondataavailable = (event) => chunks.push(event.data);
   const ended = new Promise<void>((resolve) => (recorder.onstop = () => resolve()));
+  const taken = watch(stream);
   const n = pictures(plan);
   const before = app.player.time;
   let whole = true;
@@ -41,8 +42,9 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
     await shown(app, plan.from + ((plan.to - plan.from) * i) / (n - 1));
     recorder.resume();
     compose(app, canvas);
+    const isTaken = taken();
     track.requestFrame();
-    await new Promise((resolve) => setTimeout(resolve, 1000 / plan.rate));
+    await Promise.all([isTaken, new Promise((resolve) => setTimeout(resolve, 1000 / plan.rate))]);
     whole = tell((i + 1) / n);
   }
   recorder.stop();
@@ -51,6 +53,20 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
   app.recording = false;
   app.player.seek(before);
   return whole ? new Blob(chunks, { type: recorder.mimeType }) : null;
+}
+
+/** A function whose promise resolves when the stream has taken its next picture: on a busy machine tens of milliseconds
+ * after the request, when a paused recorder would miss it. */
+function watch(stream: MediaStream): () => Promise<void> {
+  const video = document.createElement("video");
+  video.muted = true;
+  video.srcObject = stream;
+  void video.play().catch(() => {});
+  return () =>
+    new Promise((resolve) => {
+      video.requestVideoFrameCallback(() => resolve());
+      setTimeout(resolve, 1000); // a picture that never comes must not hold the film up
+    });
 }
 
 /** Shows a moment and waits until its own frames are on the screen. */
