@@ -71,7 +71,7 @@ GROUPS = {
 PASSED = {"case-not-readable": "the case cannot be read", "expression-invalid": "the place in the expression and its fault",
           "linked-file": "the line of the named file and its fault", "list-expected": "give a list of …",
           "override-misplaced": "the key of --set does not exist, or is not written as table.key=value",
-          "checkpoint-damaged": "the faults of the newest checkpoints; going on from the last whole one"}
+          "checkpoint-damaged": "the faults of the newest checkpoints; continuing from the last intact one"}
 MADE = re.compile(r"\b(?P<maker>Finding::(?:error|warning)|CaseError|(?:tailwater::)?warn|error|wrong|missing|add|add_override"
                   r"|report|refuse)\(\s*\"(?P<id>[a-z0-9]+(?:-[a-z0-9]+)+)\",\s*")
 LITERAL = r'"((?:[^"\\]|\\.)*)"'

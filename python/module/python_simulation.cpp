@@ -214,7 +214,7 @@ void PythonSimulation<Dim>::tell_of_script() {
   if (!output_) return;
   warn("script-acts-on-flow",
        "a script acts on the flow from t = {:.4f} s on: the case file alone does not give these results, and tailwater "
-       "resume goes on without the script",
+       "resume continues without the script",
        state().time);
 }
 

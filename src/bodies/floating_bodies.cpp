@@ -25,9 +25,9 @@ void require_thin_liquids(const CaseSpec& spec, const Setup<Dim>& setup) {
   }
   if (thick == nullptr) return;
   throw CaseError("body-in-thick-liquid",
-                  {"{} floats beside {}, whose viscous forces are too large for a body that its friction moves",
+                  {"{} floats beside {}, which is too viscous: its friction on a body that moves is not computed",
                    CaseLabel("body", spec.bodies[0].name), CaseLabel("liquid", thick->name)},
-                  {"hold the body as a wall, or give the liquid less viscosity"});
+                  {"draw the body as a wall, or give the liquid less viscosity"});
 }
 
 template <int Dim>

@@ -174,7 +174,7 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
     if (node == nullptr || spec.pockets[k].overpressure > -spec.air.pressure) continue;
     problems.wrong(
         "pocket-without-pressure", CaseLabel("pocket", k).with_key("overpressure"), *node,
-        fmt::format("leaves no pressure of the atmosphere's {:.9g} Pa (air.pressure); give more than {:.9g} Pa",
+        fmt::format("is not above a vacuum: the atmosphere has {:.9g} Pa (air.pressure); give more than {:.9g} Pa",
                     spec.air.pressure, -spec.air.pressure));
   }
   const toml::node* node = root["air"]["pockets"].node();
@@ -205,8 +205,8 @@ void check_porous(const CaseSpec& spec, const toml::table& root, Problems& probl
       spec.porous, [](const PorousTable& layer) { return layer.resistance == PorousResistance::coefficients; });
   if (has_coefficients && gravity_magnitude(spec.physics) == 0.0) {
     wrong("porous-without-gravity",
-          "without gravity there is no hydraulic gradient, whose coefficients these are; give a grain_size and another "
-          "resistance");
+          "without gravity there is no hydraulic gradient, so its coefficients have no meaning; give a grain_size and "
+          "another resistance");
   }
   if (spec.air.pockets != AirPockets::none) {
     wrong("porous-beside-air",

@@ -80,7 +80,7 @@ void TableReader::number(std::string_view key, double& value, std::string_view u
   if (!given) return;
   if (is_too_small(*given, range)) {
     wrong("number-too-small", key, *node,
-          fmt::format("too small to be meant; give {}a number of at least {:g}{}", range.low_is_excluded ? "" : "0 or ",
+          fmt::format("implausibly small; give {}a number of at least {:g}{}", range.low_is_excluded ? "" : "0 or ",
                       smallest_number, in_unit(unit)));
   } else if (range.contains(*given)) {
     value = *given;

@@ -272,7 +272,7 @@ void check(const InletTable& inlet, TableReader& reader) {
   check_section(inlet, reader);
   if (inlet.reserve > 0.0 && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
     reader.wrong("reserve-without-circuit", "reserve",
-                 "is water that waits to circulate; give water_from, the outlet whose water enters, or remove it");
+                 "is the water that waits to circulate; give water_from, the outlet whose water enters, or remove it");
   }
 }
 

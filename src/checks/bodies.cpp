@@ -80,8 +80,8 @@ Findings check_inertia(const CaseSpec& spec, const FloatingBody<Dim>& body) {
     const double least = least_radius_of_inertia * spec.particles.spacing;
     if (radius >= least) continue;
     return {Finding::error("inertia-too-small",
-                           {"{} = {:.4g} puts its {:.4g} kg only {:.3g} m from their centre, less than {} spacings: "
-                            "its rotation cannot be computed from the pressure of the particles",
+                           {"{} = {:.4g} with a mass of {:.4g} kg means a radius of inertia of {:.3g} m, less than {} "
+                            "spacings: the rotation cannot be computed from the pressure of the particles",
                             CaseLabel("body", body.name).with_key("inertia"), Amount{inertia, "kg m^2"}, body.mass,
                             radius, least_radius_of_inertia},
                            {"give an inertia of at least {:.3g} kg m^2, or leave the rotation out of `free`",

@@ -76,7 +76,7 @@ Finding body_gap_finding(const CaseSpec& spec, const Boundary<Dim>& boundary, co
       gap.width > 0.1 * dx ? Clause(", or use a spacing of at most {:.3g} m", 0.99 * gap.width / least_sum) : Clause();
   return Finding::error(
       "body-gaps-too-narrow",
-      {"the gaps on both sides of {}, as that to {} at {}, are together {:.3g} wide, {:.2g} spacings: "
+      {"the gaps on both sides of {}, such as the gap to {} at {}, are together {:.3g} wide, {:.2g} spacings: "
        "water cannot pass the body",
        CaseLabel("body", body), wall_label(boundary, gap.wall), place(gap.where), Amount{gap.width, "m"},
        gap.width / dx},

@@ -260,10 +260,12 @@ class EndFlowCheck {
         return;
       }
       if (level < before) {
-        warn("rating-curve-falls",
-             {"{} falls from {:.4g} to {:.4g} where q grows to {:.4g}: what flows out lowers the level, and draws more",
-              label_.with_key("level"), Amount{before, "m"}, level, Amount{q, discharge_unit}},
-             {"give an expression that grows with q"});
+        warn(
+            "rating-curve-falls",
+            {"{} falls from {:.4g} to {:.4g} where q grows to {:.4g}: outflow would lower the level, and a lower level "
+             "would increase the outflow",
+             label_.with_key("level"), Amount{before, "m"}, level, Amount{q, discharge_unit}},
+            {"give an expression that grows with q"});
         return;
       }
       if (level > end_.floor + end_.height && !has_lid_) {

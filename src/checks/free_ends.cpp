@@ -29,7 +29,7 @@ Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn) {
           "wall-ends-at-moving-wall",
           {"{} ends at {}, where the moving {} begins: once that wall has moved, a gap is left at this end",
            wall_label(drawn, face.wall), place(end), wall_label(drawn, moving)},
-          {"draw the resting wall on by {:.6g} m or more", dummy_layers(spec) * dx}));
+          {"extend the resting wall by {:.6g} m or more", dummy_layers(spec) * dx}));
     }
   }
   return findings;

@@ -26,8 +26,8 @@ class SpringSteps {
     if (ratio <= worth_a_warning) return;
     findings_.push_back(Finding::warning(
         "spring-slows-run",
-        {"{} = {:.3g} swings its body with a period of {:.2g}, for which a time step has at most {:.2g} s, and the "
-         "water needs {:.2g} s: the run takes about {:.2g} times as many steps",
+        {"{} = {:.3g} moves its body with a period of {:.2g}, which needs time steps of at most {:.2g} s instead of "
+         "{:.2g} s: the run takes about {:.2g} times as many steps",
          key, stiffness, Amount{2.0 * std::numbers::pi / frequency, "s"}, step, step_, ratio},
         {"give at most {:.2g}, or remove the motion from `free`", stiffness / (ratio * ratio)}));
   }

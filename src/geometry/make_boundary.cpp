@@ -87,8 +87,8 @@ void append_chain(const WallTable& table, int wall, const CaseLabel& owner, doub
                       {"remove one of them"});
     }
     throw CaseError("wall-points-too-close",
-                    {"{}[{}] and points[{}] are {:.3g} apart at {}, which is nothing beside a spacing of {:.6g} m", key,
-                     k, next, Amount{length, "m"}, place(points[k]), spacing},
+                    {"{}[{}] and points[{}] are {:.3g} apart at {}, too close for a spacing of {:.6g} m", key, k, next,
+                     Amount{length, "m"}, place(points[k]), spacing},
                     {"use a smaller spacing, or remove one of the points"});
   }
 
@@ -205,7 +205,7 @@ void append_plate(const WallTable& table, int wall, const CaseLabel& owner, doub
       throw CaseError(
           "plate-not-rectangle",
           {"{}: its {} points are not the corners of a rectangle, as a plate in 3D needs", owner, corners.size()},
-          {"give four, in the order in which one walks around it, with right angles"});
+          {"give its four corners in order, with right angles between its edges"});
     }
     const Vec<3> normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
     for (const WallFace<3>& face : rectangle_faces(corners, normal, wall)) boundary.faces.push_back(face);

@@ -59,11 +59,11 @@ void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary)
   for (const PorousTable& table : spec.porous) {
     const Box<Dim> layer = PorousRegion<Dim>(spec, table).box();
     if (table.grain_size > layer.sizes().minCoeff()) {
-      throw CaseError(
-          "porous-grains-too-large",
-          {"{} = {:g}: the layer is only {:.4g} thick", CaseLabel("porous", table.name).with_key("grain_size"),
-           Amount{table.grain_size, "m"}, Amount{layer.sizes().minCoeff(), "m"}},
-          {"give the size of the grains in metres"});
+      throw CaseError("porous-grains-too-large",
+                      {"{} = {:g} is larger than the thickness of the layer, {:.4g}",
+                       CaseLabel("porous", table.name).with_key("grain_size"), Amount{table.grain_size, "m"},
+                       Amount{layer.sizes().minCoeff(), "m"}},
+                      {"give the size of the grains in metres"});
     }
     if (box.intersects(layer)) continue;
     throw CaseError("porous-layer-outside-walls",

@@ -83,8 +83,8 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
       if (chosen.is_named(face.wall)) box.extend(face.box());
     }
     throw CaseError("probe-region-without-wall",
-                    {"{}: its region holds no part of the walls it is for, which reach from {} to {} as they are drawn",
-                     label(probe), place<Dim>(box.min()), place<Dim>(box.max())},
+                    {"{}: its region contains no part of its walls, which are drawn from {} to {}", label(probe),
+                     place<Dim>(box.min()), place<Dim>(box.max())},
                     {"choose region_min and region_max around the part you mean"});
   }
   return shares;

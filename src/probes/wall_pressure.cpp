@@ -43,7 +43,7 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
       throw CaseError(
           "probe-on-plate",
           {"{}: {} is on {}, a plate that has water on both sides", label(probe), place(x), wall_label(boundary, wall)},
-          {"move it by a millimetre to the side that is meant"});
+          {"move it by a millimetre to the side that it is to read"});
     }
     point += tolerance * boundary.faces[nearest.face].normal;
   }

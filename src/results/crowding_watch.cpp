@@ -28,7 +28,7 @@ void CrowdingWatch::check(const Flow<Dim>& flow, double largest_error) {
                          "water; pressures near the place and the discharge past it are not reliable",
                          flow.state.time, place(densest.position), densest.is_prescribed ? ", beyond an opening" : "",
                          1.0 + densest.error},
-                        {"remedy: use a smaller particles.spacing, or move an opening beside the place to a section "
+                        {"use a smaller particles.spacing, or move an opening beside the place to a section "
                          "that the water passes evenly"}));
 }
 

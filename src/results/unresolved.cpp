@@ -79,7 +79,7 @@ Findings unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder, cons
         Finding::warning("surface-not-resolved",
                          {"at {} {} {:.3g} m or less, {:.2g} spacings: {} of less than {:g} spacings are not resolved",
                           gauges.text(), what, gauges.largest, gauges.rows, thing, lowest_resolved_wave},
-                         {"remedy: use a spacing of at most {:.3g} m", 0.99 * gauges.largest / lowest_resolved_wave}));
+                         {"use a spacing of at most {:.3g} m", 0.99 * gauges.largest / lowest_resolved_wave}));
   };
   add(waves, "the surface moved by", "waves");
   add(films, "the largest depth was", "films");

@@ -55,7 +55,7 @@ std::optional<SealedFile> find_checkpoint(const RunOptions& options, fs::path& f
   for (const fs::path& path : checkpoints_in(options.out)) {
     try {
       SealedFile file = read_sealed_file(path);
-      if (!problems.empty()) warn("checkpoint-damaged", "{}; going on from '{}'", problems, path.string());
+      if (!problems.empty()) warn("checkpoint-damaged", "{}; continuing from '{}'", problems, path.string());
       found = path;
       return file;
     } catch (const IoError& error) {

@@ -226,7 +226,7 @@ class Checkpoints(Resumed):
                 self.checkpoints(name)[1].write_bytes(damage(content))
                 result = self.call("resume", name, "--set", WHOLE)
                 self.assertRegex(result.stderr, rf"warning: checkpoint '{name}/checkpoints/{newer.name}' is damaged")
-                self.assertIn(f"going on from '{name}/checkpoints/{older.name}'", result.stderr)
+                self.assertIn(f"continuing from '{name}/checkpoints/{older.name}'", result.stderr)
                 assert_same_results(self, name, "whole", apart_from=("warnings", ))
                 self.assertIn(newer.name, *self.summary(name)["warnings"])
         self.assertNotEqual(older, newer)

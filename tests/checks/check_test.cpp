@@ -266,7 +266,7 @@ TEST(Check, BodyThatTurnsTooEasily) {
   spec.bodies[0].mass = 100.0;
   spec.bodies[0].inertia = {1e-4};
   expect_only(check_bodies<2>(spec, make_boundary<2>(spec)), Severity::error,
-              {"body 'b': inertia", "0.001 m from their centre", "0.05 spacings", "at least 0.000631 kg m^2"});
+              {"body 'b': inertia", "radius of inertia of 0.001 m", "0.05 spacings", "at least 0.000631 kg m^2"});
   spec.bodies[0].inertia = {7e-4};
   EXPECT_TRUE(check_bodies<2>(spec, make_boundary<2>(spec)).empty());
   spec.bodies[0].inertia = {1e-4};
@@ -705,7 +705,7 @@ TEST(Check, SpringsThatNeedManyMoreStepsThanTheWaterAreReported) {
   EXPECT_TRUE(slow().empty()) << listed(slow());
   spec.bodies[0].springs = {0, 1e12, 0};
   expect_only(slow(), Severity::warning,
-              {"body 'boat': springs = 1e+12 swings its body with a period of 6.3e-05 s", "times as many steps"});
+              {"body 'boat': springs = 1e+12 moves its body with a period of 6.3e-05 s", "times as many steps"});
   spec.bodies[0].free = {"x"};
   EXPECT_TRUE(slow().empty()) << "the spring has no effect";
   MooringTable line;
