@@ -243,17 +243,17 @@ double NarrowGaps<Dim>::film_share(double width) const {
   return std::clamp((widest_film() - width) / fading_film, 0.0, 1.0);
 }
 
-/// Fraction of the missing pair forces that is added: 1 beside a gap too narrow for a row of particles. Of a fixed hull
-/// with such a gap all pieces have it. Where it changed along the hull, the parts along the surface, which cancel over
-/// the whole, did not.
+/// Fraction of the missing pair forces that is added: 1 beside a gap too narrow for a row of particles. All pieces of a
+/// fixed hull with such a gap have this fraction. If it changed along the hull, the force components along the surface
+/// would no longer cancel over the whole hull.
 template <int Dim>
 double NarrowGaps<Dim>::share_beside(const Piece& piece) const {
   if (hulls_.can_stand) return film_share(narrowest_[static_cast<std::size_t>(piece.hull)]);
   return std::clamp((resolved_gap - piece.nearest / piece.spacing) / (resolved_gap - open_gap), 0.0, 1.0);
 }
 
-/// Weight of a piece, or of a pair that acts `beyond` [m] it along the surface, by the distance from the wall beside a
-/// narrow gap. Up to half a support there are pairs that the space of the wall lacks.
+/// Weight of a piece beside a narrow gap, or of a pair that acts `beyond` [m] it along the surface. The weight depends
+/// on the distance from the other wall: up to half a support the pairs in the space of this wall are missing.
 template <int Dim>
 double NarrowGaps<Dim>::share_at(const Piece& piece, double beyond) const {
   if (hulls_.can_stand) return 1.0;

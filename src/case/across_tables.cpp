@@ -65,7 +65,7 @@ void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Probl
   }
 }
 
-/// A fill has its surface across the last axis. It may lie along a sloping bed in axes that are turned with it.
+/// The surface of a fill is perpendicular to the last axis. The axes may be turned along a sloping bed.
 void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   constexpr double least_downward = 0.5;  // cosine between gravity and the way down along that axis
   const double g = gravity_magnitude(spec.physics);

@@ -25,7 +25,7 @@
 namespace tailwater {
 namespace {
 
-/// Weight of patches that take no part in a force, over that of the others. It counts where there are no others.
+/// Relative weight of patches that take no part in a force. It matters only where there are no other patches.
 constexpr double weight_of_others = 1e-6;
 
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
@@ -121,8 +121,8 @@ class WallForceProbe {
     return found;
   }
 
-  /// Beside another wall the pressure's force on a hull is not that of its pairs alone. The rest has its reaction on
-  /// that wall, so the sum of all walls stays. Collective.
+  /// Beside another wall the pressure force on a hull is more than the force of its pairs. The difference has its
+  /// reaction on that wall, so the sum over all walls does not change. Collective.
   WallLoads<Dim> loads_beside_walls(const ProbeContext<Dim>& context,
                                     const std::vector<AffineMap<Dim>>& velocity) const {
     WallLoads<Dim> sum;
@@ -217,8 +217,8 @@ class WallForceProbe {
 
   Moment<Dim> moment(const Vec<Dim>& x, const Vec<Dim>& force) const { return moment_of<Dim>(x - about_, force); }
 
-  /// All loads through owned particle i. Friction acts on the wall itself, and the arm of the pressure, which is across
-  /// the wall, is the same there.
+  /// All loads through owned particle i. The moment of friction is taken from the wall itself. Pressure acts across the
+  /// wall, so its moment is the same from the particle as from the wall.
   WallLoads<Dim> loads_at(const ProbeContext<Dim>& context, std::size_t i) const {
     WallLoads<Dim> loads;
     loads.pressure = context.wall_forces->pressure[i] + context.wall_forces->through_water[i];
@@ -234,7 +234,7 @@ class WallForceProbe {
     return wall.face < 0 ? x : wall.point;
   }
 
-  /// The part of the loads through particle i that patches with these shares take.
+  /// The part of the loads through particle i on patches of which the fractions `taken` count.
   WallLoads<Dim> part_of(const WallLoads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
                          const std::vector<AffineMap<Dim>>& velocity, std::span<const double> taken) const {
     const Vec<Dim>& x = context.particles.position[i];

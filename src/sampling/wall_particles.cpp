@@ -12,12 +12,12 @@
 namespace tailwater {
 namespace {
 
-/// dx; farther than the particles behind a wall are from it.
+/// dx; search radius for the wall of a wall particle, which is nearer to its wall.
 constexpr double reach_to_wall = 8.0;
-/// Smallest part of half a cell that a plate cuts off; smaller ones are left where they are.
+/// Fraction of half a cell. A plate that cuts off less than this does not divide the cell.
 constexpr double least_part = 0.05;
 
-// Which function samples the walls in each dimension.
+// The functions that sample the walls in each dimension.
 WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
   return sample_chains(body, layers);
 }
@@ -28,8 +28,8 @@ WallParticles<3> sample(const Boundary<3>& body, const WallLayers& layers, const
   return std::move(collector).particles();
 }
 
-/// Appends `part` to `all`, where `on_wall` numbers of particles on the wall, and `behind` of those behind it, are
-/// taken.
+/// Appends `part` to `all`. Earlier parts have taken `on_wall` of the numbers for particles on the wall, and `behind`
+/// of those for particles behind it.
 template <int Dim>
 void append(WallParticles<Dim>& all, WallParticles<Dim> part, std::int64_t on_wall, std::int64_t behind) {
   for (std::int64_t& number : part.number) {
@@ -74,7 +74,7 @@ Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
   alone.walls = boundary.walls;
   std::ranges::copy_if(boundary.meshes, std::back_inserter(alone.meshes),
                        [&](const WallMesh& mesh) { return boundary.walls[mesh.wall].body == body; });
-  // Meshes first: their faces are consecutive.
+  // Meshes come first, because their faces must stay consecutive.
   for (WallMesh& mesh : alone.meshes) {
     const auto from = boundary.faces.begin();
     const int first = static_cast<int>(alone.faces.size());
@@ -117,7 +117,7 @@ void append_part(WallParticles<Dim>& parts, const WallParticles<Dim>& whole, std
   parts.number.back() = number;
 }
 
-/// The screen of a plate nearer to `x` than `distance`, drawn on behind the wall of `x`; null if there is none.
+/// The screen of a plate that is nearer to `x` than `distance` and extends behind the wall of `x`; null without one.
 template <int Dim>
 const Screen<Dim>* plate_through(const Boundary<Dim>& boundary, const Vec<Dim>& x, double distance) {
   for (const int s : boundary.screens_near(x, distance)) {
@@ -172,7 +172,7 @@ Mat<Dim> axes_at_wall(const Boundary<Dim>& boundary, const NearestWall<Dim>& wal
   return axes;
 }
 
-/// Whether the particles of each wall stand on the lattice of the water: those of meshes.
+/// For each wall, whether its particles stand on the lattice of the water, as those of meshes do.
 template <int Dim>
 std::vector<bool> walls_on_lattice(const Boundary<Dim>& boundary) {
   std::vector<bool> on_lattice(boundary.walls.size(), false);
@@ -183,7 +183,7 @@ std::vector<bool> walls_on_lattice(const Boundary<Dim>& boundary) {
   return on_lattice;
 }
 
-/// The particles of these walls alone.
+/// The particles of walls on the lattice of the water, without those of other walls.
 template <int Dim>
 WallParticles<Dim> sample_on_lattice(const Boundary<Dim>& boundary, const WallLayers& layers,
                                      const Lattice<Dim>& lattice) {
@@ -205,8 +205,8 @@ WallParticles<Dim> sample_on_lattice(const Boundary<Dim>& boundary, const WallLa
   return joined(std::move(parts));
 }
 
-/// How often the edges of a wall particle are halved whose wall is nearest here. Zones that move may come to any wall
-/// at rest.
+/// Number of times that the edges of a wall particle at `x` are halved; `wall` is the wall nearest to it. Walls at rest
+/// have the finest level if a zone moves, because it may come to any of them.
 template <int Dim>
 int level_at(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, const NearestWall<Dim>& wall,
              const Vec<Dim>& x) {
@@ -216,7 +216,7 @@ int level_at(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, cons
   return static_cast<int>(std::lround(-std::log2(spacing)));
 }
 
-/// The levels of cells of a lattice.
+/// The level of each cell of a lattice: the number of times that its edges are halved.
 template <int Dim>
 struct LevelsOfCells {
   const SpacingField<Dim>& field;
@@ -224,7 +224,7 @@ struct LevelsOfCells {
   double spacing;
   const Lattice<Dim>& lattice;
 
-  /// That of the cell that holds x.
+  /// The level of the cell that contains x.
   int at(const Vec<Dim>& x) const {
     const auto centre =
         Vec<Dim>::NullaryExpr([&](int axis) { return lattice[axis].centre(lattice[axis].cell_at(x[axis])); });
@@ -243,8 +243,8 @@ Boundary<Dim> plain_walls(const Boundary<Dim>& boundary) {
   return plain;
 }
 
-/// The rows of dummies of one spacing behind plain walls. Parts of coarser rows take over their normals, which differ
-/// beside edges of walls. Every rank makes all of them.
+/// The rows of dummies of one spacing behind plain walls. Parts of coarser particles get the normals of these rows,
+/// because beside edges of walls the normals of coarser rows differ. Every rank makes all rows.
 template <int Dim>
 class RowsOfSpacing {
  public:
@@ -254,7 +254,7 @@ class RowsOfSpacing {
     for (const Vec<Dim>& x : rows_.position) places_.add(x);
   }
 
-  /// Gives the last of `parts` the normals of the row that is nearest to it, if one of its wall is near.
+  /// Gives the last of `parts` the normals of the nearest particle of the same wall, if one is near.
   void give_normals(WallParticles<Dim>& parts) const {
     const Vec<Dim>& x = parts.position.back();
     int nearest = -1;
@@ -279,8 +279,8 @@ void append_level(const LevelsOfCells<Dim>& levels, int level, const WallLayers&
   const int per_edge = 1 << level;
   Lattice<Dim> finer = levels.lattice;
   for (LatticeAxis& axis : finer) axis = axis.divided(per_edge);
-  // One more layer: up to half a level before the next one, supports are larger. Beside zones that move, they may be
-  // those of the case.
+  // Supports are larger near a coarser level, so one more layer is needed. Beside zones that move, supports may be
+  // those of the spacing of the case.
   const int count = levels.field.carrier() < 0 ? layers.count + 1 : layers.count * per_edge;
   const WallParticles<Dim> fine =
       sample_on_lattice<Dim>(levels.boundary, {layers.spacing / per_edge, count, false, layers.share}, finer);

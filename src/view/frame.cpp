@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little, "frames are written in
 
 constexpr std::string_view magic = "TWVF";
 
-/// Level of libdeflate: the second saves 6 % in ten times the time.
+/// Compression level of libdeflate. The higher one makes frames 6 % smaller and takes ten times as long.
 constexpr int level_of(Deflation deflation) { return deflation == Deflation::quick ? 1 : 9; }
 
 /// Upper bound of the size of a frame of a run.
@@ -51,7 +51,7 @@ void put_varint(std::string& bytes, std::uint64_t number) {
   bytes.push_back(static_cast<char>(number));
 }
 
-/// Takes numbers off the front of bytes. Throws IoError where they end too early.
+/// Reads numbers from the front of bytes. Throws IoError if the bytes end too early.
 class Taker {
  public:
   explicit Taker(std::string_view bytes) : rest_(bytes), size_(bytes.size()) {}
@@ -87,7 +87,7 @@ class Taker {
 
 // ---- Sets of particles.
 
-/// The places of the particles of a frame in an earlier one with other particles: `nowhere` for those that came since.
+/// For each particle of a frame, its index in an earlier frame with other particles; `nowhere` for new particles.
 std::vector<std::uint32_t> numbers_in(const std::vector<std::int64_t>& earlier, const std::vector<std::int64_t>& now) {
   std::vector<std::uint32_t> places(now.size(), nowhere);
   std::size_t k = 0;
@@ -167,7 +167,7 @@ class Earlier {
     if (!is_same_) places_ = numbers_in(earlier.id, now);
   }
 
-  /// A column of the earlier frame; particles that came since have the number of `otherwise`.
+  /// A column of the earlier frame; new particles have the number of `otherwise`.
   template <class Number>
   std::vector<Number> column(const std::vector<Number>& earlier, std::vector<Number> otherwise) const {
     if (is_same_) return earlier;
@@ -189,7 +189,7 @@ class Earlier {
   std::vector<std::uint32_t> places_;
 };
 
-/// The prediction of the particles of a frame from the previous ones: columns in their order.
+/// Predicts the columns of a frame from the previous frames, in the order of its particles.
 class Predictor {
  public:
   Predictor(int order, const std::vector<std::int64_t>& now, const FramesBefore& before)
