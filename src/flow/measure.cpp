@@ -72,9 +72,10 @@ template <int Dim>
 WaterAmount amount_of(const Flow<Dim>& flow, std::span<const std::size_t> water) {
   WaterAmount amount = sum_over(water.size(), WaterAmount{}, [&](std::size_t n) -> WaterAmount {
     const std::size_t i = water[n];
-    return {1, flow.water_volume_of(i), flow.potential_energy_of(i) + flow.kinetic_energy_of(i)};
+    const double volume = flow.water_volume_of(i);
+    return {1, volume, flow.density_of(i) * volume, flow.potential_energy_of(i) + flow.kinetic_energy_of(i)};
   });
-  flow.setup.ranks.sum_each(amount.particles, amount.volume, amount.energy);
+  flow.setup.ranks.sum_each(amount.particles, amount.volume, amount.mass, amount.energy);
   return amount;
 }
 

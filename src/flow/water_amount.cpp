@@ -7,6 +7,7 @@ namespace tailwater {
 WaterAmount& WaterAmount::operator+=(const WaterAmount& other) {
   particles += other.particles;
   volume += other.volume;
+  mass += other.mass;
   energy += other.energy;
   return *this;
 }
@@ -14,14 +15,15 @@ WaterAmount& WaterAmount::operator+=(const WaterAmount& other) {
 WaterAmount& WaterAmount::operator-=(const WaterAmount& other) {
   particles -= other.particles;
   volume -= other.volume;
+  mass -= other.mass;
   energy -= other.energy;
   return *this;
 }
 
-TAILWATER_SAVED(, WaterAmount, particles, volume, energy)
+TAILWATER_SAVED(, WaterAmount, particles, volume, mass, energy)
 
-Json summary_of(const WaterAmount& water, double density) {
-  return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", density * water.volume}};
+Json summary_of(const WaterAmount& water) {
+  return {{"particles", water.particles}, {"volume_m3", water.volume}, {"mass_kg", water.mass}};
 }
 
 }  // namespace tailwater

@@ -11,6 +11,7 @@ namespace tailwater {
 struct WaterAmount {
   std::int64_t particles = 0;
   double volume = 0.0;  ///< m^Dim
+  double mass = 0.0;    ///< kg
   double energy = 0.0;  ///< J; kinetic and potential, of water that entered or left the flow, at that instant
 
   WaterAmount& operator+=(const WaterAmount& other);
@@ -22,7 +23,7 @@ void to_json(Json& json, const WaterAmount& all);
 /// Throws Json::exception if one is missing or of another type.
 void from_json(const Json& json, WaterAmount& all);
 
-/// Number, volume and mass, for the summary; `density` in kg/m^3.
-Json summary_of(const WaterAmount& water, double density);
+/// Number, volume and mass, for the summary.
+Json summary_of(const WaterAmount& water);
 
 }  // namespace tailwater

@@ -232,9 +232,9 @@ bool OpenEnds<Dim>::bring_in(Flow<Dim>& flow) {
     if (!ends_[e].is_driven()) continue;
     const OpenEnd<Dim>& end = ends_[e];
     OpenEndState& state = states_[e];
-    const std::vector<Entrant<Dim>> entrants = end.circuit < 0
-                                                   ? find_entrants(end, state, flow, liquids_[e], std::nullopt)
-                                                   : find_returning(end, state, flow, liquids_[e], sump(end.circuit));
+    const std::vector<Entrant<Dim>> entrants =
+        end.circuit < 0 ? find_entrants(end, state, flow, liquids_[e], std::nullopt)
+                        : find_returning(end, state, flow, liquids_[e], sump(end.circuit, setup.liquid.density));
     if (entrants.empty()) continue;
     some_came = true;
     const std::int64_t first_id = setup.first_wall_id + flow.walls.particles.numbers;
@@ -252,9 +252,8 @@ bool OpenEnds<Dim>::bring_in(Flow<Dim>& flow) {
       const double density =
           are_several ? setup.liquids.density[static_cast<std::size_t>(entrant.liquid)] : setup.liquid.density;
       const double mass = density * entrant.volume;
-      if (are_several) state.arrived_mass += mass;
-      state.arrived +=
-          {1, entrant.volume, mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
+      state.arrived += {1, entrant.volume, mass,
+                        mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
     }
   }
   return some_came;

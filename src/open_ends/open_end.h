@@ -64,8 +64,6 @@ struct OpenEndState {
   double asked_total = 0.0;  ///< m^Dim; prescribed volume in both directions together
   WaterAmount departed;
   WaterAmount arrived;
-  double departed_mass = 0.0;    ///< kg; beside several liquids
-  double arrived_mass = 0.0;     ///< kg; likewise
   std::int64_t short_steps = 0;  ///< steps in which more would have entered than waited to circulate
 };
 

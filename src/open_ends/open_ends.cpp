@@ -22,7 +22,7 @@ TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
 TAILWATER_SAVED(inline, LeavingWave, height, number, swing, swing_rate)
 TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, delayed_speed, acceleration, mean_speed, mean_discharge,
                 invariant, surface, depth, level, is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows,
-                wave, miss, asked, asked_total, departed, arrived, departed_mass, arrived_mass, short_steps)
+                wave, miss, asked, asked_total, departed, arrived, short_steps)
 
 namespace {
 
@@ -32,10 +32,8 @@ Json json_of_miss(const LevelError& miss) {
   return {{"by_m", miss.most}, {"since_s", miss.since}, {"for_s", miss.total}};
 }
 
-/// `mass` [kg] is that of several liquids; 0: there is one.
-Json json_of_passed(const WaterAmount& passed, double mass, double density) {
-  Json json = summary_of(passed, density);
-  if (mass > 0.0) json["mass_kg"] = mass;
+Json json_of_passed(const WaterAmount& passed) {
+  Json json = summary_of(passed);
   json["energy_J"] = passed.energy;
   return json;
 }
@@ -73,13 +71,14 @@ WaterAmount OpenEnds<Dim>::arrived() const {
 }
 
 template <int Dim>
-WaterAmount OpenEnds<Dim>::sump(int circuit) const {
+WaterAmount OpenEnds<Dim>::sump(int circuit, double density) const {
   WaterAmount sump;
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     if (ends_[e].circuit != circuit) continue;
     const double particle = power<Dim>(ends_[e].spacing);
     const std::int64_t reserve = std::lround(ends_[e].reserve / particle);
-    sump += {reserve, static_cast<double>(reserve) * particle};
+    const double volume = static_cast<double>(reserve) * particle;
+    sump += {reserve, volume, density * volume};
     sump += states_[e].departed;
     sump -= states_[e].arrived;
   }
@@ -97,14 +96,14 @@ Json OpenEnds<Dim>::balance(OpeningKind kind, double density) const {
     // In the intended direction, and `back`.
     Json json;
     json["name"] = end.opening.name;
-    const Json in = json_of_passed(state.arrived, state.arrived_mass, density);
-    const Json out = json_of_passed(state.departed, state.departed_mass, density);
+    const Json in = json_of_passed(state.arrived);
+    const Json out = json_of_passed(state.departed);
     json.update(is_inlet ? in : out);
     json["back"] = is_inlet ? out : in;
     if (end.circuit >= 0 && is_inlet) json["steps_short_of_water"] = state.short_steps;
     if (end.flow.feeds()) json["asked_for_m3"] = state.asked;
     if (end.holds_level()) json["level_missed"] = json_of_miss(state.miss);
-    if (end.circuit == static_cast<int>(e)) json["waiting"] = summary_of(sump(end.circuit), density);
+    if (end.circuit == static_cast<int>(e)) json["waiting"] = summary_of(sump(end.circuit, density));
     of_each.push_back(json);
   }
   return of_each;
@@ -167,10 +166,6 @@ void OpenEnds<Dim>::take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leav
   if (!flow.setup.ranks.any(some_leave)) return;
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     states_[e].departed += amount_of<Dim>(flow, left_by[e]);
-    if (!flow.setup.liquids.are_several()) continue;
-    states_[e].departed_mass += flow.setup.ranks.sum(sum_over(left_by[e].size(), 0.0, [&](std::size_t n) {
-      return flow.density_of(left_by[e][n]) * flow.water_volume_of(left_by[e][n]);
-    }));
   }
 }
 

@@ -30,9 +30,9 @@ class OpenEnds final : public Part<Dim> {
   WaterAmount departed() const;
   WaterAmount arrived() const;
   /// The water that waits to enter through the ends of a circuit (ChannelEnd::circuit): its reserve and what has left
-  /// through them, less what came. Its energy is not counted.
-  WaterAmount sump(int circuit) const;
-  /// The water that has passed each inlet, or each outlet, for the summary; `density` in kg/m^3.
+  /// through them, less what came. `density` [kg/m^3] is that of its liquid. Energy is not counted.
+  WaterAmount sump(int circuit, double density) const;
+  /// The water that has passed each inlet, or each outlet, for the summary; `density` [kg/m^3] is that of a circuit.
   Json balance(OpeningKind kind, double density) const;
   /// From `time` [s] on the inlet brings the discharge [m^3/s]. Throws InputError if there is no inlet of that name or
   /// the case gives it no discharge.

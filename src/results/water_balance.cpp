@@ -84,6 +84,19 @@ bool falls_back(const Flow<Dim>& flow, const Box<Dim>& box, const Vec<Dim>& x) {
   return first.height > 0.0;
 }
 
+/// The water of the particles for which `is_counted(particle)`; without its energy. Collective.
+template <int Dim, class IsCounted>
+WaterAmount water_where(const Flow<Dim>& flow, IsCounted&& is_counted) {
+  const Particles<Dim>& particles = flow.state.particles;
+  WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) -> WaterAmount {
+    if (!particles.is_fluid(i) || !is_counted(i)) return {};
+    const double volume = flow.water_volume_of(i);
+    return {1, volume, flow.density_of(i) * volume};
+  });
+  flow.setup.ranks.sum_each(water.particles, water.volume, water.mass);
+  return water;
+}
+
 }  // namespace
 
 std::string text_of(const WaterAmount& water) {
@@ -92,36 +105,18 @@ std::string text_of(const WaterAmount& water) {
 
 template <int Dim>
 WaterAmount water_in(const Flow<Dim>& flow) {
-  const Particles<Dim>& particles = flow.state.particles;
-  WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) {
-    return particles.is_fluid(i) ? WaterAmount{1, flow.water_volume_of(i)} : WaterAmount();
-  });
-  flow.setup.ranks.sum_each(water.particles, water.volume);
-  return water;
-}
-
-/// kg/m^3; of all water. The mass of each of several liquids is in the summary's block of the liquids. Collective.
-template <int Dim>
-double mean_density(const Flow<Dim>& flow) {
-  if (!flow.setup.liquids.are_several()) return flow.setup.liquid.density;
-  const double volume = water_in(flow).volume;
-  const double mass = flow.setup.ranks.sum(fluid_sums_of_rank(flow).mass);
-  return volume > 0.0 ? mass / volume : flow.setup.liquid.density;
+  return water_where(flow, [](std::size_t) { return true; });
 }
 
 template <int Dim>
 WaterAmount water_outside(const Flow<Dim>& flow) {
   const Box<Dim> box = flow.box();
   if (box.isEmpty()) return {};
-  const Particles<Dim>& particles = flow.state.particles;
   const auto& ends = flow.template part<OpenEnds<Dim>>();
-  WaterAmount water = sum_over(particles.owned, WaterAmount(), [&](std::size_t i) {
-    const Vec<Dim> x = flow.neighbourhood->wrapped(particles.position[i]);
-    const bool is_outside =
-        particles.is_fluid(i) && !box.contains(x) && !falls_back(flow, box, x) && !ends.is_passed_by(x);
-    return is_outside ? WaterAmount{1, flow.water_volume_of(i)} : WaterAmount();
+  WaterAmount water = water_where(flow, [&](std::size_t i) {
+    const Vec<Dim> x = flow.neighbourhood->wrapped(flow.state.particles.position[i]);
+    return !box.contains(x) && !falls_back(flow, box, x) && !ends.is_passed_by(x);
   });
-  flow.setup.ranks.sum_each(water.particles, water.volume);
   water += flow.template part<DomainFloor<Dim>>().fallen();
   return water;
 }
@@ -136,13 +131,13 @@ WaterAmount water_inside(const Flow<Dim>& flow) {
 
 template <int Dim>
 Json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
-  const double density = mean_density(flow);
+  const double density = flow.setup.liquid.density;
   const auto& ends = flow.template part<OpenEnds<Dim>>();
-  return {{"start", summary_of(at_start, density)},
-          {"in", summary_of(ends.arrived(), density)},
-          {"inside", summary_of(water_inside(flow), density)},
-          {"outside", summary_of(water_outside(flow), density)},
-          {"out", summary_of(ends.departed(), density)},
+  return {{"start", summary_of(at_start)},
+          {"in", summary_of(ends.arrived())},
+          {"inside", summary_of(water_inside(flow))},
+          {"outside", summary_of(water_outside(flow))},
+          {"out", summary_of(ends.departed())},
           {"inlets", ends.balance(OpeningKind::inlet, density)},
           {"outlets", ends.balance(OpeningKind::outlet, density)}};
 }

@@ -57,8 +57,8 @@ Json balances_of_liquids(const Flow<Dim>& flow, std::span<const LiquidTable> liq
               has_pairs && is_mixed(flow, i) ? volume : 0.0};
     });
     flow.setup.ranks.sum_each(sums.particles, sums.volume, sums.kinetic_energy, sums.potential_energy, sums.mixed);
-    Json block =
-        summary_of(WaterAmount{static_cast<std::int64_t>(sums.particles), sums.volume}, liquids[liquid].density);
+    Json block = summary_of(
+        WaterAmount{static_cast<std::int64_t>(sums.particles), sums.volume, liquids[liquid].density * sums.volume});
     block["name"] = liquids[liquid].name;
     block["rheology"] = name_of(liquids[liquid].rheology);
     block["kinetic_energy_J"] = sums.kinetic_energy;

@@ -127,7 +127,7 @@ Json RunOutput<Dim>::saved() const {
           {"fields", fields},
           {"view", frames_.saved()},
           {"statistics", statistics_},
-          {"water_at_start", {{"particles", water_at_start_.particles}, {"volume", water_at_start_.volume}}},
+          {"water_at_start", water_at_start_},
           {"warnings", warnings()},
           {"limits", limits_.saved()},
           {"crowding", crowding_.saved()},
@@ -147,7 +147,7 @@ void RunOutput<Dim>::restore(const Json& kept) {
   fields_schedule_.restore(fields);
   frames_.restore(kept.at("view"), ranks_);
   kept.at("statistics").get_to(statistics_);
-  water_at_start_ = {kept.at("water_at_start").at("particles"), kept.at("water_at_start").at("volume")};
+  kept.at("water_at_start").get_to(water_at_start_);
   recall_warnings(kept.at("warnings"));
   limits_.restore(kept.at("limits"));
   crowding_.restore(kept.at("crowding"));

@@ -73,7 +73,7 @@ WaterAmount arrived_at(const Flow<Dim>& flow, std::size_t end) {
 
 template <int Dim>
 WaterAmount sump_of(const Flow<Dim>& flow, int circuit) {
-  return flow.template part<OpenEnds<Dim>>().sump(circuit);
+  return flow.template part<OpenEnds<Dim>>().sump(circuit, flow.setup.liquid.density);
 }
 
 }  // namespace tailwater
