@@ -16,11 +16,10 @@
 namespace tailwater {
 namespace {
 
-constexpr const char* second_half = "mean of the second half";
-
 std::string mean_in_words(int trend) {
-  if (trend == 0) return second_half;
-  return fmt::format("{}, still {}", second_half, trend > 0 ? "rising" : "falling");
+  const std::string mean = "mean of the second half";
+  if (trend == 0) return mean;
+  return mean + (trend > 0 ? ", still rising" : ", still falling");
 }
 
 double averaging_time_of(const ProbeTable& probe, const CaseSpec& spec, double speed) {
@@ -42,9 +41,9 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
   };
   switch (declared.statistic) {
     case Statistic::mean:
-      return quantity(column.mean_of_second_half(), mean_in_words(column.trend_in_second_half()));
+      return quantity(column.mean_of_second_half(), mean_in_words(column.trend_of_mean()));
     case Statistic::rate:
-      return quantity(column.rate_in_second_half(), second_half);
+      return quantity(column.rate_in_second_half(), mean_in_words(column.trend_of_rate()));
     case Statistic::max_rate:
     case Statistic::max_mean: {
       const LargestMean& largest =

@@ -104,55 +104,51 @@ void ColumnDigest::add(double time, double value, double half, double over) {
   }
   least_of_last = is_same_time ? std::min(least_of_last, value) : value;
   largest_of_last = is_same_time ? std::max(largest_of_last, value) : value;
-  if (time >= half && !has_begun_half_) {
-    has_begun_half_ = true;
-    half_begin_ = is_first ? time : std::max(half, last_time);
-    const double share = is_first || time == last_time ? 1.0 : (half_begin_ - last_time) / (time - last_time);
-    value_at_half_ = is_first ? value : last + share * (value - last);
-    add_stretch(half_begin_, value_at_half_, time, value, half);
-  } else if (has_begun_half_) {
-    add_stretch(last_time, last, time, value, half);
-  }
+  if (!is_first) add_stretch(time, value, half);
   last = value;
   last_time = time;
 }
 
-/// Adds the time between two readings to the quarters of the second half; the run ends at twice `half`.
-void ColumnDigest::add_stretch(double begin, double from_value, double end, double to_value, double half) {
-  const double slope = end > begin ? (to_value - from_value) / (end - begin) : 0.0;
+/// Adds the time since the last reading to the quarters of the second half; the run ends at twice `half`.
+void ColumnDigest::add_stretch(double time, double value, double half) {
+  const double slope = time > last_time ? (value - last) / (time - last_time) : 0.0;
   for (std::size_t k = 0; k < quarters_.size(); ++k) {
-    const double from = std::max(begin, half * (1.0 + 0.25 * static_cast<double>(k)));
-    const double to = k + 1 == quarters_.size() ? end : std::min(end, half * (1.0 + 0.25 * static_cast<double>(k + 1)));
+    const double from = std::max(last_time, half * (1.0 + 0.25 * static_cast<double>(k)));
+    const double to =
+        k + 1 == quarters_.size() ? time : std::min(time, half * (1.0 + 0.25 * static_cast<double>(k + 1)));
     if (to <= from) continue;
     quarters_[k].length += to - from;
-    quarters_[k].integral += (from_value + slope * (0.5 * (from + to) - begin)) * (to - from);
+    quarters_[k].integral += (last + slope * (0.5 * (from + to) - last_time)) * (to - from);
+    quarters_[k].growth += slope * (to - from);
   }
 }
 
-double ColumnDigest::mean_of_second_half() const {
+/// The sum of `part` over the second half, per second; nothing if it has no time.
+std::optional<double> ColumnDigest::per_second(double Quarter::*part) const {
   double length = 0.0;
-  double integral = 0.0;
+  double sum = 0.0;
   for (const Quarter& quarter : quarters_) {
     length += quarter.length;
-    integral += quarter.integral;
+    sum += quarter.*part;
   }
-  return length > 0.0 ? integral / length : last;
+  return length > 0.0 ? std::optional(sum / length) : std::nullopt;
 }
 
-int ColumnDigest::trend_in_second_half() const {
+int ColumnDigest::trend(double Quarter::*part) const {
   constexpr double min_change = 0.01;
   if (std::ranges::any_of(quarters_, [](const Quarter& quarter) { return quarter.length == 0.0; })) return 0;
   std::array<double, 4> means{};
-  std::ranges::transform(quarters_, means.begin(), [](const Quarter& one) { return one.integral / one.length; });
+  std::ranges::transform(quarters_, means.begin(), [&](const Quarter& one) { return one.*part / one.length; });
   const double size = std::max(std::abs(means.front()), std::abs(means.back()));
   if (std::abs(means.back() - means.front()) <= min_change * size) return 0;
   if (std::ranges::is_sorted(means)) return 1;
   return std::ranges::is_sorted(means, std::greater<>()) ? -1 : 0;
 }
 
-double ColumnDigest::rate_in_second_half() const {
-  return has_begun_half_ && last_time > half_begin_ ? (last - value_at_half_) / (last_time - half_begin_) : 0.0;
-}
+double ColumnDigest::mean_of_second_half() const { return per_second(&Quarter::integral).value_or(last); }
+double ColumnDigest::rate_in_second_half() const { return per_second(&Quarter::growth).value_or(0.0); }
+int ColumnDigest::trend_of_mean() const { return trend(&Quarter::integral); }
+int ColumnDigest::trend_of_rate() const { return trend(&Quarter::growth); }
 
 ProbeColumn read_probe_column(const std::filesystem::path& path, std::string_view heading) {
   ProbeColumn column;

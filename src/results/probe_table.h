@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,19 +64,21 @@ struct ColumnDigest {
   double rate_in_second_half() const;
   /// 1 or -1: the mean of each quarter of the second half is larger, or smaller, than that of the quarter before, and
   /// the whole change is more than 1 % of them, so a steady state was not reached. 0: neither.
-  int trend_in_second_half() const;
+  int trend_of_mean() const;
+  /// As trend_of_mean, of the growth per second.
+  int trend_of_rate() const;
 
  private:
   struct Quarter {
-    double length = 0.0;  ///< s; with readings
-    double integral = 0.0;
+    double length = 0.0;    ///< s; with readings
+    double integral = 0.0;  ///< over time
+    double growth = 0.0;
   };
-  void add_stretch(double begin, double from_value, double end, double to_value, double half);
+  void add_stretch(double time, double value, double half);
+  std::optional<double> per_second(double Quarter::*part) const;
+  int trend(double Quarter::*part) const;
 
-  double sum_ = 0.0;  ///< integral since the first line
-  bool has_begun_half_ = false;
-  double half_begin_ = 0.0;  ///< s
-  double value_at_half_ = 0.0;
+  double sum_ = 0.0;                 ///< integral since the first line
   std::array<Quarter, 4> quarters_;  ///< of the second half
 };
 

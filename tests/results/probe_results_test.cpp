@@ -39,10 +39,21 @@ TEST(ProbeTable, AMeanThatStillChangesIsToldApart) {
   std::ofstream(path) << "time_s,a,b,c,d,e\n0,0,0,0,0,nan\n4,1,1,9,1,nan\n5,1.005,1.00225,8,3,nan\n"
                          "6,1.01,1.0045,7,1,1\n7,1.015,1.00675,6,2,2\n8,1.02,1.009,5,2.5,3\n";
   const TableDigest table = digest_probe_table(path, 4.0);
-  const auto trend = [&](std::size_t k) { return table.columns[k].trend_in_second_half(); };
+  const auto trend = [&](std::size_t k) { return table.columns[k].trend_of_mean(); };
   EXPECT_EQ((std::array{trend(0), trend(1), trend(2), trend(3), trend(4)}), (std::array{1, 0, -1, 0, 0}));
   EXPECT_NEAR(table.columns[0].mean_of_second_half(), 1.01, 1e-12);
   EXPECT_NEAR(table.columns[4].mean_of_second_half(), 2.0, 1e-12);
+}
+
+TEST(ProbeTable, ARateThatStillChangesIsToldApart) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  // A volume that passes at 1 and, from t = 4 on, at a rate that rises by 3 %, that stays, and that falls.
+  std::ofstream(path) << "time_s,a,b,c\n0,0,0,0\n4,4,4,4\n5,5,5,4.8\n6,6.01,6,5.5\n7,7.03,7,6.1\n8,8.06,8,6.6\n";
+  const TableDigest table = digest_probe_table(path, 4.0);
+  const auto trend = [&](std::size_t k) { return table.columns[k].trend_of_rate(); };
+  EXPECT_EQ((std::array{trend(0), trend(1), trend(2)}), (std::array{1, 0, -1}));
+  EXPECT_NEAR(table.columns[0].rate_in_second_half(), 4.06 / 4.0, 1e-12);
 }
 
 TEST(ProbeTable, LargestMeansAreOverTheTimeGiven) {
