@@ -172,7 +172,7 @@ const std::vector<ProbeInfo> of_bodies_and_air{
     {ProbeType::motion,
      "Motion of a floating body",
      {{"displacement", length, "displacement of the centre of mass from where it is drawn", by_default, vector},
-      {"angle", angle, "angle of rotation; in 3D times its axis", possible, turn},
+      {"angle", angle, "angle of rotation with its whole turns; in 3D times its axis", possible, turn},
       {"velocity", speed, "velocity of the centre of mass", possible, vector},
       {"angular_velocity", angular_speed, "angular velocity", none, turn}},
      {{"displacement x", "x", "displacement_x", range},

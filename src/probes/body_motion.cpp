@@ -1,7 +1,9 @@
 #include "probes/body_motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "case/nearest_name.h"
 #include "probes/places.h"
@@ -20,9 +22,19 @@ std::size_t number_of_body(const ProbeTable& probe, const CaseSpec& spec) {
                   {"{}", unknown_name_hint(probe.body, names)});
 }
 
-/// Least and largest of the displacements and angles so far, as numbers that a checkpoint keeps.
+/// Displacements and angles.
 template <int Dim>
 constexpr std::size_t places = Dim + turns<Dim>;
+
+/// The angle of a rotation, times its axis, with as many whole turns that it is nearest to `last`, so that the angle of
+/// a body that rolls on does not jump. All in rad.
+template <int Dim>
+Turn<Dim> angle_near(const Turn<Dim>& last, const Mat<Dim>& rotation) {
+  constexpr double whole_turn = 2.0 * std::numbers::pi;
+  const Turn<Dim> angle = angle_of<Dim>(rotation);
+  const Turn<Dim> axis = angle.norm() > 0.0 ? Turn<Dim>(angle.normalized()) : Turn<Dim>(last.normalized());
+  return angle + whole_turn * std::round((last.dot(axis) - angle.dot(axis)) / whole_turn) * axis;
+}
 
 }  // namespace
 
@@ -33,7 +45,8 @@ Reading<Dim> motion_reading(const ProbeTable& probe, const CaseSpec& spec) {
   Reading<Dim> reading;
   reading.columns = columns_of(probe, Dim);
   constexpr double infinity = std::numeric_limits<double>::max();
-  const auto memory = std::make_shared<std::vector<double>>(2 * places<Dim>);
+  // Kept by a checkpoint: the least and the largest of the places so far, then the last angle.
+  const auto memory = std::make_shared<std::vector<double>>(2 * places<Dim> + turns<Dim>);
   std::fill_n(memory->begin(), places<Dim>, infinity);
   std::fill_n(memory->begin() + places<Dim>, places<Dim>, -infinity);
   reading.take = [=](const ProbeContext<Dim>& context) -> std::vector<Row> {
@@ -41,7 +54,12 @@ Reading<Dim> motion_reading(const ProbeTable& probe, const CaseSpec& spec) {
     Row row;
     const auto add = [&](const auto& numbers) { row.insert(row.end(), numbers.begin(), numbers.end()); };
     add(Vec<Dim>(body.centre - drawn));
-    add(angle_of<Dim>(body.placement.linear));
+    const auto kept = memory->begin() + 2 * places<Dim>;
+    Turn<Dim> last;
+    std::copy_n(kept, turns<Dim>, last.begin());
+    const Turn<Dim> angle = angle_near<Dim>(last, body.placement.linear);
+    std::copy_n(angle.begin(), turns<Dim>, kept);
+    add(angle);
     add(body.velocity);
     for (std::size_t k = 0; k < places<Dim>; ++k) {
       double& least = (*memory)[k];
