@@ -59,7 +59,7 @@ GROUPS = {
                             "checks/springs": "`[[body]]`, `[[mooring]]`", "bodies/floating_bodies": "`[[body]]`"},
     "Zones of refinement": {"checks/refinement": "`[[refinement]]`", "refinement/spacing_field": "`[[refinement]]`"},
     "Air, porous layers and liquids": {"air": "`[air]`, `[[pocket]]`, `[[vent]]`", "checks/air_places": "`[[pocket]]`, `[[vent]]`",
-                                       "porous": "`[[porous]]`", "checks/creep": "`[[liquid]]`",
+                                       "porous": "`[[porous]]`", "checks/creep": "`[[liquid]]`", "checks/units": "`[physics]`",
                                        "rheology/thick_liquid": "`[[liquid]]`"},
     "Probes": {"checks/probes": "`[[probe]]`, `[[damping]]`", "probes": "`[[probe]]`"},
     "Cost, solver and machine": {"run/estimate": "`[particles]`, `[time]`", "linear/petsc_options": "`[pressure_solver]`",

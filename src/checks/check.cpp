@@ -11,6 +11,7 @@ namespace tailwater {
 template <int Dim>
 Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   Findings findings;
+  append(findings, check_units<Dim>(spec));
   append(findings, check_blocks(spec, fluid));
   append(findings, check_periodic_width(spec, boundary));
   if constexpr (Dim == 2) {

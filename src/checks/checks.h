@@ -132,6 +132,10 @@ Findings check_air_places(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_creep(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
+/// Warning: a density, gravity or viscosity that looks like a value in another common unit, such as kg/l.
+template <int Dim>
+Findings check_units(const CaseSpec& spec);
+
 /// Warning: a gate or a wave maker that starts after the end of the run.
 Findings check_late_starts(const CaseSpec& spec);
 

@@ -1008,6 +1008,20 @@ TEST(Check, ASlopeInAZoneOfRefinementIsNotTooNear) {
   }
 }
 
+TEST(Check, ValuesOfAnotherUnitAreReported) {
+  CaseSpec spec = tank();
+  spec.physics.density = 1.0;
+  expect_only(check(spec), Severity::warning, {"physics.density = 1 kg/m^3", "kg/l"});
+  spec.physics.gravity = {0.0, -1.0};  // a case without units
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec = tank();
+  spec.physics.gravity = {0.0, -981.0};
+  expect_only(check(spec), Severity::warning, {"physics.gravity = 981 m/s^2", "cm/s^2"});
+  spec = tank();
+  spec.physics.viscosity = 1.0;
+  expect_only(check(spec), Severity::warning, {"physics.viscosity = 1 m^2/s", "mm^2/s"});
+}
+
 // A yield stress of 20 Pa, a depth of 1 m or less and 100 Pa s make a creep of at most 0.1 m/s.
 TEST(Check, ALiquidThatCreepsFarIsReported) {
   CaseSpec spec = tank();
