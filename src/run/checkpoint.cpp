@@ -277,6 +277,11 @@ CaseSpec case_of_checkpoint(const SealedFile& file) {
                                 [&] { return read_case_text(Hdf5Reader(file.body).text("case"), "its case"); });
 }
 
+double time_of_checkpoint(const SealedFile& file) {
+  return expecting_a_checkpoint(
+      file.path, [&] { return Json::parse(Hdf5Reader(file.body).text("run")).at("time").get<double>(); });
+}
+
 TAILWATER_IN_2D_AND_3D(write_checkpoint);
 TAILWATER_IN_2D_AND_3D(read_checkpoint);
 

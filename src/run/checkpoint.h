@@ -15,7 +15,7 @@
 namespace tailwater {
 
 /// Version of the contents of a checkpoint. It increases when they change.
-inline constexpr int checkpoint_format = 22;
+inline constexpr int checkpoint_format = 23;
 
 /// The state of a run just after particles have been repartitioned and sorted. The lists are discarded then, so the
 /// state is complete.
@@ -43,5 +43,8 @@ Checkpoint<Dim> read_checkpoint(const SealedFile& file, const Communicator& rank
 
 /// The case of a checkpoint. Throws IoError.
 CaseSpec case_of_checkpoint(const SealedFile& file);
+
+/// [s] of the run. Throws IoError.
+double time_of_checkpoint(const SealedFile& file);
 
 }  // namespace tailwater

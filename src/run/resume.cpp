@@ -99,6 +99,17 @@ void require_allowed(const CaseSpec& before, const CaseSpec& after) {
       first_difference(allowed, after), changeable_keys);
 }
 
+/// An earlier end would cut off results that the run has written.
+void require_end_ahead(const CaseSpec& before, const CaseSpec& after, const SealedFile& checkpoint) {
+  if (after.time.end >= before.time.end) return;
+  const double reached = time_of_checkpoint(checkpoint);
+  if (after.time.end >= reached) return;
+  throw InputError(
+      "--set: time.end = {:.6g} s is before {:.6g} s, which the run has reached; remedy: give a later end, or start "
+      "another run with another --out",
+      after.time.end, reached);
+}
+
 }  // namespace
 
 std::string first_difference(const CaseSpec& wanted, const CaseSpec& found) {
@@ -131,6 +142,7 @@ ExitCode resume_run(RunOptions options, const std::vector<std::string>& override
     if (!checkpoint) return;
     require_readable_format(*checkpoint, path);
     require_same_case(before, case_of_checkpoint(*checkpoint), path, case_file);
+    require_end_ahead(before, spec, *checkpoint);
     tell_of_another_writer(*checkpoint);
   });
   options.case_file = case_file;

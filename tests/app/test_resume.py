@@ -268,6 +268,9 @@ class Refused(Resumed):
                 self.refuse("run", "--set", change, parts=("--set", key, "time.end", "output.fields_interval"))
         self.call("resume", "run", "--set", "particles.spacing=0.1", "--quiet")  # the same value as before
 
+    def test_an_end_that_the_run_has_passed(self):
+        self.refuse("run", "--set", "time.end=0.01", parts=("time.end = 0.01 s", "which the run has reached"))
+
     def test_a_folder_that_is_no_runs(self):
         (self.folder / "other").mkdir()
         self.before = self.listing()
@@ -293,7 +296,7 @@ class Refused(Resumed):
         head = f"{text}crc32 {zlib.crc32(body, zlib.crc32(text.encode())):08x}\n"
         path.write_bytes(head.ljust(512).encode() + body)
         self.before = self.listing()
-        self.refuse("run", parts=(path.name, "format 0", "reads format 22", "tailwater 0.0.1 (commit abc)"))
+        self.refuse("run", parts=(path.name, "format 0", "reads format 23", "tailwater 0.0.1 (commit abc)"))
 
     def test_tables_that_do_not_go_with_the_checkpoint(self):
         (self.folder / "run/steps.csv").write_text("time_s\n")
