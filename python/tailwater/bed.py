@@ -14,7 +14,7 @@ import numpy as np
 from .command_line import Parser, exit_code_of, number
 from .errors import DataError
 from .input_file import LARGEST_TABLE, read_bytes
-from .whole_file import write_whole
+from .whole_file import require_other_file, write_whole
 
 NAMES = {"x": ("x", "easting", "east", "e", "rechtswert"), "y": ("y", "northing", "north", "n", "hochwert"),
          "z": ("z", "elevation", "height", "level", "h")}
@@ -188,6 +188,7 @@ def require_few(path, triangles):
 
 
 def make_bed(options):
+    require_other_file(options.to, options.terrain)
     terrain = read_terrain(options.terrain)
     if options.box:
         terrain = terrain.within(*options.box)
@@ -208,6 +209,9 @@ def make_bed(options):
 def report(options, terrain, origin, low, high):
     ranges = ", ".join(f"{axis} {low[k]:.6g} to {high[k]:.6g}" for k, axis in enumerate("xyz"))
     print(f"Wrote {options.to}: {len(terrain.triangles)} triangles, {ranges} m.")
+    if high[2] - low[2] > max(high[0] - low[0], high[1] - low[1]):
+        print("Its relief is larger than its length and width, so its coordinates look like degrees: project the survey to "
+              "metres first, for example with gdalwarp -t_srs.")
     print(f"The case's origin is {origin[0]:.10g}, {origin[1]:.10g}, {origin[2]:.10g} of the survey. In the case:\n")
     print(f'[[wall]]\nname = "bed"\nshape = "mesh"\nfile = "{options.to.name}"\nfluid_side = "above"\nslip = "no-slip"')
 

@@ -18,7 +18,7 @@ from .command_line import Parser, exit_code_of, number
 from .errors import DataError
 from .input_file import LARGEST_TABLE, read_text
 from .waves import wave_numbers
-from .whole_file import write_whole_text
+from .whole_file import require_other_file, write_whole_text
 
 UNITS = {"t": {"s": 1, "ms": 1e-3, "min": 60}, "f": {"Hz": 1, "1/s": 1},
          "eta": {"m": 1, "cm": 1e-2, "mm": 1e-3},
@@ -79,11 +79,12 @@ def wave_over_stroke(k, depth, is_flap):
 
 
 class Waves:
-    """Complex amplitudes (m) of waves at evenly spaced frequencies (Hz). The waves repeat after `duration` (s). `lost`
-    is the fraction of the energy that was removed."""
+    """Complex amplitudes (m) of waves at evenly spaced frequencies (Hz). The waves repeat after `duration` (s), and
+    outside of `present` (s) of that time the water is still. `lost` is the fraction of the energy that was removed."""
 
-    def __init__(self, frequency, amplitude, duration, lost):
-        self.frequency, self.amplitude, self.duration, self.lost = frequency, amplitude, duration, lost
+    def __init__(self, frequency, amplitude, duration, present, lost):
+        self.frequency, self.amplitude, self.lost = frequency, amplitude, lost
+        self.duration, self.present = duration, present
 
     def limited(self, band):
         """The waves within a band (Hz), with the fraction of energy outside it as `lost`. Throws DataError."""
@@ -93,7 +94,7 @@ class Waves:
         if lost > LARGEST_LOSS:
             raise DataError(f"{100 * lost:.3g} % of the waves' energy lies outside of the band from {band[0]:.4g} to "
                             f"{band[1]:.4g} Hz; remedy: a wider --band")
-        return Waves(self.frequency[inside], self.amplitude[inside], self.duration, lost)
+        return Waves(self.frequency[inside], self.amplitude[inside], self.duration, self.present, lost)
 
     @property
     def peak(self):
@@ -106,8 +107,8 @@ class Waves:
 
     @property
     def height(self):
-        """Significant wave height Hm0, m."""
-        return float(4 * np.sqrt((np.abs(self.amplitude) ** 2).sum() / 2))
+        """Significant wave height Hm0, m, while there are waves."""
+        return float(4 * np.sqrt((np.abs(self.amplitude) ** 2).sum() / 2 * self.duration / self.present))
 
 
 def require_few(samples, what):
@@ -133,7 +134,7 @@ def recorded(time, elevation, lead):
     still = np.zeros(round(lead / step))
     surface = np.concatenate([still, elevation, still])
     amplitude = 2 * np.fft.rfft(surface)[1:] / surface.size
-    return Waves(np.fft.rfftfreq(surface.size, step)[1:], amplitude, surface.size * step, 0.0)
+    return Waves(np.fft.rfftfreq(surface.size, step)[1:], amplitude, surface.size * step, elevation.size * step, 0.0)
 
 
 def chosen(frequency, density, duration, seed):
@@ -142,7 +143,7 @@ def chosen(frequency, density, duration, seed):
     even = np.arange(1, int(frequency[-1] * duration) + 1) / duration
     energy = np.maximum(np.interp(even, frequency, density, left=0, right=0), 0)
     phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, even.size)
-    return Waves(even, np.sqrt(2 * energy / duration) * np.exp(1j * phase), duration, 0.0)
+    return Waves(even, np.sqrt(2 * energy / duration) * np.exp(1j * phase), duration, duration, 0.0)
 
 
 def motion(waves, depth, distance, is_flap):
@@ -222,6 +223,7 @@ def options_of(arguments):
 
 def make_motion(options):
     """Writes the motion file and prints a summary of it. Throws DataError, IoError."""
+    require_other_file(options.to, options.file)
     waves, lead = waves_of(read_columns(options.file), options)
     time, stroke = motion(waves, options.depth, options.distance, options.flap)
     write_motion(options.to, time, stroke, options.depth, options.flap)

@@ -54,8 +54,11 @@ class Report:
         return page(self.content)
 
     def write(self, file) -> Path:
-        """Writes the page, and a JSON file with the same content beside it. Returns the path of the page."""
+        """Writes the page, and a JSON file with the same content beside it. Returns the path of the page. Throws
+        DataError for another ending than .html, IoError."""
         file = Path(file)
+        if file.suffix.lower() not in (".html", ".htm"):
+            raise DataError(f"{file}: is written as HTML; name a file that ends in .html")
         text = json.dumps(self.content, indent=1, ensure_ascii=False) + "\n"
         write_whole(file.with_suffix(".json"), lambda part: part.write_text(text, encoding="utf-8"))
         write_whole(file, lambda part: part.write_text(self.html(), encoding="utf-8"))

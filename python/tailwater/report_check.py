@@ -23,7 +23,7 @@ def read_report(file) -> dict:
     except OSError as error:
         raise IoError(f"{path}: cannot be read ({error.strerror})") from error
     except ValueError as error:
-        raise DataError(f"{path}: is not a report ({error}); remedy: name the file that tailwater report has written") from error
+        raise DataError(f"{path}: is not a report; remedy: name the file that tailwater report has written") from error
 
 
 def check_report(content, tell=print) -> bool:

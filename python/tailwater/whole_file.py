@@ -4,9 +4,9 @@ import os
 import stat
 from pathlib import Path
 
-from .errors import IoError
+from .errors import DataError, IoError
 
-__all__ = ["write_whole", "write_whole_text"]
+__all__ = ["require_other_file", "write_whole", "write_whole_text"]
 
 
 def obstacle_at(path: Path) -> str:
@@ -30,6 +30,12 @@ def require_replaceable(path: Path):
     if what := obstacle_at(path):
         raise IoError(f"cannot write '{path}': {what} is in its place, and is neither followed nor replaced; remedy: remove "
                       "it, or choose another name")
+
+
+def require_other_file(path: Path, read: Path):
+    """Throws DataError if a command would replace the file that it reads."""
+    if path.exists() and read.exists() and path.samefile(read):
+        raise DataError(f"--to {path}: is the file that the command reads; choose another name")
 
 
 def write_whole(path, write):

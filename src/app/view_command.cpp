@@ -195,6 +195,10 @@ void view(const ViewOptions& options) {
   const ViewContent content = content_of(options.paths, sweeps);
   if (options.export_file.empty()) return serve(content, sweeps, options);
   if (content.case_file) throw InputError("--export: a case has nothing to show before it has run");
+  if (options.export_file.extension() != ".html") {
+    throw InputError("--export {}: is written as HTML; remedy: name a file that ends in .html",
+                     options.export_file.string());
+  }
   require_own_regular_file(options.export_file);
   write_text_file(options.export_file, exported_page(content, version_line()));
   fmt::print("{}\n", options.export_file.string());

@@ -136,6 +136,20 @@ class Bed(unittest.TestCase):
             self.assertIn("remedy: --box, or a coarser --step", self.make(grid, "--step", step, expect=2))
         self.assertFalse(self.stl.exists())
 
+    def test_a_survey_in_degrees_is_reported(self):
+        """20 m of relief on a tenth of a degree."""
+        path = self.folder / "degrees.xyz"
+        path.write_text("".join(f"{8 + 0.05 * i} {47 + 0.05 * j} {400 + 10 * i}\n" for i in range(3) for j in range(3)),
+                        encoding="utf-8")
+        self.assertIn("coordinates look like degrees", self.make(path))
+        self.assertNotIn("degrees", self.make(self.points("grid.xyz", [(X0 + i, Y0 + j) for j in range(3) for i in range(3)])))
+
+    def test_does_not_replace_its_survey(self):
+        self.make(self.points("grid.xyz", [(X0 + i, Y0 + j) for j in range(3) for i in range(3)]))
+        before = self.stl.read_bytes()
+        self.assertIn("is the file that the command reads", self.make(self.stl, expect=2))
+        self.assertEqual(self.stl.read_bytes(), before)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -126,6 +126,14 @@ class Paddle(unittest.TestCase):
                                      (good.replace("eta [mm]", "eta [m]"), (), "they break")):
             self.assertIn(words, self.make(text, *options, expect=2))
         self.assertFalse(self.to.exists())
+        self.to = self.folder / "waves.csv"
+        self.assertIn("is the file that the command reads", self.make(good, expect=2))
+        self.assertEqual(self.to.read_text(encoding="utf-8"), good)
+
+    def test_height_is_that_of_the_record_at_any_distance(self):
+        for distance in (0.0, 30.0):
+            told = self.make(self.record((0.6, 0.02)), "--distance", distance)
+            self.assertAlmostEqual(float(told.partition("Hm0 ")[2].split()[0]), 4 * 0.02 / math.sqrt(2), delta=1e-3)
 
 
 if __name__ == "__main__":
