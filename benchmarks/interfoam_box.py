@@ -105,7 +105,7 @@ regions (boxToCell {{ box ({self.planes[0][3]} -1 -1) (9 9 {kleefsman2005.DEPTH}
 
     @property
     def summary(self):
-        """How far the run has come, as `end_of` reads it."""
+        """The time that the run has reached, as `end_of` reads it."""
         return {"time_s": {"reached": float(self.table("H1", "alpha.water")[0][-1]) + 1e-9}}
 
     def scores(self):

@@ -58,7 +58,7 @@ WORDS = [
 ]
 GENERATED = re.compile(r"<!-- (validation|evidence): .*?<!-- \1: end -->", re.DOTALL)
 OUT = [(re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), better) for pattern, better in WORDS]
-COMMENT_START = re.compile(r"^(Of|What|The same|Likewise)\b(?!.*\?)")
+COMMENT_START = re.compile(r"^(Of|What|The same|Likewise|That of|Those of|How (far|much|often|well))\b(?!.*\?)")
 NOT_VERBS = set("""a all an and another any as at both by docs each fewer for from if in it its less more most nine no not of on
 one only other some such tests that the their these this those to two what when where which who with""".split())
 ENDS_IN_S = set("bypass canvas compress cross discuss dress focus guess pass press process stress toss".split())

@@ -76,7 +76,7 @@ AirResponse<Dim> first_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>
   return response;
 }
 
-/// One pass; the next one corrects the remainder. Returns the largest change.
+/// Makes one pass of the correction; the next pass corrects the remainder. Returns the largest change.
 template <int Dim>
 double refine_response(Flow<Dim>& flow, std::span<const PocketSide<Dim>> sides, int pocket, AirResponse<Dim>& response,
                        int& iterations) {

@@ -92,7 +92,7 @@ struct Claimant {
   std::int64_t largest_claim = 0;  ///< cells of the old pocket whose number it has
 };
 
-/// One for each part of the void.
+/// A claimant for each part of the void.
 template <int Dim>
 std::vector<Claimant> make_claimants(const Voids<Dim>& voids, const MinCells& min_cells) {
   std::vector<Claimant> claimants(voids.parts().size());

@@ -267,7 +267,7 @@ std::optional<double> TableReader::evaluated(std::string_view key, std::string_v
       return std::nullopt;
     }
     if (!std::isfinite(*value)) {
-      // It uses a number without a value, which is reported at that number.
+      // The expression uses a parameter without a value, and the error is reported at that parameter.
       context_.keys_wrong.insert(full(key));
       return std::nullopt;
     }

@@ -34,7 +34,7 @@ Standing standing(const CaseSpec& spec) {
   return {regular, (0.5 - play) * dx, (regular + play) * dx, (regular + 1.5) * dx};
 }
 
-/// One block beside one wall.
+/// The particles of one block beside one wall.
 template <int Dim>
 struct Contact {
   std::size_t in_front = 0;

@@ -14,7 +14,7 @@ template <int Dim>
 void mark_thin_water(const Particles<Dim>& particles, std::span<const double> concentration,
                      std::span<std::uint8_t> is_surface);
 
-/// How far inside the fluid each owned fluid particle is: 0 in the two outermost rows, 1 from the third row on; 0 for
+/// The `interior` of each owned fluid particle: 0 in the two outermost rows, 1 from the third row on; 0 for
 /// walls. It is a smooth step, from 0.94 to 0.98, of the mean concentration Cm_i = sum W C_j/C_0 / sum W over the fluid
 /// including the particle itself. At a flat surface Cm = 0.83, 0.93, 0.99, 1.00 row by row (2D). Continuous in the
 /// positions. `concentration` must be up to date on ghosts.

@@ -9,7 +9,7 @@
 namespace tailwater {
 namespace {
 
-/// Least g'/g. Liquids of equal density have no speed of their own by which to choose a step.
+/// Least g'/g. It limits the time step of liquids of equal density, which have no internal wave speed.
 constexpr double least_reduced_gravity = 1e-3;
 
 }  // namespace

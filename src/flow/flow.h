@@ -129,7 +129,7 @@ struct Flow {
  private:
   /// Fraction of the space at particle i that water can fill, where there are pores.
   double filled_fraction_at(std::size_t i) const;
-  /// That fraction times the mass that accelerates with the water over that of the water.
+  /// The filled fraction times the mass that accelerates with the water over the mass of the water.
   double inertia_fraction_at(std::size_t i) const;
 };
 

@@ -7,7 +7,7 @@
 
 namespace tailwater {
 
-/// More than a run brings in through one end.
+/// Number of ids of one liquid at one end. No run has so many particles enter there.
 inline constexpr std::int64_t ids_in_range = std::int64_t{1} << 40;
 
 /// Number of the range of liquid `liquid` of `liquids` that enters at an end.

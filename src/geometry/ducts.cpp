@@ -50,7 +50,7 @@ class Rim {
     return closed > 0 && closed * piece >= std::min(0.5 * (length - 2.0 * margin), least_closed * dx_);
   }
 
-  /// How far [m] walls lead on from a place on the rim, at most as far as the duct.
+  /// Length [m] over which walls continue from a place on the rim, at most the length of the duct.
   double led_on(const Vec<Dim>& x) const {
     double low = 0.0;
     double high = 0.0;

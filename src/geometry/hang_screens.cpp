@@ -33,7 +33,7 @@ Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int p
           plate.first_face + plate.pieces + piece};
 }
 
-/// How far a plate from a mesh is from where it is drawn.
+/// Displacement of a plate from a mesh, from its drawn place.
 Vec<3> displacement_of(const Boundary<3>& boundary, const WallPlate& plate) {
   return boundary.faces[plate.first_face].corners[0] - plate.sheet->mesh().corner(0, 0);
 }
@@ -201,8 +201,8 @@ int next_in_chain(const Boundary<2>& boundary, int f, int corner, double toleran
   return -1;
 }
 
-/// How far [m] the screens beside a free end reach along its wall: to a support before a corner around which water
-/// stands, or before an opening, whose duct makes one. Pairs of water around a corner see each other.
+/// Length [m] of the screens beside a free end, along its wall. They end a support before a corner around which water
+/// stands, because pairs of water around a corner interact, or before an opening, whose duct makes such a corner.
 double reach_of_screens(const Boundary<2>& boundary, const WallEnd& end, const Lengths& lengths) {
   const double whole = screened_reach * lengths.reach;
   double length = 0.0;

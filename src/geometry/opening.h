@@ -36,8 +36,8 @@ struct Opening {
   double beyond(const Vec<Dim>& x) const { return normal.dot(x - corner); }
   /// Whether `x` is straight in front of the opening or behind it.
   bool spans(const Vec<Dim>& x) const;
-  /// How far `x` is aside of the space straight in front of the segment or rectangle and behind it, m; at most 0
-  /// within.
+  /// Distance [m] of `x` from the space straight in front of the segment or rectangle and behind it; at most 0 inside
+  /// this space.
   double aside(const Vec<Dim>& x) const;
   /// Whether water at `x` has left through it.
   bool is_passed_by(const Vec<Dim>& x) const { return beyond(x) > 0.0 && spans(x); }

@@ -22,9 +22,9 @@ struct Lengths {
   double tolerance() const { return corner_tolerance * spacing; }
 };
 
-/// The wall, no plate, on which wall `own` ends that points `out` at `x`: nearer to it than `gap`, or in front of it.
-/// One that it points away from, as that of a pipe which opens beside a plate, does not close it. Without a face if
-/// there is none.
+/// The wall on which wall `own` ends at `x`, where it points in the direction `out`. A wall closes this end if it is no
+/// plate, and nearer than `gap` or in front of the end. A wall behind the end, such as a pipe that opens beside a
+/// plate, does not close it. The result has no face if there is no such wall.
 template <int Dim>
 WallBesidePlate closing_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap,
                              int own);

@@ -30,7 +30,7 @@ struct WallPatch {
 /// dx; upper limit for the edges of patches.
 inline constexpr double longest_patch_edge = 1.5;
 
-/// More patches would need about 10 GB.
+/// Upper limit for the number of patches, which then take about 10 GB.
 inline constexpr double most_wall_patches = 1e8;
 
 /// Patches of all faces, halved at their longest edges until none is longer than `longest` [m]. The patches of a face

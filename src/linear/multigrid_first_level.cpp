@@ -19,7 +19,7 @@ namespace {
 /// Weights below this fraction of their row's sum are left out.
 constexpr double least_share = 0.02;
 
-/// One row of this many is examined to estimate the number of large weights.
+/// To estimate the number of large weights, every row whose index is a multiple of this number is examined.
 constexpr int sampled = 16;
 
 /// Four partial sums, so that an addition need not wait for the previous one.

@@ -1,4 +1,4 @@
-// How far a gate has moved.
+// Displacement of a gate over time.
 #pragma once
 
 #include <optional>

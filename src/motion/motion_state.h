@@ -8,7 +8,7 @@
 
 namespace tailwater {
 
-/// How far an absorbing plate has given way, and how fast it does.
+/// Displacement by which an absorbing plate has given way, and its rate.
 struct MakerState {
   double correction = 0.0;  ///< m; at `time`
   double rate = 0.0;        ///< m/s

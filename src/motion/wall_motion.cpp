@@ -272,7 +272,7 @@ double WallMotion<Dim>::largest_displacement(double from, double to, const Motio
   return farthest;
 }
 
-/// How far [m] a corner of the wall is at most from one place to the other.
+/// Largest distance [m] by which a corner of the wall moves from one place to the other.
 template <int Dim>
 double WallMotion<Dim>::farthest_corner(int wall, const AffineMap<Dim>& before, const AffineMap<Dim>& after) const {
   double farthest = 0.0;

@@ -27,7 +27,7 @@ namespace tailwater {
 template <int Dim>
 WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face);
 
-/// How far a wall has moved and turned.
+/// Displacement and rotation of a wall.
 template <int Dim>
 struct Placement {
   Vec<Dim> displacement = Vec<Dim>::Zero();  ///< m

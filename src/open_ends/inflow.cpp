@@ -98,7 +98,7 @@ class EntryLattice {
   std::vector<double> height_;         ///< m; of the cells of each column
 };
 
-/// How far [m] behind the opening each cell is free of water, over all ranks.
+/// Length [m] behind the opening over which each cell is free of water, over all ranks.
 template <int Dim>
 std::vector<double> free_lengths(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
@@ -113,7 +113,7 @@ std::vector<double> free_lengths(const OpenEnd<Dim>& end, const EntryLattice<Dim
   return length;
 }
 
-/// How much less water than its volume [m^Dim] each row of the buffer holds, over all ranks, weighted by a factor that
+/// Volume [m^Dim] of each row of the buffer that no water fills, over all ranks, weighted by a factor that
 /// falls from 1 at the opening to 0 where the buffer begins. In a lattice whose first column stands one spacing behind
 /// the opening half a particle is missing.
 template <int Dim>

@@ -1,6 +1,6 @@
-// Which liquid stands beyond an open end, in a case with several: at each height that of the water in the buffer at the
-// start, which is the block that the case draws before the opening. It enters there for the whole run, whatever the
-// water inside becomes.
+// The liquid beyond an open end at each height, in a case with several liquids. It is the liquid that the buffer has at
+// this height at the start, from the block that the case draws before the opening. This liquid enters during the whole
+// run, whatever liquids are inside.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace tailwater {
 
 class LiquidsBeyond {
  public:
-  /// One liquid.
+  /// For a case of one liquid.
   LiquidsBeyond() = default;
   /// Reads the particles in the buffer of an end. Collective.
   template <int Dim>

@@ -19,7 +19,7 @@
 
 namespace tailwater {
 
-/// How well a prescribed level is held.
+/// Error of a prescribed level.
 struct LevelError {
   double mean = 0.0;    ///< m; of the water before the buffer, above the height that the level prescribes
   double lasts = 0.0;   ///< s; for which that has been more than a spacing

@@ -37,7 +37,7 @@ struct alignas(16) SupportEnd {
   float inverse_reference = 1.0F;  ///< C_0 of the case's lattice over c
 };
 
-/// Those of ghosts are found from their places and volumes, as those of owned particles are.
+/// The terms of all particles. Those of ghosts are computed from places and volumes, like those of owned particles.
 template <int Dim>
 struct SupportTerms {
   std::vector<SupportEnd> ends;           ///< of all particles; empty: all have one spacing

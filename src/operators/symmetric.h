@@ -21,7 +21,7 @@ Packed<Dim> packed_dyad(const Vec<Dim>& a) {
   return packed;
 }
 
-/// How often each packed entry stands in the full tensor: 1 on the diagonal, 2 off it. A : B = sum m A B.
+/// Number of times that each packed entry occurs in the full tensor: 1 on the diagonal, 2 off it. A : B = sum m A B.
 template <int Dim>
 Packed<Dim> packed_multiplicity() {
   Packed<Dim> packed;

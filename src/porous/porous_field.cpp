@@ -129,7 +129,7 @@ Vec<Dim> PorousField<Dim>::place_of(const Index& index) const {
   return x;
 }
 
-/// Those with another medium within `reach` nodes along each axis; elsewhere smoothing changes nothing.
+/// Nodes with another medium within `reach` nodes along an axis. Elsewhere smoothing changes nothing.
 template <int Dim>
 std::vector<std::size_t> PorousField<Dim>::nodes_near_surfaces(int reach) const {
   std::vector<std::uint8_t> is_near(nodes_.size(), 0);

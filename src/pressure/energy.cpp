@@ -32,7 +32,7 @@ double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pr
   });
 }
 
-/// One liquid has one density for all particles, and rounding as if there were no other case.
+/// A case of one liquid uses its density directly, so that the rounding does not depend on the code for several.
 template <int Dim>
 double viscous_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted, double dt) {
   if (flow.setup.liquids.are_several()) {

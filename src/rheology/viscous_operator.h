@@ -34,7 +34,7 @@
 
 namespace tailwater {
 
-/// How walls move.
+/// The rigid motion of the walls.
 template <int Dim>
 struct WallRates {
   std::vector<Vec<Dim>> velocity;  ///< m/s; of each row of walls that move
@@ -66,7 +66,7 @@ class ViscousOperator {
 
   /// Sets the dynamic viscosity [Pa s] of owned fluid; 0 of walls. Collective.
   void set_viscosity(const Flow<Dim>& flow, std::span<const double> viscosity);
-  /// That of all particles, ghosts too.
+  /// The dynamic viscosity of all particles, ghosts too.
   const std::vector<double>& viscosity() const { return viscosity_; }
   /// Viscosity of all particles, reduced to 0 for those with so few neighbours that they have no gradient.
   const std::vector<double>& shared_viscosity() const { return shared_viscosity_; }

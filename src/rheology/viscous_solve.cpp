@@ -51,7 +51,7 @@ class ViscousSystem final : public ShellSystem {
     preconditioner_.apply(as_vectors<Dim>(residual), result);
     std::ranges::copy(result, last_correction_.begin());
   }
-  /// That of the residual which ended the solve: its norm needs it.
+  /// The correction for the residual that ended the solve. The norm of this residual is computed from it.
   const std::vector<Vec<Dim>>& last_correction() const { return last_correction_; }
 
  private:

@@ -15,8 +15,8 @@ namespace tailwater {
 
 namespace {
 
-/// Disorder is not air: water that sees no particle of a surface is inside, even where it is thinner than at rest.
-/// Otherwise water under tension would separate at the first disorder. Collective.
+/// Disorder is not air: water without a surface particle in reach is inside, even where its density is low. Without
+/// this rule, water under tension would separate at the first disorder. Collective.
 template <int Dim>
 void keep_whole(const Flow<Dim>& flow, std::vector<double>& interior) {
   // C/C_0 and its mean over the fluid in reach: 0.75 and 0.83 in the outermost row of a flat surface, 0.98 and 0.93 in

@@ -6,11 +6,11 @@
 
 namespace tailwater {
 
-/// As the first projection of a step of dt finds it.
+/// Computes it by the first projection of a step of length dt.
 template <int Dim>
 void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
-/// As the two-step scheme finds it, at the positions predicted for dt.
+/// Computes it by the two-step scheme, at the positions predicted for dt.
 template <int Dim>
 void predict_pressure_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 

@@ -56,7 +56,7 @@ std::pair<double, double> range_of(std::vector<double>& values) {
   return low > high ? std::pair(0.0, 1.0) : std::pair(low, high > low ? high : low + 1.0);
 }
 
-/// One component of all points, in another order.
+/// The component `first` of all points, in the order given by `order`.
 std::vector<double> picked(const VtpFile::Array& array, std::size_t first, const std::vector<std::size_t>& order) {
   std::vector<double> values;
   values.reserve(order.size());

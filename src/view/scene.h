@@ -16,8 +16,8 @@ struct FrameScalar {
   std::string_view name;
   std::string_view unit;
 };
-/// Those of the frames of a case: pressure, speed, and what its particles differ in: their size with zones of
-/// refinement, their liquid with several.
+/// The scalars of the frames of a case: pressure, speed, the size of particles with zones of refinement, and their
+/// liquid with several liquids.
 std::vector<FrameScalar> frame_scalars(const CaseSpec& spec);
 
 /// For each wall the number of its pose, in the order of their first walls; -1 for walls at rest.

@@ -31,8 +31,8 @@ struct Mirror {
   Mat<Dim> blocked;  ///< directions that are reversed
 };
 
-/// That of its wall. Beside a convex edge it faces the mean place of the water in reach, as far as the normals of the
-/// walls that meet there let it: a wall without water in front of it blocks nothing.
+/// The mirror of a particle's wall. Beside a convex edge it faces the mean place of the water in reach, as far as the
+/// normals of the walls that meet there allow. A wall without water in front of it blocks nothing.
 template <int Dim>
 Mirror<Dim> mirror_at(const WallScene<Dim>& scene, std::size_t i);
 

@@ -209,7 +209,7 @@ TYPED_TEST(FloatingBodyTest, LiesOnTheBedUntilTheWaterIsDeepEnough) {
   }
 }
 
-/// How far a body of this shape, half as heavy as water, has come up in 0.4 s from the bed under 0.6 m of water.
+/// Rise in 0.4 s of a body of this shape, half as heavy as water, from the bed under 0.6 m of water.
 double rise_from_bed(std::vector<Coordinates> points, double area, double height, double dx, double x = 0.5) {
   CaseSpec spec = tank_case<2>(dx, 1.0, 0.6);
   WallTable hull;

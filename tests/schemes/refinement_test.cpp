@@ -141,7 +141,7 @@ TEST(RefinementTest, TheImplicitIntegratorKeepsAStreamThroughAZone) {
   EXPECT_NEAR(now.energy, old.energy, 1e-2 * old.energy);
 }
 
-/// How far water has come [m] 0.3 s after a gate before a column 0.5 m wide begins to rise at 1.5 m/s.
+/// Place [m] of the front 0.3 s after a gate before a column 0.5 m wide begins to rise at 1.5 m/s.
 double front_behind_gate(const CaseSpec& tank) {
   CaseSpec spec = tank;
   spec.fluid[0].max = {0.5, 0.4};

@@ -59,6 +59,8 @@ class Prose(unittest.TestCase):
     def test_comments_of_cpp_begin_with_their_subject(self):
         text = '// Of walls only.\nint a;  // What it costs.\n// Speed of the wall, "of" rest.\nauto url = "http://of";\n'
         self.assertEqual(rules("bad.h", text), [(1, "start"), (2, "start"), (2, "word")])
+        text = "/// That of its wall.\nint a;\n/// How far it goes.\nint b;\n/// That is why. How?\nint c;\n"
+        self.assertEqual(rules("bad.h", text), [(1, "start"), (3, "start")])
 
     def test_messages_of_the_program_are_prose(self):
         text = ('throw InputError("the {} has no "\n                 "room for water", name);  // "a bar of it"\n'

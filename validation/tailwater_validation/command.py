@@ -33,8 +33,8 @@ class RunsParser(OutParser):
 
 
 def choose(every, names, kind, option=""):
-    """Those of the groups {name: group} that are named, in their order; all if none is. Throws DataError for a name
-    that none has."""
+    """The named groups of {name: group}, in their order; all if none is named. Throws DataError for a name that no
+    group has."""
     for name in names:
         if name not in every:
             near = difflib.get_close_matches(name, every, 1)

@@ -43,7 +43,7 @@ def steady_discharge(run, probe):
 
 
 def drift(run, probe, column):
-    """How much the mean of the last quarter differs from that of the quarter before."""
+    """The mean of the last quarter less that of the quarter before."""
     curve = run.curve(probe, column)
     end = run.case["time"]["end"]
     before, after = curve.window(0.5 * end, 0.75 * end), curve.window(0.75 * end, end)

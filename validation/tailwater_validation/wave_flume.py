@@ -66,7 +66,7 @@ def spectrum_numbers(frequency, density):
 
 
 def random_number(seed, item, which):
-    """That of src/base/random.h: the waves of a maker follow from its seed."""
+    """The random number of src/base/random.h: the waves of a maker follow from its seed."""
     all_bits = 2**64 - 1
     z = (seed * 0x9E3779B97F4A7C15 & all_bits) ^ (item * 3 + which)
     for _ in range(2):

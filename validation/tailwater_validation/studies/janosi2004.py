@@ -41,8 +41,8 @@ def distances(run, instant, shift=0.0, computed="level"):
 
 
 def best_shift(run):
-    """How much later (s), within the data's uncertainty, all measured surfaces fit best. Throws DataError if the run did not
-    take the profiles for it."""
+    """The shift in time (s), within the data's uncertainty, at which all measured surfaces fit best. Throws DataError if the
+    run lacks the profiles for it."""
     instants = [instant for instant in INSTANTS if instant >= TARGET_FROM]
     scores = [sum(rms(distances(run, instant, shift=shift)) ** 2 for instant in instants) for shift in SHIFTS]
     return SHIFTS[int(np.argmin(scores))]

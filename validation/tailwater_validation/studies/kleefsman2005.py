@@ -93,7 +93,7 @@ def excess(read, run, sensor):
 
 
 def end_of(run):
-    """How far a run is compared, s: also one that was stopped."""
+    """The time to which a run is compared, s; also for a run that was stopped."""
     asked = run.case["time"]["end"]
     return min(END, asked, run.summary.get("time_s", {}).get("reached", asked))
 

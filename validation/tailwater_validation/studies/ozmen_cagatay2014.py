@@ -93,8 +93,8 @@ def error(run, point, reading="level"):
 
 
 def bore_lag(run, point):
-    """How much later than measured the reflected bore passes a gauge, of T: when the computed level rises through the
-    measured one."""
+    """Delay of the reflected bore at a gauge, in units of T: it passes when the computed level rises through the measured
+    one."""
     curve = gauge_level(run, point.gauge, point.X).window(point.T - BORE_WITHIN, point.T + BORE_WITHIN)
     return passage_time(curve, point.measured) - point.T
 

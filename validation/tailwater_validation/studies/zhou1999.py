@@ -69,8 +69,8 @@ def pressure(run, probe):
 
 
 def distance(run, probe, window=PRESSURE_WINDOW, column="wet_m", reading=""):
-    """How far a gauge's depth, or the pressure of a probe, is from the laboratory: the fields of `curves.compare`, by default
-    the mean over all readings of its curve."""
+    """Deviation of a gauge's depth, or of the pressure of a probe, from the laboratory: the fields of `curves.compare`, by
+    default the mean over all readings of its curve."""
     is_depth = probe in GAUGES
     computed = depth(run, probe, column) if is_depth else pressure(run, probe)
     found = [compare(curve, computed, window, GRID, TIME_UNCERTAINTY)
