@@ -83,7 +83,10 @@ BoundFlow::BoundFlow(const BoundWaves& waves, double height)
     : waves_(waves), below_surface_(waves.depth_ - height), above_bed_image_(waves.depth_ + height) {}
 
 void BoundFlow::add(double cos_theta, double sin_theta, const DepthShape& shape) {
-  const BoundWaves::Parts& parts = waves_.parts_[next_];
+  // Copies, which the compiler keeps apart from the sums: the loops below then run in lanes.
+  const BoundWaves::Parts parts = waves_.parts_[next_];
+  const std::array shapes{shape.cosh * cos_theta, shape.cosh * sin_theta, shape.sinh * cos_theta,
+                          shape.sinh * sin_theta};
   double decay = 1.0;
   double image_decay = 1.0;
   if (next_ > 0) {
@@ -93,25 +96,26 @@ void BoundFlow::add(double cos_theta, double sin_theta, const DepthShape& shape)
   }
   ++next_;
   for (std::size_t r = 0; r < BoundWaves::terms; ++r) {
-    const double of_sum = parts.of_sums[r];
-    cosh_.real[r] += of_sum * shape.cosh * cos_theta;
-    cosh_.imag[r] += of_sum * shape.cosh * sin_theta;
-    sinh_.real[r] += of_sum * shape.sinh * cos_theta;
-    sinh_.imag[r] += of_sum * shape.sinh * sin_theta;
-    const double real = parts.of_differences[r] * cos_theta;
-    const double imag = parts.of_differences[r] * sin_theta;
-    // exp(i theta) times the conjugate sum of the waves before.
-    const auto couple = [&](ComplexTerms& before, double factor, ComplexTerms& pairs) {
+    cosh_.real[r] += parts.of_sums[r] * shapes[0];
+    cosh_.imag[r] += parts.of_sums[r] * shapes[1];
+    sinh_.real[r] += parts.of_sums[r] * shapes[2];
+    sinh_.imag[r] += parts.of_sums[r] * shapes[3];
+  }
+  // exp(i theta) times the conjugate sum of the waves before.
+  const auto couple = [&](ComplexTerms& before, double factor, ComplexTerms& pairs) {
+    for (std::size_t r = 0; r < BoundWaves::terms; ++r) {
+      const double real = parts.of_differences[r] * cos_theta;
+      const double imag = parts.of_differences[r] * sin_theta;
       const double a = before.real[r] * factor;
       const double b = before.imag[r] * factor;
       pairs.real[r] += real * a + imag * b;
       pairs.imag[r] += imag * a - real * b;
       before.real[r] = a + real;
       before.imag[r] = b + imag;
-    };
-    couple(from_surface_, decay, differences_);
-    couple(from_image_, image_decay, image_differences_);
-  }
+    }
+  };
+  couple(from_surface_, decay, differences_);
+  couple(from_image_, image_decay, image_differences_);
 }
 
 std::array<double, 2> BoundFlow::velocity() const {
