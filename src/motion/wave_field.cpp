@@ -76,6 +76,15 @@ WaveField::WaveField(const WaveKeys& waves, const CaseLabel& owner, double depth
       current_ -= 0.5 * sines.back().speed * part.amplitude / depth * Vec<3>(direction.along, 0.0, direction.across);
     }
   }
+  const auto has_other_direction = [&](const Sine& sine) {
+    return sine.direction.across != sines.front().direction.across;
+  };
+  if (std::ranges::none_of(sines, has_other_direction)) {
+    std::vector<TravellingWave> travelling;
+    for (const Sine& sine : sines) travelling.push_back({sine.omega, sine.wave_number, sine.amplitude});
+    bound_.emplace(travelling, gravity, depth);
+    direction_ = sines.front().direction;
+  }
   waves_ = std::move(sines);
 }
 
@@ -90,14 +99,22 @@ Vec<3> WaveField::velocity(double distance, double height, double time, double a
   }
   const double z = std::min(height, depth_);
   Vec<3> sum = current_;
+  std::optional<BoundFlow> bound;
+  if (bound_) bound.emplace(*bound_, z);
   for (const Sine& sine : std::get<std::vector<Sine>>(waves_)) {
     const DepthShape shape(sine.wave_number, z, depth_);
     const Direction& direction = sine.direction;
     const double angle = sine.omega * since - sine.wave_number * direction.way(distance, across) + sine.phase;
-    const double u = shape.cosh * std::cos(angle);
-    sum += sine.speed * Vec<3>(direction.along * u, -shape.sinh * std::sin(angle), direction.across * u);
+    const double cosine = std::cos(angle);
+    const double sine_of_angle = std::sin(angle);
+    const double u = shape.cosh * cosine;
+    sum += sine.speed * Vec<3>(direction.along * u, -shape.sinh * sine_of_angle, direction.across * u);
+    if (bound) bound->add(cosine, sine_of_angle, shape);
   }
-  return growth(time) * sum;
+  const double grown = growth(time);
+  if (!bound) return grown * sum;
+  const auto [along, upward] = bound->velocity();
+  return grown * (sum + grown * Vec<3>(direction_.along * along, upward, direction_.across * along));
 }
 
 double WaveField::elevation(double distance, double time, double across) const {
