@@ -8,6 +8,7 @@
 #include "base/box.h"
 #include "base/error.h"
 #include "geometry/from_spec.h"
+#include "geometry/some_walls.h"
 #include "motion/channel_end.h"
 #include "walls/wall_contact.h"
 
@@ -32,6 +33,10 @@ constexpr double longest_piece = 0.75;
 /// the mean of a field that changes linearly away from the wall.
 constexpr double sight_of_walls = 0.6;
 
+/// [dx]; of the corners of the space that a row of a wall stands for, which is up to 1.25 dx long.
+template <int Dim>
+const double reach_of_row = std::sqrt(0.25 * (Dim - 1) + 0.625 * 0.625);
+
 /// Limit of some 2 GB: one bit per cell in six kinds of marks, and the data of each row of cells.
 constexpr double most_cells_of_map = 2e9;
 
@@ -51,15 +56,11 @@ double cells_over(const Box<Dim>& box, double spacing, const PeriodicDomain<Dim>
 template <int Dim>
 bool is_behind_touching_wall(const Boundary<Dim>& boundary, int wall, double distance, double tolerance,
                              const Vec<Dim>& x) {
-  bool is_behind = false;
-  boundary.visit_plain_faces([&](int f) {
-    const WallFace<Dim>& face = boundary.faces[f];
-    const double height = face.height(x);
-    if (is_behind || face.wall == wall || boundary.walls[face.wall].is_plate) return;
-    if (height >= 0.0 || height < -distance - tolerance) return;
-    is_behind = (closest_point(face, x) - x).norm() <= distance + tolerance;
-  });
-  return is_behind;
+  std::vector<std::uint8_t> is_other(boundary.walls.size(), 1);
+  for (std::size_t w = 0; w < is_other.size(); ++w) {
+    if (static_cast<int>(w) == wall || boundary.walls[w].is_plate) is_other[w] = 0;
+  }
+  return nearest_among<Dim>(boundary, is_other, x, distance + tolerance).signed_distance < 0.0;
 }
 
 std::vector<std::int64_t> numbers_of(const std::vector<AirPocket>& pockets) {
@@ -109,10 +110,10 @@ bool AirWatch<Dim>::is_in_gap(const Boundary<Dim>& boundary, int face, const Vec
   const Vec<Dim> in_front = x + 0.5 * spacing_ * boundary.faces[face].normal;
   const NearestWall<Dim> other = boundary.nearest(in_front, search_distance * spacing_);
   if (other.face < 0) return false;
-  const int wall = boundary.faces[face].wall;
-  if (boundary.faces[other.face].wall != wall) return other.signed_distance < 0.0;
-  return is_behind_touching_wall(boundary, wall, std::abs(other.signed_distance), corner_tolerance * spacing_,
-                                 in_front);
+  // At a corner it may be behind another face of its own wall.
+  return other.signed_distance < 0.0 ||
+         is_behind_touching_wall(boundary, boundary.faces[other.face].wall, other.signed_distance,
+                                 corner_tolerance * spacing_, in_front);
 }
 
 /// Marks the cells near a row of a wall that are behind walls, or in a gap beside one that moves.
@@ -143,22 +144,28 @@ void AirWatch<Dim>::mark_wall(const Walls<Dim>& walls, std::size_t row, CellMark
   });
 }
 
-/// Marks the cells in the cube of a row that stands in front of another wall, as of a lid between side walls that
-/// continue above it. For these cells the other wall is nearer, and they are behind this wall as far as the row itself
-/// is.
+/// Marks the cells at a row that stands in front of another wall, as of a lid between side walls that continue above
+/// it. For these cells the other wall is nearer, and they are behind this wall as far as the row itself is: in its
+/// cube, or between cubes, because the steps between rows fit the wall.
 template <int Dim>
 void AirWatch<Dim>::mark_across(const Walls<Dim>& walls, std::size_t row, CellMarks& solid) const {
   const Boundary<Dim>& boundary = walls.boundary;
   const Vec<Dim>& x = walls.particles.position[row];
-  grid_->visit_ball(x, std::sqrt(0.25 * Dim) * spacing_, [&](int r, int begin, int end) {
+  const int own = walls.particles.wall[row];
+  std::vector<std::uint8_t> is_own(boundary.walls.size(), 0);
+  is_own[static_cast<std::size_t>(own)] = 1;
+  grid_->visit_ball(x, reach_of_row<Dim> * spacing_, [&](int r, int begin, int end) {
     for (int place = solid.next_unmarked(r, begin, end); place < end; place = solid.next_unmarked(r, place + 1, end)) {
       const Vec<Dim> centre = grid_->centre(grid_->cell(r, place));
-      if ((centre - x).cwiseAbs().maxCoeff() > 0.5 * spacing_) continue;
       const NearestWall<Dim> nearest = boundary.nearest(centre, search_distance * spacing_);
       if (nearest.face < 0) continue;
       const WallFace<Dim>& face = boundary.faces[nearest.face];
-      const bool is_other = face.wall != walls.particles.wall[row] && !boundary.walls[face.wall].is_plate;
-      if (is_other && face.height(x) > 0.0) solid.mark(r, place, place + 1);
+      const bool is_other = face.wall != own && !boundary.walls[face.wall].is_plate;
+      if (!is_other || face.height(x) <= 0.0) continue;
+      const bool is_in_cube = (centre - x).cwiseAbs().maxCoeff() <= 0.5 * spacing_;
+      if (is_in_cube || nearest_among<Dim>(boundary, is_own, centre, spacing_).signed_distance < 0.0) {
+        solid.mark(r, place, place + 1);
+      }
     }
   });
 }

@@ -6,16 +6,10 @@
 #include "case/formulation.h"
 #include "flow/drawing.h"
 #include "flow/pressure_equation.h"
+#include "geometry/some_walls.h"
 
 namespace tailwater {
 namespace {
-
-/// Whether water surrounds a wall of the case.
-bool is_hull(const WallTable& wall) {
-  const bool is_closed =
-      wall.shape == WallShape::polygon || wall.shape == WallShape::box || wall.shape == WallShape::mesh;
-  return is_closed && wall.fluid_side == FluidSide::outside;
-}
 
 /// The hull of each of `count` walls, or -1.
 std::vector<int> hull_of_each(std::size_t count, const std::vector<int>& hulls) {

@@ -136,8 +136,9 @@ double NarrowGaps<Dim>::wetted_measure(const WallPatch<Dim>& patch, const OtherW
   if (wall.distance > dx) return patch.measure;
   const int hull = hulls_.of_wall[boundary.faces[patch.face].wall];
   const std::vector<WallPatch<Dim>> pieces = pieces_of(patch, boundary, longest_part * dx);
+  const double reach = std::abs(wall.distance) + widest_gap * dx;  // finds the wall from each piece
   const auto in_front = std::ranges::count_if(pieces, [&](const WallPatch<Dim>& piece) {
-    return other_wall(hull, piece.centre(boundary), widest_gap * dx).distance > 0.0;
+    return other_wall(hull, piece.centre(boundary), reach).distance > 0.0;
   });
   return patch.measure * static_cast<double>(in_front) / static_cast<double>(pieces.size());
 }

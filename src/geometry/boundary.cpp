@@ -7,6 +7,7 @@
 #include "base/box.h"
 #include "geometry/face_grid.h"
 #include "geometry/mesh_surface.h"
+#include "geometry/some_walls.h"
 
 namespace tailwater {
 namespace {
@@ -70,12 +71,6 @@ class WallSearch {
     }
   }
 
- private:
-  static bool is_at_ended_edge(const WallMesh& mesh, const SurfacePlace& place) {
-    return !mesh.ended_edges.empty() &&
-           std::ranges::any_of(place.triangles, [&](int t) { return mesh.ended_edges[t] != 0; });
-  }
-
   void visit_mesh(const WallMesh& mesh) {
     const Vec<Dim> moved = boundary_.displacement_of(mesh);
     SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
@@ -89,6 +84,12 @@ class WallSearch {
     const bool are_equal = best_.wall.face >= 0 && best_.distance - distance <= 1e-9 * distance;
     if (are_equal && (place.is_on_rim ? plane_distance <= best_.plane_distance : place.signed_distance >= 0.0)) return;
     best_ = {{face, place.point + moved, place.signed_distance}, distance, plane_distance};
+  }
+
+ private:
+  static bool is_at_ended_edge(const WallMesh& mesh, const SurfacePlace& place) {
+    return !mesh.ended_edges.empty() &&
+           std::ranges::any_of(place.triangles, [&](int t) { return mesh.ended_edges[t] != 0; });
   }
 
   const Boundary<Dim>& boundary_;
@@ -180,6 +181,24 @@ bool Boundary<Dim>::is_free_end(int face, const Vec<Dim>& x) const {
     return (x - corners[end.corner]).norm() <= 1e-9 * (corners[1] - corners[0]).norm();
   });
 }
+
+template <int Dim>
+NearestWall<Dim> nearest_among(const Boundary<Dim>& boundary, std::span<const std::uint8_t> is_part, const Vec<Dim>& x,
+                               double search_distance) {
+  const auto takes = [&](int wall) { return is_part[static_cast<std::size_t>(wall)] != 0; };
+  WallSearch<Dim> search(boundary, x, search_distance);
+  boundary.visit_plain_faces([&](int f) {
+    if (takes(boundary.faces[f].wall)) search.visit_face(f);
+  });
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : boundary.meshes) {
+      if (takes(mesh.wall)) search.visit_mesh(mesh);
+    }
+  }
+  return search.nearest();
+}
+
+TAILWATER_IN_2D_AND_3D(nearest_among);
 
 template struct Boundary<2>;
 template struct Boundary<3>;

@@ -19,6 +19,7 @@
 #include "probes/force_shares.h"
 #include "probes/places.h"
 #include "probes/wall_pressure.h"
+#include "probes/wetted_patches.h"
 #include "refinement/spacing_field.h"
 #include "sampling/wall_particles.h"
 
@@ -30,9 +31,6 @@ constexpr double weight_of_others = 1e-6;
 
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
 constexpr double patch_margin = 1.0;
-
-/// dx; a patch that is so near to a wall that faces it is covered: water has no access to it.
-constexpr double reach_of_cover = 0.05;
 
 /// m; the largest spacing at the walls of a probe.
 template <int Dim>
@@ -59,7 +57,8 @@ class WallForceProbe {
                                           : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
         reach_((1.5 * dummy_layers(spec) + patch_margin) * spacing_),
         paths_(boundary.walls.size()),
-        body_of_(boundary.walls.size(), -1) {
+        body_of_(boundary.walls.size(), -1),
+        wetted_(spec, boundary, spacing_, reach_) {
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
       if (!boundary.walls[wall].moves()) continue;
       if (const Drive& drive = spec.walls[wall].drive; drive.by == Drive::By::body) {
@@ -96,29 +95,13 @@ class WallForceProbe {
   void place_patches(const Boundary<Dim>& boundary) {
     bool rest = true;
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
-    if (takes_all_and_rests() || (rest && !centres_.empty())) return;
-    centres_.resize(patches_.size());
-    for_each(patches_.size(), [&](std::size_t k) { centres_[k] = patches_[k].centre(boundary); });
-    grid_ = CellGrid<Dim>(centres_, reach_);
-    is_covered_.assign(patches_.size(), 0);
-    for_each(patches_.size(), [&](std::size_t k) { is_covered_[k] = is_under_wall(boundary, k) ? 1 : 0; });
+    if (takes_all_and_rests() || (rest && !wetted_.centres().empty())) return;
+    wetted_.place(boundary, patches_);
     around_chosen_ = {};
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      if (chosen_[k] > 0.0) around_chosen_.extend(centres_[k]);
+      if (chosen_[k] > 0.0) around_chosen_.extend(wetted_.centres()[k]);
     }
     around_chosen_.widen(reach_);
-  }
-
-  /// Whether another wall lies on the patch, as a bed does below a block that stands on it.
-  bool is_under_wall(const Boundary<Dim>& boundary, std::size_t k) const {
-    const WallFace<Dim>& own = boundary.faces[patches_[k].face];
-    bool found = false;
-    grid_.for_each_near(centres_[k], [&](std::int32_t m) {
-      const WallFace<Dim>& other = boundary.faces[patches_[m].face];
-      if (found || other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) return;
-      found = (closest_point(other, centres_[k]) - centres_[k]).norm() < reach_of_cover * spacing_;
-    });
-    return found;
   }
 
   /// Beside another wall the pressure force on a hull is more than the force of its pairs. The difference has its
@@ -272,13 +255,14 @@ class WallForceProbe {
   /// Calls visit(k, weight, offset) for each patch k near x, with its weight by size and distance.
   template <class Visit>
   void for_each_patch_near(const Vec<Dim>& x, Visit&& visit) const {
-    grid_.for_each_near(x, [&](std::int32_t k) {
-      if (is_covered_[k] != 0) return;
-      const Vec<Dim> offset = x - centres_[k];
+    wetted_.grid().for_each_near(x, [&](std::int32_t k) {
+      if (wetted_.share(k) == 0.0) return;
+      const Vec<Dim> offset = x - wetted_.centres()[k];
       const double squared = offset.squaredNorm();
       if (squared >= reach_ * reach_) return;
       const double nearness = 1.0 - std::sqrt(squared) / reach_;
-      visit(k, patches_[k].measure * (nearness * nearness) * (nearness * nearness), offset);
+      const double measure = wetted_.share(k) * patches_[k].measure;
+      visit(k, measure * (nearness * nearness) * (nearness * nearness), offset);
     });
   }
 
@@ -317,10 +301,8 @@ class WallForceProbe {
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
-  std::vector<Vec<Dim>> centres_;         ///< of the patches, where they are
-  std::vector<std::uint8_t> is_covered_;  ///< whether no water reaches the patch
-  CellGrid<Dim> grid_;                    ///< of these
-  Box<Dim> around_chosen_;                ///< contains all forces of which chosen patches take a fraction
+  WettedPatches<Dim> wetted_;
+  Box<Dim> around_chosen_;  ///< contains all forces of which chosen patches take a fraction
 };
 
 /// Largest and mean force so far, as numbers that a checkpoint saves.

@@ -150,6 +150,27 @@ TYPED_TEST(SealedAir, IsClosedByALidThatMovesWithTheTank) {
   }
 }
 
+// Cells have their centres between the planes of lid and tank, at the corners of the lid, and between its rows, whose
+// steps fit the lid. Through such cells all of the gas leaked.
+TEST(SealedAir3D, IsClosedByALidOfAnyWidth) {
+  for (const double width : {0.507, 0.515, 0.52}) {
+    CaseSpec spec = tank_below_lid<3>(true);
+    for (Coordinates* corner : {&spec.walls[0].max, &spec.walls[1].max, &spec.fluid[0].max}) {
+      for (int axis = 0; axis < 2; ++axis) (*corner)[static_cast<std::size_t>(axis)] = width;
+    }
+    for (WallTable& wall : spec.walls) {
+      wall.displacement = VectorField(3, 0.0);
+      wall.displacement[0] = "0.2*t";
+    }
+    Flow<3> flow = make_flow<3>(spec);
+    start(flow);
+    const double gas = gas_of(flow);
+    EXPECT_NEAR(gas, 0.4 * width * width, 1e-3 * gas) << width;
+    while (flow.state.time < 0.15) step(flow);
+    EXPECT_NEAR(gas_of(flow), gas, 1e-12 * gas) << width;
+  }
+}
+
 // Pressure that all of the air has in common has no force.
 TYPED_TEST(SealedAir, OfLowPressureLeavesWaterAtRest) {
   constexpr int Dim = TypeParam::value;

@@ -1,0 +1,109 @@
+#include "probes/wetted_patches.h"
+
+#include <algorithm>
+
+#include "base/for_each.h"
+#include "geometry/facing.h"
+#include "geometry/some_walls.h"
+
+namespace tailwater {
+namespace {
+
+/// dx; edge of the pieces of a patch that another wall cuts.
+constexpr double edge_of_wet_pieces = 0.25;
+
+/// dx; a place that is less far behind a wall lies on it. Water has no access to a patch that is so near to a wall that
+/// faces it.
+constexpr double reach_of_cover = 0.05;
+
+}  // namespace
+
+template <int Dim>
+WettedPatches<Dim>::WettedPatches(const CaseSpec& spec, const Boundary<Dim>& boundary, double spacing, double reach)
+    : spacing_(spacing), reach_(reach), is_hull_(boundary.walls.size(), 0) {
+  Others rest{-1, std::vector<std::uint8_t>(boundary.walls.size(), 0)};
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    if (spec.walls[w].drive.by == Drive::By::body || boundary.walls[w].is_plate) continue;
+    if (!is_hull(spec.walls[w])) {
+      rest.walls[w] = 1;
+      continue;
+    }
+    is_hull_[w] = 1;
+    others_.push_back({static_cast<int>(w), std::vector<std::uint8_t>(boundary.walls.size(), 0)});
+    others_.back().walls[w] = 1;
+  }
+  if (!others_.empty()) others_.push_back(std::move(rest));
+}
+
+template <int Dim>
+void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
+  for (Others& other : others_) {
+    other.box = {};
+    for (const WallFace<Dim>& face : boundary.faces) {
+      if (face.wall == other.hull) other.box.extend(face.box());
+    }
+  }
+  centres_.resize(patches.size());
+  share_.assign(patches.size(), 1.0);
+  for_each(patches.size(), [&](std::size_t k) { find_part(boundary, patches[k], k); });
+  grid_ = CellGrid<Dim>(centres_, reach_);
+  for_each(patches.size(), [&](std::size_t k) {
+    if (is_under_wall(boundary, patches, k)) share_[k] = 0.0;
+  });
+}
+
+/// Whether another wall lies on the patch, as a bed does below a block that stands on it.
+template <int Dim>
+bool WettedPatches<Dim>::is_under_wall(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches,
+                                       std::size_t k) const {
+  const WallFace<Dim>& own = boundary.faces[patches[k].face];
+  bool found = false;
+  grid_.for_each_near(centres_[k], [&](std::int32_t m) {
+    const WallFace<Dim>& other = boundary.faces[patches[m].face];
+    if (found || other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) return;
+    found = (closest_point(other, centres_[k]) - centres_[k]).norm() < reach_of_cover * spacing_;
+  });
+  return found;
+}
+
+template <int Dim>
+void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatch<Dim>& patch, std::size_t k) {
+  const int wall = boundary.faces[patch.face].wall;
+  const Vec<Dim> centre = patch.centre(boundary);
+  centres_[k] = centre;
+  const double reach = 2.0 * reach_;
+  const double size = longest_patch_edge * spacing_;
+  std::vector<const Others*> cutting;
+  for (const Others& other : others_) {
+    const bool is_alone = other.hull < 0 ? is_hull_[wall] == 0 : other.hull == wall;
+    if (is_alone) continue;
+    Box<Dim> around = other.box;
+    around.widen(size);
+    if (other.hull >= 0 && !around.contains(centre)) continue;
+    const NearestWall<Dim> nearest = nearest_among<Dim>(boundary, other.walls, centre, reach);
+    if (nearest.face < 0 || nearest.signed_distance > size) continue;
+    if (nearest.signed_distance < -size) share_[k] = 0.0;
+    cutting.push_back(&other);
+  }
+  if (cutting.empty() || share_[k] == 0.0) return;
+  const auto is_behind = [&](const Vec<Dim>& x) {
+    return std::ranges::any_of(cutting, [&](const Others* other) {
+      return nearest_among<Dim>(boundary, other->walls, x, reach).signed_distance < -reach_of_cover * spacing_;
+    });
+  };
+  double wet = 0.0;
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (const WallPatch<Dim>& piece : pieces_of(patch, boundary, edge_of_wet_pieces * spacing_)) {
+    const Vec<Dim> x = piece.centre(boundary);
+    if (is_behind(x)) continue;
+    wet += piece.measure;
+    sum += piece.measure * x;
+  }
+  share_[k] = wet / patch.measure;
+  if (wet > 0.0) centres_[k] = sum / wet;
+}
+
+template class WettedPatches<2>;
+template class WettedPatches<3>;
+
+}  // namespace tailwater
