@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace tailwater {
@@ -18,11 +19,29 @@ template <int Dim>
 constexpr double largest_volume = Dim == 2 ? 4.0 : 8.0;
 constexpr double entries_per_volume = 100.0;
 
+/// Depths behind a plane surface, within the radius of a support, and points of the integrals over planes.
+constexpr int depths_behind_surface = 100;
+
+/// 1/m; integral of the kernel over the plane at a distance.
+template <int Dim>
+double integral_over_plane(const Kernel<Dim>& kernel, double distance) {
+  const double radius = kernel_radius(kernel);
+  const double reach = std::sqrt(std::max(0.0, radius * radius - distance * distance));
+  const double step = reach / depths_behind_surface;
+  double sum = 0.0;
+  for (int n = 0; n < depths_behind_surface; ++n) {
+    const double r = (n + 0.5) * step;
+    const double ring = Dim == 2 ? 2.0 : 2.0 * std::numbers::pi * r;
+    sum += ring * step * kernel_value(kernel, std::hypot(distance, r));
+  }
+  return sum;
+}
+
 }  // namespace
 
 template <int Dim>
 GradedSums<Dim>::GradedSums(const Kernel<Dim>& kernel, double spacing, SpacingField<Dim> field)
-    : kernel_(kernel), spacing_(spacing), field_(std::move(field)) {
+    : kernel_(kernel), spacing_(spacing), field_(std::move(field)), behind_surface_(sums_behind_surface(kernel)) {
   const int last = static_cast<int>(std::ceil((largest_volume<Dim> - least_volume<Dim>)*entries_per_volume));
   for (int n = 0; n <= last; ++n) {
     const double volume = least_volume<Dim> + n / entries_per_volume;
@@ -58,6 +77,27 @@ double GradedSums<Dim>::lattice_slope(double relative_spacing, double volume) co
   const auto [low, high, share, relative_volume] = entry(relative_spacing, volume);
   const double difference = high.concentration - low.concentration;
   return -Dim * relative_volume * entries_per_volume * difference / (low.concentration + share * difference);
+}
+
+template <int Dim>
+std::vector<typename GradedSums<Dim>::BehindSurface> GradedSums<Dim>::sums_behind_surface(const Kernel<Dim>& kernel) {
+  const double step = kernel_radius(kernel) / depths_behind_surface;
+  double filled = 0.5;
+  std::vector<BehindSurface> places{{filled, 0.0}};
+  for (int n = 1; n <= depths_behind_surface; ++n) {
+    filled += step * integral_over_plane(kernel, (n - 0.5) * step);
+    // A larger support acts at a fixed depth as a smaller depth does.
+    places.push_back({filled, n * step * integral_over_plane(kernel, n * step)});
+  }
+  return places;
+}
+
+template <int Dim>
+double GradedSums<Dim>::change_at_surface(double filled) const {
+  const auto above = std::ranges::upper_bound(behind_surface_, filled, {}, &BehindSurface::filled);
+  if (above == behind_surface_.begin() || above == behind_surface_.end()) return 0.0;
+  const BehindSurface& below = *std::prev(above);
+  return std::lerp(below.change, above->change, (filled - below.filled) / (above->filled - below.filled));
 }
 
 template <int Dim>

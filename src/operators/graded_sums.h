@@ -40,6 +40,9 @@ class GradedSums {
   double lattice_concentration(double relative_spacing, double volume) const;
   /// d ln C_0/d ln h of such a lattice, at its volume.
   double lattice_slope(double relative_spacing, double volume) const;
+  /// -dg/d ln h at a fixed depth below the plane surface of a continuum, of which this fraction g of the support is
+  /// filled there. 0 inside, and where less than half is filled.
+  double change_at_surface(double filled) const;
   /// At a place of the field as drawn, by quadrature.
   ContinuumSums<Dim> continuum(const Vec<Dim>& x) const;
 
@@ -53,10 +56,18 @@ class GradedSums {
   };
   Entry entry(double relative_spacing, double volume) const;
 
+  /// A place in a continuum behind a plane surface.
+  struct BehindSurface {
+    double filled;  ///< g
+    double change;  ///< -dg/d ln h
+  };
+  static std::vector<BehindSurface> sums_behind_surface(const Kernel<Dim>& kernel);
+
   Kernel<Dim> kernel_;
   double spacing_;
   SpacingField<Dim> field_;
-  std::vector<LatticeSums> lattices_;  ///< with the support of the case, in equal steps of the volume
+  std::vector<LatticeSums> lattices_;          ///< with the support of the case, in equal steps of the volume
+  std::vector<BehindSurface> behind_surface_;  ///< from the surface to the depth of the radius of the support
 };
 
 }  // namespace tailwater

@@ -5,16 +5,17 @@
 // (graded_sums.h). Where the relative support s varies, g_i changes as well because the particles change their
 // supports and because c varies. With these terms the divergence is -dg_i/dt, and the gradient is its adjoint:
 //
-//   div u_i  = (1/c_i) { sum_j w_j (u_j - u_i) . (a_ij - Q_ij G_j) - delta_i . (u_i - U) }
-//   grad p_i = sum_j w_j { (m_i + m_j) a_ij + Q_ij (m_j G_i - m_i G_j) } + m_i delta_i - <m delta>
+//   div u_i  = (1/c_i) { sum_j w_j (u_j - u_i) . (a_ij - Q_ij G_j) - delta_i . (u_i - U) - s_i . U }
+//   grad p_i = sum_j w_j { (m_i + m_j) a_ij + Q_ij (m_j G_i - m_i G_j) } + m_i delta_i - <m (delta - s)>
 //
 //   m_i = p_i/c_i,    G_i = grad s_i,    Q_ij = (1/2) dW/ds
 //   delta_i = sum_j w_j Q_ij (G_i + G_j) + w_i dW(0, s_i)/ds G_i - C_i grad ln c_i
 //
 // With a_ij = dW e_ij a particle that goes around through a border therefore gathers no false change of volume, on
-// which the pressure would do work. delta is 0 in a continuum; on a set of particles it is the error of this sum. U is
-// the mean velocity of the water in the border, <m delta> the mean over the same water by volume: water that flows
-// through a border as a whole does not see delta, the two operators stay adjoint, and the momentum stays exact.
+// which the pressure would do work. In a continuum delta is 0 inside, and s near a surface, which cuts larger supports
+// more. On a set of particles delta - s is the error of this sum. U is the mean velocity of the water in the border,
+// <m ...> the mean over the same water by volume: water that flows through a border as a whole does not see that error,
+// the two operators stay adjoint, and the momentum is exact inside.
 #pragma once
 
 #include <array>

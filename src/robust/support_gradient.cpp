@@ -12,6 +12,18 @@ bool is_in_border(const Flow<Dim>& flow, std::size_t i) {
   return flow.role[i] == Role::water && flow.surroundings.support_terms.is_near_border(i);
 }
 
+/// 1/m; delta of a continuum with a plane surface in the place of particle i, of which the support is filled alike. The
+/// fraction that is inside has none.
+template <int Dim>
+Vec<Dim> delta_at_surface(const Flow<Dim>& flow, std::size_t i) {
+  const double outside = 1.0 - flow.surroundings.interior[i];
+  if (outside == 0.0) return Vec<Dim>::Zero();
+  const SupportTerms<Dim>& terms = flow.surroundings.support_terms;
+  const double change = outside * flow.setup.graded->change_at_surface(flow.surroundings.concentration[i]);
+  const double scale = -terms.reference[i] * change / flow.pairs().relative_spacing_of(i);
+  return Vec<Dim>::NullaryExpr([&](int d) { return scale * static_cast<double>(terms.ends[i].slope[d]); });
+}
+
 /// Means by volume over the water in the border of each zone of value(i), a vector. Collective.
 template <int Dim, class Value>
 std::vector<Vec<Dim>> means_over_borders(const Flow<Dim>& flow, Value&& value) {
@@ -50,8 +62,8 @@ void add_support_gradient(const Flow<Dim>& flow, const std::vector<double>& over
                           std::span<Vec<Dim>> gradient) {
   const SupportTerms<Dim>& terms = flow.surroundings.support_terms;
   const std::vector<double>& volume = flow.state.particles.volume;
-  const std::vector<Vec<Dim>> means =
-      means_over_borders(flow, [&](std::size_t i) { return Vec<Dim>(over_reference[i] * terms.delta[i]); });
+  const std::vector<Vec<Dim>> means = means_over_borders(
+      flow, [&](std::size_t i) { return Vec<Dim>(over_reference[i] * (terms.delta[i] - delta_at_surface(flow, i))); });
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (!is_in_border(flow, i)) return;
     gradient[i] += support_gradient<Dim>(flow.pairs(), i, volume[i], terms, over_reference,
@@ -68,8 +80,9 @@ void add_support_divergence(const Flow<Dim>& flow, std::span<const Vec<Dim>> vel
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
     if (terms.is_near_border(i)) {
+      const Vec<Dim>& mean = means[terms.border[i]];
       divergence[i] -= support_divergence<Dim>(flow.pairs(), i, terms, in_single) +
-                       terms.delta[i].dot(velocity[i] - means[terms.border[i]]);
+                       terms.delta[i].dot(velocity[i] - mean) + delta_at_surface(flow, i).dot(mean);
     }
     divergence[i] *= terms.ends[i].inverse_reference;
   });

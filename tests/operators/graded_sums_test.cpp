@@ -93,6 +93,44 @@ TYPED_TEST(GradedSumsTest, ConcentrationIsOneAcrossABorder) {
   EXPECT_GT(largest_of_lattice, 1.2 * largest);
 }
 
+/// The fraction of a support of relative radius h that is filled at a depth behind a plane surface, by a sum over
+/// points.
+template <int Dim>
+double filled_behind_surface(const Kernel<Dim>& kernel, double depth, double h) {
+  constexpr int points = 40;  // along the radius
+  constexpr double step = radius / points;
+  double inside = 0.0;
+  double all = 0.0;
+  const int last_z = Dim == 3 ? points : 0;
+  for (int c = -last_z; c <= last_z; ++c) {
+    for (int b = -points; b <= points; ++b) {
+      for (int a = -points; a < points; ++a) {
+        const double across = (a + 0.5) * step;
+        const double r = std::hypot(across, b * step, c * step);
+        if (r >= h * radius) continue;
+        all += kernel_value(kernel, r / h);
+        if (across < depth) inside += kernel_value(kernel, r / h);
+      }
+    }
+  }
+  return inside / all;
+}
+
+TYPED_TEST(GradedSumsTest, TheChangeAtASurfaceIsThatOfALargerSupport) {
+  constexpr int Dim = TypeParam::value;
+  const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, radius);
+  const GradedSums<Dim> sums(kernel, dx, field_of_face<Dim>());
+  EXPECT_EQ(sums.change_at_surface(0.4), 0.0);
+  EXPECT_EQ(sums.change_at_surface(1.01), 0.0);
+  for (const double depth : {0.1 * radius, 0.25 * radius, 0.5 * radius}) {
+    constexpr double step = 0.01;
+    const double smaller = filled_behind_surface<Dim>(kernel, depth, 1.0 - step);
+    const double larger = filled_behind_surface<Dim>(kernel, depth, 1.0);
+    const double change = (smaller - larger) / step;
+    EXPECT_NEAR(sums.change_at_surface(0.5 * (smaller + larger)), change, 0.02 * change);
+  }
+}
+
 TYPED_TEST(GradedSumsTest, TheTableIsTheQuadrature) {
   constexpr int Dim = TypeParam::value;
   const Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, radius);

@@ -124,6 +124,9 @@ TEST(RefinementTest, AStreamThroughAZoneKeepsItsVelocity) {
   // one spacing gains half a percent in 5 s.
   EXPECT_NEAR(now.momentum[0], old.momentum[0], 5e-3 * old.momentum[0]);
   EXPECT_NEAR(now.energy, old.energy, 1e-2 * old.energy);
+  // If delta of the surface were relative to the mean of the border, its force would speed the stream up by half a
+  // percent.
+  EXPECT_LT(now.energy, 1.002 * old.energy);
 }
 
 TEST(RefinementTest, TheImplicitIntegratorKeepsAStreamThroughAZone) {
@@ -267,7 +270,7 @@ TEST(RefinementTest, WaterComesToRestBesideABorder) {
   EXPECT_LT(measures.density_error_rms, 0.006);
 }
 
-TEST(RefinementTest, PressureAndVelocityAreAdjointAndMomentumIsExact) {
+TEST(RefinementTest, PressureAndVelocityAreAdjointAndMomentumIsExactInside) {
   CaseSpec spec = tank_case<2>(dx, 1.0, 0.5);
   RefinementTable zone;
   zone.min = {0.4, -1.0};
@@ -292,26 +295,32 @@ TEST(RefinementTest, PressureAndVelocityAreAdjointAndMomentumIsExact) {
   std::vector<Vec<2>> pushes(walls.size());
   flow.discretisation().find_divergence(flow, velocity, divergence);
   flow.discretisation().find_gradient(flow, pressure, gradient);
-  flow.discretisation().wall_reactions(flow, walls, pressure, pushes);
   double on_volume = 0.0;  // work of the pressure
   double on_water = 0.0;
   double size = 0.0;
-  Vec<2> force = Vec<2>::Zero();
-  double forces = 0.0;
   std::size_t beside_border = 0;
   for (std::size_t i = 0; i < particles.owned; ++i) {
     if (!particles.is_fluid(i)) continue;
     on_volume += particles.volume[i] * pressure[i] * divergence[i];
     on_water -= particles.volume[i] * velocity[i].dot(gradient[i]);
     size += particles.volume[i] * std::abs(pressure[i] * divergence[i]);
-    force += particles.volume[i] * gradient[i];
-    forces += particles.volume[i] * gradient[i].norm();
     beside_border += flow.surroundings.support_terms.is_near_border(i) ? 1 : 0;
   }
-  for (std::size_t n = 0; n < walls.size(); ++n) force += particles.volume[walls[n]] * pushes[n];
   EXPECT_NEAR(on_volume, on_water, 1e-5 * size);  // the rounding of sums in single precision
-  EXPECT_NEAR(force.norm(), 0.0, 1e-6 * forces);
   EXPECT_GT(beside_border, 50u);
+  // Near the surface of a border the force that balances the tension of the surface acts on the water alone.
+  for (std::size_t i = 0; i < particles.owned; ++i) pressure[i] *= flow.surroundings.interior[i] == 1.0 ? 1.0 : 0.0;
+  flow.discretisation().find_gradient(flow, pressure, gradient);
+  flow.discretisation().wall_reactions(flow, walls, pressure, pushes);
+  Vec<2> force = Vec<2>::Zero();
+  double forces = 0.0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    force += particles.volume[i] * gradient[i];
+    forces += particles.volume[i] * gradient[i].norm();
+  }
+  for (std::size_t n = 0; n < walls.size(); ++n) force += particles.volume[walls[n]] * pushes[n];
+  EXPECT_NEAR(force.norm(), 0.0, 1e-6 * forces);
 }
 
 /// The water that comes in within 0.4 s of even flow through a channel.
