@@ -59,6 +59,7 @@ BodyCoupling<Dim>::BodyCoupling(Flow<Dim>& flow, FloatingBodies<Dim>& bodies, co
       forces_(flow, bodies, flow.state.time),
       gaps_(flow, bodies.hulls(), flow.state.time) {
   for (std::size_t b = 0; b < bodies.bodies.size(); ++b) {
+    if (bodies.is_lost[b]) continue;
     for (const int entry : bodies.bodies[b].free) freedoms_.push_back({b, entry});
   }
   scale_.resize(static_cast<Eigen::Index>(freedoms_.size()));

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box.h"
 #include "base/finding.h"
 #include "bodies/coupling.h"
 #include "bodies/forces.h"
 #include "case/rheology.h"
 #include "flow/pressure_equation.h"
+#include "io/messages.h"
 
 namespace tailwater {
 namespace {
@@ -42,7 +44,10 @@ FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setu
     : bodies(make_bodies<Dim>(spec)),
       moorings(make_moorings<Dim>(spec)),
       body_of_wall(bodies_of_walls(bodies, boundary.walls.size())),
-      contact(make_contact_surfaces(boundary, bodies, setup.scale.spacing)) {
+      contact(make_contact_surfaces(boundary, bodies, setup.scale.spacing)),
+      is_lost(bodies.size(), false),
+      is_told_(bodies.size(), false),
+      is_told_of_end_(bodies.size(), false) {
   for (const WallPatch<Dim>& patch : make_wall_patches(boundary, setup.finest_spacing() * setup.scale.spacing)) {
     if (body_of_wall[boundary.faces[patch.face].wall] >= 0) patches.push_back(patch);
   }
@@ -51,8 +56,35 @@ FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setu
 template <int Dim>
 std::size_t FloatingBodies<Dim>::freedom_count() const {
   std::size_t count = 0;
-  for (const FloatingBody<Dim>& body : bodies) count += body.free.size();
+  for (std::size_t b = 0; b < bodies.size(); ++b) count += is_lost[b] ? 0 : bodies[b].free.size();
   return count;
+}
+
+template <int Dim>
+bool FloatingBodies<Dim>::is_below_all_walls(const Flow<Dim>& flow, std::size_t b) const {
+  const Vec<Dim>& gravity = flow.setup.gravity;
+  const FloatingBody<Dim>& body = bodies[b];
+  if (gravity.isZero(0.0)) return false;
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (gravity[axis] != 0.0 && std::ranges::find(body.free, axis) == body.free.end()) return false;
+  }
+  const bool is_moored = std::ranges::any_of(moorings, [&](const Mooring<Dim>& mooring) {
+    return mooring.body == static_cast<int>(b) || mooring.to_body == static_cast<int>(b);
+  });
+  if (is_moored || !body.springs.isZero(0.0)) return false;
+  const Vec<Dim> down = gravity.normalized();
+  const BodyState<Dim>& state = flow.state.motion.bodies.each[b];
+  double highest = std::numeric_limits<double>::infinity();  // depth of the highest point of the body
+  for (const Vec<Dim>& point : contact.points[b]) highest = std::min(highest, down.dot(state.placement(point)));
+  bool has_walls = false;
+  for (const WallFace<Dim>& face : flow.walls.boundary.faces) {
+    if (body_of_wall[face.wall] >= 0) continue;
+    has_walls = true;
+    for (const Vec<Dim>& corner : face.corners) {
+      if (down.dot(corner) >= highest) return false;
+    }
+  }
+  return has_walls;
 }
 
 template <int Dim>
@@ -89,6 +121,16 @@ void FloatingBodies<Dim>::claim(const Flow<Dim>& /*flow*/, std::span<Role> /*rol
 
 template <int Dim>
 void FloatingBodies<Dim>::begin_step(Flow<Dim>& flow, double dt) {
+  BodyStates<Dim>& states = flow.state.motion.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    is_lost[b] = is_lost[b] || is_below_all_walls(flow, b);
+    if (!is_lost[b]) continue;
+    BodyState<Dim>& state = states.each[b];
+    state.velocity.setZero();
+    state.acceleration.setZero();
+    state.carried_over.setZero();
+  }
+  if (states.inertia.size() != freedom_count() * freedom_count()) states.inertia.clear();
   start_velocity.clear();
   for (const BodyState<Dim>& body : flow.state.motion.bodies.each) start_velocity.push_back(body.velocity);
   steer(flow, dt);
@@ -143,6 +185,39 @@ void FloatingBodies<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*s
   const double time = flow.state.time + dt;
   carry_over(flow, ForcesOnBodies<Dim>(flow, *this, time).of_guard(), dt);
   for (BodyState<Dim>& body : flow.state.motion.bodies.each) body.go_on(time);
+}
+
+template <int Dim>
+bool FloatingBodies<Dim>::is_at_end_of_period(const Flow<Dim>& flow, std::size_t b) const {
+  const double support = kernel_radius(flow.setup.scale.kernel);
+  Box<Dim> box;
+  for (const Vec<Dim>& point : contact.points[b]) box.extend(flow.state.motion.bodies.each[b].placement(point));
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (!flow.setup.domain[axis]) continue;
+    const auto [low, high] = *flow.setup.domain[axis];
+    const bool spans = box.sizes()[axis] > high - low - 0.5 * flow.setup.scale.spacing;
+    if (!spans && (box.min()[axis] < low + support || box.max()[axis] > high - support)) return true;
+  }
+  return false;
+}
+
+template <int Dim>
+void FloatingBodies<Dim>::warn(const Flow<Dim>& flow) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!is_told_of_end_[b] && is_at_end_of_period(flow, b)) {
+      is_told_of_end_[b] = true;
+      tailwater::warn("body-reached-end-of-period",
+                      "body '{}' has come to the end of the period by t = {:.4f} s, and the water beyond the end does "
+                      "not see it: its forces are wrong from now on; use a longer period, or moor the body",
+                      bodies[b].name, flow.state.time);
+    }
+    if (!is_lost[b] || is_told_[b]) continue;
+    is_told_[b] = true;
+    tailwater::warn("body-left-walls",
+                    "body '{}' has fallen below all walls by t = {:.4f} s and takes no further part, because nothing "
+                    "can bring it back; open ends do not take bodies: close the way out, or moor the body",
+                    bodies[b].name, flow.state.time);
+  }
 }
 
 template <int Dim>

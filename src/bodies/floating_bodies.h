@@ -32,8 +32,11 @@ class FloatingBodies final : public Part<Dim> {
   std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps
   bool has_stagnant_water = false;         ///< on any rank
   SealedWater sealed;                      ///< by the bodies
+  /// Whether a body has fallen below all other walls, and nothing can bring it back; for each body. In free fall it
+  /// would shorten the time step of all water, so it stops there and takes no further part.
+  std::vector<bool> is_lost;
 
-  /// Degrees of freedom of all bodies.
+  /// Degrees of freedom of all bodies that are not lost.
   std::size_t freedom_count() const;
   Hulls<Dim> hulls() const {
     return {.count = static_cast<int>(bodies.size()),
@@ -60,6 +63,17 @@ class FloatingBodies final : public Part<Dim> {
   void stay(Flow<Dim>& flow) override;
   /// The impulses that the last guard took from the water in front of bodies reach them in the next step.
   void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
+  void warn(const Flow<Dim>& flow) override;
+
+ private:
+  /// Whether the body falls freely below all walls that belong to no body.
+  bool is_below_all_walls(const Flow<Dim>& flow, std::size_t b) const;
+
+  /// Whether the body is nearer to the end of a period than a support of the kernel, without reaching from end to end.
+  bool is_at_end_of_period(const Flow<Dim>& flow, std::size_t b) const;
+
+  std::vector<bool> is_told_;         ///< of each body, whether it was reported as lost
+  std::vector<bool> is_told_of_end_;  ///< of each body, whether it was reported to be at the end of a period
 };
 
 template <int Dim>

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/box.h"
+#include "case/formulation.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "motion/floating_body.h"
@@ -90,6 +91,31 @@ Findings check_inertia(const CaseSpec& spec, const FloatingBody<Dim>& body) {
   return {};
 }
 
+/// An error for a body that is drawn at the end of a period, or is towed there: the walls of bodies have no image in
+/// the next period. A body from end to end needs none.
+template <int Dim>
+Findings check_place_in_period(const CaseSpec& spec, const FloatingBody<Dim>& body, const Box<Dim>& box) {
+  Findings findings;
+  const double support = traits_of(spec).support * spec.particles.spacing;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const std::vector<double>& range = periodic_range(spec.domain, axis);
+    if (range.size() != 2 || box.sizes()[axis] > range[1] - range[0] - 0.5 * spec.particles.spacing) continue;
+    const bool is_free = std::ranges::find(body.free, axis) != body.free.end();
+    const double towed = is_free ? 0.0 : body.drawn.velocity[axis] * spec.time.end;
+    const double low = box.min()[axis] + std::min(0.0, towed);
+    const double high = box.max()[axis] + std::max(0.0, towed);
+    if (low >= range[0] + support && high <= range[1] - support) continue;
+    findings.push_back(Finding::error(
+        "body-at-end-of-period",
+        {"{} comes to {} = {:.4g}, less than {:.3g} from the end of the period at {:g} (domain.periodic_{}): the water "
+         "beyond the end would not see the body",
+         CaseLabel("body", body.name), "xyz"[axis], low < range[0] + support ? low : high, Amount{support, "m"},
+         low < range[0] + support ? range[0] : range[1], "xyz"[axis]},
+        {"draw it farther from the ends{}", towed != 0.0 ? ", and let the run end before it comes there" : ""}));
+  }
+  return findings;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -101,6 +127,7 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
     append(findings, check_mass(spec, body, box));
     append(findings, check_freedoms(body));
     append(findings, check_inertia(spec, body));
+    append(findings, check_place_in_period(spec, body, box));
     const Vec<Dim>& centre = body.drawn.centre;
     const CaseLabel label("body", body.name);
     if (box.exteriorDistance(centre) > corner_tolerance * spec.particles.spacing) {

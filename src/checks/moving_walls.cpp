@@ -32,6 +32,26 @@ bool starts_where_it_is_drawn(const CaseSpec& spec, const Boundary<Dim>& drawn, 
   return true;
 }
 
+/// Adds an error for a wall that turns and also slides along a periodic direction: it is moved by whole periods by its
+/// displacement alone, as if it did not turn.
+void check_turns_in_period(const CaseSpec& spec, const CaseLabel& label, int wall, Findings& findings) {
+  const WallTable& table = spec.walls[wall];
+  const bool turns =
+      table.series.empty() ? std::holds_alternative<std::string>(table.rotation) : !table.series.columns[3].empty();
+  if (!turns) return;
+  for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
+    const bool is_in_file = !table.series.empty() && !table.series.columns[axis].empty();
+    const bool slides = is_in_file || std::holds_alternative<std::string>(table.displacement[axis]);
+    if (!slides || periodic_range(spec.domain, static_cast<int>(axis)).empty()) continue;
+    findings.push_back(Finding::error(
+        "turning-wall-in-period",
+        {"{} turns and also moves along {}, in which the case repeats itself (domain.periodic_{}): such a wall would "
+         "vanish at some angles",
+         label, "xyz"[axis], "xyz"[axis]},
+        {"leave out the rotation, or give the component of the displacement as 0 without an expression"}));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -40,6 +60,7 @@ Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, co
   Findings findings;
   std::vector<int> moving;
   for (int wall = 0; wall < static_cast<int>(spec.walls.size()); ++wall) {
+    check_turns_in_period(spec, wall_label(drawn, wall), wall, findings);
     if (starts_where_it_is_drawn(spec, drawn, wall, findings) && drawn.walls[wall].moves()) moving.push_back(wall);
   }
   if (moving.empty()) return findings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/box.h"
 #include "base/finding.h"
@@ -10,6 +11,8 @@
 #include "flow/pressure_equation.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
+#include "io/messages.h"
+#include "motion/floating_body.h"
 #include "neighbours/neighbourhood.h"
 #include "operators/laplacian_morris.h"
 #include "porous/porous_region.h"
@@ -74,6 +77,71 @@ void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary)
   }
 }
 
+/// The volume [m^Dim] that the faces of these walls enclose; they face the water outside.
+template <int Dim>
+double volume_of(const Boundary<Dim>& boundary, const std::vector<int>& walls, const Vec<Dim>& about) {
+  double volume = 0.0;
+  for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    if (std::ranges::find(walls, face.wall) == walls.end()) continue;
+    volume += face.measure() * face.normal.dot(face.corners[0] - about) / Dim;
+  }
+  return volume;
+}
+
+/// How far [m] below x a layer begins; 0 in the layer, infinite if there is none above the next wall of another body.
+template <int Dim>
+double way_to_layer(const PorousRegion<Dim>& region, const Boundary<Dim>& boundary, const std::vector<int>& own,
+                    const Vec<Dim>& x, const Vec<Dim>& down, double spacing) {
+  const double step = 0.5 * spacing;  // so deep a body may stand in the layer on which it is drawn
+  const Box<Dim>& box = region.box();
+  const double farthest = down.isZero(0.0) ? 0.0 : (box.center() - x).norm() + box.diagonal().norm();
+  for (double way = 0.0; way <= farthest; way += step) {
+    const Vec<Dim> there = x + way * down;
+    if (box.contains(there) && region.depth_inside(there, spacing) > step) return way;
+    const NearestWall<Dim> wall = boundary.nearest(there, step);
+    if (wall.face >= 0 && std::ranges::find(own, boundary.faces[wall.face].wall) == own.end()) break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Throws CaseError for a body that is drawn in a layer, or sinks to one: stones do not hold bodies.
+template <int Dim>
+void require_bodies_off_layers(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) {
+    const bool is_held = !body.springs.isZero(0.0) || std::ranges::any_of(spec.moorings, [&](const MooringTable& line) {
+      return std::ranges::find(line.bodies, body.name) != line.bodies.end();
+    });
+    bool sinks = !is_held && body.mass > spec.physics.density * volume_of(boundary, body.walls, body.drawn.centre);
+    for (int axis = 0; axis < Dim; ++axis) {
+      sinks = sinks && (gravity[axis] == 0.0 || std::ranges::find(body.free, axis) != body.free.end());
+    }
+    const Vec<Dim> down = sinks && !gravity.isZero(0.0) ? gravity.normalized() : Vec<Dim>(Vec<Dim>::Zero());
+    for (const PorousTable& table : spec.porous) {
+      const PorousRegion<Dim> region(spec, table);
+      double way = std::numeric_limits<double>::infinity();
+      for (const WallFace<Dim>& face : boundary.faces) {
+        if (std::ranges::find(body.walls, face.wall) == body.walls.end()) continue;
+        for (const Vec<Dim>& corner : face.corners) {
+          way = std::min(way, way_to_layer(region, boundary, body.walls, corner, down, spec.particles.spacing));
+        }
+      }
+      if (way == 0.0) {
+        throw CaseError("body-in-porous-layer",
+                        {"{} is drawn in {}: the stones of a layer do not hold bodies, which pass through them",
+                         CaseLabel("body", body.name), CaseLabel("porous", table.name)},
+                        {"draw the body outside of the layer, or the surface of the layer as a wall"});
+      }
+      if (way == std::numeric_limits<double>::infinity()) continue;
+      throw CaseError("body-sinks-to-porous-layer",
+                      {"{} is heavy and sinks to {}: the stones of a layer do not hold bodies, which pass through them",
+                       CaseLabel("body", body.name), CaseLabel("porous", table.name)},
+                      {"draw the surface of the layer as a wall, or hold the body with a mooring or `free`"});
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -81,6 +149,12 @@ PorousLayers<Dim>::PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, c
     : field_(spec, boundary, setup.scale.kernel, setup.domain) {
   require_layers_in_case(spec, boundary);
   require_open_ends_in_open_water(spec, field_);
+  require_bodies_off_layers(spec, boundary);
+  for (const PorousTable& table : spec.porous) {
+    regions_.emplace_back(spec, table);
+    region_names_.push_back(table.name);
+  }
+  for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) bodies_.push_back({body.name, body.walls});
   // The range is from water that has left the tightest layer to water that has entered it.
   const double dx = setup.scale.spacing;
   const double widening = std::pow(field_.least_porosity(), -1.0 / Dim);
@@ -88,6 +162,30 @@ PorousLayers<Dim>::PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, c
   spacing_step_ = (dx * widening - least_spacing_) / (lattice_count - 1);
   for (int k = 0; k < lattice_count; ++k) {
     lattices_.push_back(lattice_sums<Dim>(setup.scale.kernel, least_spacing_ + k * spacing_step_));
+  }
+}
+
+template <int Dim>
+void PorousLayers<Dim>::warn(const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  for (BodyWalls& body : bodies_) {
+    if (body.is_told) continue;
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+      const std::size_t inside = count_each(particles.owned, [&](std::size_t i) {
+        if (particles.is_fluid(i)) return false;
+        const int wall = flow.walls.particles.wall[particles.wall_row[i]];
+        const Vec<Dim>& x = particles.position[i];
+        return std::ranges::find(body.walls, wall) != body.walls.end() && regions_[r].box().contains(x) &&
+               regions_[r].depth_inside(x, flow.setup.scale.spacing) > 0.0;
+      });
+      if (body.is_told || !flow.setup.ranks.any(inside > 0)) continue;
+      body.is_told = true;
+      tailwater::warn(
+          "body-entered-porous-layer",
+          "body '{}' has entered porous layer '{}' by t = {:.4f} s, and passes through its stones, which do "
+          "not hold bodies; draw the surface of the layer as a wall",
+          body.name, region_names_[r], flow.state.time);
+    }
   }
 }
 

@@ -14,11 +14,13 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "flow/part.h"
 #include "flow/pores.h"
 #include "porous/porous_field.h"
+#include "porous/porous_region.h"
 
 namespace tailwater {
 
@@ -46,6 +48,7 @@ class PorousLayers final : public Part<Dim>, public Pores<Dim> {
 
   PoreSpace at(const Vec<Dim>& x) const override;
   LatticeSums lattice_of(double volume) const override;
+  void warn(const Flow<Dim>& flow) override;
 
  private:
   /// Data of an owned particle at its arrival.
@@ -57,7 +60,17 @@ class PorousLayers final : public Part<Dim>, public Pores<Dim> {
   double mean_conductance(const Flow<Dim>& flow, std::size_t i, std::size_t j) const;
   void finish_projection(Flow<Dim>& flow);
 
+  /// The surfaces of a body, through which a layer has no effect.
+  struct BodyWalls {
+    std::string name;
+    std::vector<int> walls;  ///< indices into Boundary::walls
+    bool is_told = false;    ///< whether the run has reported that it is in a layer
+  };
+
   PorousField<Dim> field_;
+  std::vector<PorousRegion<Dim>> regions_;  ///< of the layers
+  std::vector<std::string> region_names_;
+  std::vector<BodyWalls> bodies_;
   double least_spacing_ = 0.0;  ///< m; of the first of `lattices_`
   double spacing_step_ = 1.0;   ///< m; between consecutive `lattices_`
   std::vector<LatticeSums> lattices_;
