@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/box.h"
+#include "geometry/crossing.h"
 #include "geometry/face_grid.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/some_walls.h"
@@ -18,6 +19,7 @@ struct WallInSight {
   NearestWall<Dim> wall;
   double distance;              ///< m; of the point from the wall
   double plane_distance = 0.0;  ///< m; of the point from the plane of a face
+  bool is_on_rim = false;       ///< the nearest point is on the rim of a mesh, where the sign has no meaning
 };
 
 /// Whether face `a` is nearer than `b`. At a shared corner, where the distances differ by no more than `tolerance` [m],
@@ -45,13 +47,17 @@ double distance_along_axes(const WallFace<Dim>& face, const Vec<Dim>& x) {
 template <int Dim>
 class WallSearch {
  public:
-  WallSearch(const Boundary<Dim>& boundary, const Vec<Dim>& x, double search_distance)
-      : boundary_(boundary), x_(x), best_{{}, search_distance} {}
+  /// The search passes over the walls `without`.
+  WallSearch(const Boundary<Dim>& boundary, const Vec<Dim>& x, double search_distance,
+             std::span<const int> without = {})
+      : boundary_(boundary), x_(x), best_{{}, search_distance}, without_(without) {}
 
   const NearestWall<Dim>& nearest() const { return best_.wall; }
+  bool is_on_rim() const { return best_.is_on_rim; }
 
   void visit_face(int f) {
     const WallFace<Dim>& face = boundary_.faces[f];
+    if (is_left_out(face.wall)) return;
     const double tolerance = 1e-9 * (face.corners[1] - face.corners[0]).norm();
     const double height = face.height(x_);
     // Cheap lower bounds of the distance exclude most faces.
@@ -72,6 +78,7 @@ class WallSearch {
   }
 
   void visit_mesh(const WallMesh& mesh) {
+    if (is_left_out(mesh.wall)) return;
     const Vec<Dim> moved = boundary_.displacement_of(mesh);
     SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
     if (place.triangle < 0) return;
@@ -83,10 +90,12 @@ class WallSearch {
     // farther away shows the side.
     const bool are_equal = best_.wall.face >= 0 && best_.distance - distance <= 1e-9 * distance;
     if (are_equal && (place.is_on_rim ? plane_distance <= best_.plane_distance : place.signed_distance >= 0.0)) return;
-    best_ = {{face, place.point + moved, place.signed_distance}, distance, plane_distance};
+    best_ = {{face, place.point + moved, place.signed_distance}, distance, plane_distance, place.is_on_rim};
   }
 
  private:
+  bool is_left_out(int wall) const { return !without_.empty() && std::ranges::find(without_, wall) != without_.end(); }
+
   static bool is_at_ended_edge(const WallMesh& mesh, const SurfacePlace& place) {
     return !mesh.ended_edges.empty() &&
            std::ranges::any_of(place.triangles, [&](int t) { return mesh.ended_edges[t] != 0; });
@@ -95,9 +104,92 @@ class WallSearch {
   const Boundary<Dim>& boundary_;
   const Vec<Dim>& x_;
   WallInSight<Dim> best_;  ///< no face and the search distance until a wall is found
+  std::span<const int> without_;
 };
 
+/// Walls touch that are nearer than this fraction of the distances in question.
+constexpr double touch = 1e-4;
+
+/// The faces of a wall whose boxes meet a box.
+std::vector<WallFace<3>> faces_in(const Boundary<3>& boundary, int wall, const Box<3>& box) {
+  std::vector<WallFace<3>> found;
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<3>& face = boundary.faces[f];
+    if (face.wall == wall && face.box().intersects(box)) found.push_back(face);
+  });
+  for (const WallMesh& mesh : boundary.meshes) {
+    if (mesh.wall != wall) continue;
+    const Vec<3> moved = boundary.displacement_of(mesh);
+    mesh.surface->visit_in(box.min() - moved, box.max() - moved,
+                           [&](int t) { found.push_back(boundary.faces[mesh.first_face + t]); });
+  }
+  return found;
+}
+
+/// Whether a wall passes between two places.
+bool is_between(const Boundary<3>& boundary, int wall, const Vec<3>& from, const Vec<3>& to) {
+  Box<3> box;
+  box.extend(from);
+  box.extend(to);
+  const auto faces = faces_in(boundary, wall, box);
+  const double tolerance = touch * (to - from).norm();
+  return std::ranges::any_of(faces, [&](const WallFace<3>& face) { return crosses(face, from, to, tolerance); });
+}
+
+/// The wall behind which `x` is, although it is in front of the `nearest` one: a wall that crosses the nearest one,
+/// with no third wall between `x` and its nearest point. Without such a wall, the nearest one. search(WallSearch)
+/// visits all walls within the search distance.
+template <int Dim, class Search>
+NearestWall<Dim> behind_crossing(const Boundary<Dim>& boundary, const Vec<Dim>& x, double search_distance,
+                                 const NearestWall<Dim>& nearest, Search&& search) {
+  if constexpr (Dim == 3) {
+    if (boundary.meshes.empty() || nearest.face < 0 || nearest.signed_distance < 0.0) return nearest;
+    const int first = boundary.faces[nearest.face].wall;
+    std::vector<int> nearer{first};
+    while (nearer.size() < boundary.walls.size()) {
+      const WallSearch<Dim> found = search({boundary, x, search_distance, nearer});
+      const NearestWall<Dim>& next = found.nearest();
+      if (next.face < 0) break;
+      const int wall = boundary.faces[next.face].wall;
+      const bool is_behind = next.signed_distance < 0.0 && !found.is_on_rim();
+      if (is_behind && cross_near(boundary, first, wall, x, -next.signed_distance) &&
+          std::none_of(nearer.begin() + 1, nearer.end(),
+                       [&](int other) { return is_between(boundary, other, x, next.point); })) {
+        return next;
+      }
+      nearer.push_back(wall);
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
+
+bool cross_near(const Boundary<3>& boundary, int a, int b, const Vec<3>& x, double distance) {
+  for (const int wall : {a, b}) {
+    if (boundary.walls[wall].is_duct || boundary.walls[wall].is_plate) return false;
+  }
+  if (std::ranges::none_of(boundary.meshes, [&](const WallMesh& mesh) { return mesh.wall == a || mesh.wall == b; })) {
+    return false;
+  }
+  constexpr double farthest_line = 4.0;
+  const Vec<3> margin = Vec<3>::Constant(farthest_line * distance);
+  const Box<3> around(Vec<3>(x - margin), Vec<3>(x + margin));
+  const auto of_a = faces_in(boundary, a, around);
+  const auto of_b = faces_in(boundary, b, around);
+  const auto passes = [&](const WallFace<3>& one, const WallFace<3>& other) {
+    for (int c = 0; c < 3; ++c) {
+      if (crosses(other, one.corners[c], one.corners[(c + 1) % 3], touch * distance)) return true;
+    }
+    return false;
+  };
+  return std::ranges::any_of(of_a, [&](const WallFace<3>& one) {
+    const Box<3> box = one.box();
+    return std::ranges::any_of(of_b, [&](const WallFace<3>& other) {
+      return box.intersects(other.box()) && (passes(one, other) || passes(other, one));
+    });
+  });
+}
 
 template <int Dim>
 void Boundary<Dim>::file_faces(double reach) {
@@ -147,17 +239,25 @@ Vec<Dim> Boundary<Dim>::displacement_of(const WallMesh& mesh) const {
 template <int Dim>
 NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distance) const {
   const double filed_distance = filed_reach();
-  if (filed_distance > 0.0) {  // first, because most points are near a wall
-    WallSearch<Dim> search(*this, x, std::min(search_distance, filed_distance));
+  const auto search_filed = [&](WallSearch<Dim> search) {
     for (const int f : resting_->near(x)) search.visit_face(f);
     for (const int f : moving_) search.visit_face(f);
     search.visit_meshes();
-    if (search.nearest().face >= 0 || search_distance <= filed_distance) return search.nearest();
+    return search;
+  };
+  const auto search_all = [&](WallSearch<Dim> search) {
+    visit_plain_faces([&](int f) { search.visit_face(f); });
+    search.visit_meshes();
+    return search;
+  };
+  if (filed_distance > 0.0) {  // first, because most points are near a wall
+    const double distance = std::min(search_distance, filed_distance);
+    const NearestWall<Dim> wall = search_filed({*this, x, distance}).nearest();
+    if (wall.face >= 0) return behind_crossing(*this, x, distance, wall, search_filed);
+    if (search_distance <= filed_distance) return wall;
+    return search_all({*this, x, search_distance}).nearest();
   }
-  WallSearch<Dim> search(*this, x, search_distance);
-  visit_plain_faces([&](int f) { search.visit_face(f); });
-  search.visit_meshes();
-  return search.nearest();
+  return behind_crossing(*this, x, search_distance, search_all({*this, x, search_distance}).nearest(), search_all);
 }
 
 template <int Dim>

@@ -220,8 +220,7 @@ double missing_discharge(const OpenEnd<Dim>& end, const OpenEndState& state, dou
   constexpr double spacings_to_catch_up = 10.0;
   constexpr double max_fraction = 0.1;
   if (discharge >= 0.0) return 0.0;
-  const double missing = state.asked - (state.arrived.volume - state.departed.volume);
-  const double fraction = missing / (spacings_to_catch_up * end.spacing * area);
+  const double fraction = state.missing() / (spacings_to_catch_up * end.spacing * area);
   return std::clamp(fraction, -max_fraction, max_fraction) * std::abs(discharge);
 }
 
@@ -247,6 +246,7 @@ void hold_inflow(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double time, do
   const double discharge = end.discharge(time, depth);
   const double area = end.area_below(depth);
   state.entry_speed = area > 0.0 ? (discharge + missing_discharge(end, state, discharge, area)) / area : 0.0;
+  if (before > 0.0) state.filling += end.stretch * (area - end.area_below(before));
   state.asked += dt * discharge;
   state.asked_total += dt * std::abs(discharge);
 }

@@ -160,7 +160,8 @@ template <int Dim>
 std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow,
                                         const LiquidsBeyond& liquids, const std::optional<double>& volume) {
   const EntryLattice<Dim> lattice(end, state);
-  if (lattice.size() == 0 || (end.flow.feeds() && state.entry_speed <= 0.0)) return {};
+  const double growth = end.stretch * state.depth_rate / std::max(state.depth, end.spacing);
+  if (lattice.size() == 0 || (end.flow.feeds() && state.entry_speed + growth <= 0.0)) return {};
   const std::vector<double> free = free_lengths(end, lattice, flow);
   std::vector<std::optional<Entrant<Dim>>> of_cell(lattice.size());
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {

@@ -58,7 +58,7 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
           "spacing of {:.3g} m; remedy: make the opening wider or deeper, or change levels and discharges more slowly",
           label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", end.spacing);
     }
-    const double missing = state.asked - (state.arrived.volume - state.departed.volume);
+    const double missing = state.missing();
     const double columns = columns_that_wait * end.spacing * end.area_below(state.depth);
     const bool falls_short = std::abs(missing) > most_missing * state.asked_total + columns;
     if (end.flow.feeds() && falls_short && is_first(label + ": discharge")) {

@@ -92,18 +92,18 @@ double OpenEnd<Dim>::fall_speed_at(const OpenEndState& state, const Vec<Dim>& x)
 }
 
 /// The water may become deeper or shallower. Then it is stretched along `rise` and compressed along the channel by
-/// as much: the field has no divergence, and the discharge at the opening is the prescribed one.
+/// as much: the field has no divergence. The discharge at the border of the buffer is the prescribed one. At the
+/// opening it is larger by the rate at which the volume of the buffer grows.
 template <int Dim>
 Vec<Dim> OpenEnd<Dim>::inflow_at(const OpenEndState& state, const Vec<Dim>& x) const {
   const std::size_t column = column_at(x);
   const double depth = depth_in(column, state);
   if (depth == 0.0) return Vec<Dim>::Zero();
   const double share = height_in(column, x) / depth;
-  const double inside = -this->opening.beyond(x);
   const auto rows = column < state.rows.size() ? state.rows[column] : 0;
   const double row = rows > 0 ? 1.0 / static_cast<double>(rows) : 1.0;
-  const double in =
-      state.entry_speed * this->flow.profile_of_row(share, row) - inside * state.depth_rate / std::max(depth, spacing);
+  const double in = state.entry_speed * this->flow.profile_of_row(share, row) +
+                    behind_border(x) * state.depth_rate / std::max(depth, spacing);
   return -in * this->opening.normal + share * state.depth_rate * this->rise;
 }
 

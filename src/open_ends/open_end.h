@@ -62,9 +62,13 @@ struct OpenEndState {
   LevelError miss;
   double asked = 0.0;        ///< m^Dim; prescribed volume, in less out; where a discharge is prescribed
   double asked_total = 0.0;  ///< m^Dim; prescribed volume in both directions together
+  double filling = 0.0;      ///< m^Dim; growth of the buffer's volume with its depth; where a discharge is prescribed
   WaterAmount departed;
   WaterAmount arrived;
   std::int64_t short_steps = 0;  ///< steps in which more would have entered than waited to circulate
+
+  /// m^Dim; net volume that the inlet owes: the prescribed volume and that of the buffer, less the volume that came.
+  double missing() const { return asked + filling - (arrived.volume - departed.volume); }
 };
 
 /// An open end as the steps need it.

@@ -22,7 +22,7 @@ TAILWATER_SAVED(inline, LevelError, mean, lasts, since, total, most)
 TAILWATER_SAVED(inline, LeavingWave, height, number, swing, swing_rate)
 TAILWATER_SAVED(inline, OpenEndState, is_wet, wet_time, speed, delayed_speed, acceleration, mean_speed, mean_discharge,
                 invariant, surface, depth, level, is_full, depth_rate, entry_speed, fibre_speeds, stretching, rows,
-                wave, miss, asked, asked_total, departed, arrived, short_steps)
+                wave, miss, asked, asked_total, filling, departed, arrived, short_steps)
 
 namespace {
 
@@ -101,7 +101,10 @@ Json OpenEnds<Dim>::balance(OpeningKind kind, double density) const {
     json.update(is_inlet ? in : out);
     json["back"] = is_inlet ? out : in;
     if (end.circuit >= 0 && is_inlet) json["steps_short_of_water"] = state.short_steps;
-    if (end.flow.feeds()) json["asked_for_m3"] = state.asked;
+    if (end.flow.feeds()) {
+      json["asked_for_m3"] = state.asked;
+      json["filled_duct_m3"] = state.filling;
+    }
     if (end.holds_level()) json["level_missed"] = json_of_miss(state.miss);
     if (end.circuit == static_cast<int>(e)) json["waiting"] = summary_of(sump(end.circuit, density));
     of_each.push_back(json);

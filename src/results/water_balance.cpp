@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -97,6 +98,14 @@ WaterAmount water_where(const Flow<Dim>& flow, IsCounted&& is_counted) {
   return water;
 }
 
+/// Whether owned particle i is water that has left the walls, which are in `box`, for good.
+template <int Dim>
+bool is_outside(const Flow<Dim>& flow, const Box<Dim>& box, std::size_t i) {
+  const Vec<Dim> x = flow.neighbourhood->wrapped(flow.state.particles.position[i]);
+  return flow.state.particles.is_fluid(i) && !box.contains(x) && !falls_back(flow, box, x) &&
+         !flow.template part<OpenEnds<Dim>>().is_passed_by(x);
+}
+
 }  // namespace
 
 std::string text_of(const WaterAmount& water) {
@@ -112,13 +121,28 @@ template <int Dim>
 WaterAmount water_outside(const Flow<Dim>& flow) {
   const Box<Dim> box = flow.box();
   if (box.isEmpty()) return {};
-  const auto& ends = flow.template part<OpenEnds<Dim>>();
-  WaterAmount water = water_where(flow, [&](std::size_t i) {
-    const Vec<Dim> x = flow.neighbourhood->wrapped(flow.state.particles.position[i]);
-    return !box.contains(x) && !falls_back(flow, box, x) && !ends.is_passed_by(x);
-  });
+  WaterAmount water = water_where(flow, [&](std::size_t i) { return is_outside(flow, box, i); });
   water += flow.template part<DomainFloor<Dim>>().fallen();
   return water;
+}
+
+template <int Dim>
+Vec<Dim> middle_of_water_outside(const Flow<Dim>& flow) {
+  const Box<Dim> box = flow.box();
+  std::array<double, 2 * Dim> ends;  // the lowest coordinates, then the negatives of the highest
+  ends.fill(std::numeric_limits<double>::max());
+  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {  // in order: each may extend the box
+    if (!is_outside(flow, box, i)) continue;
+    const Vec<Dim>& x = flow.state.particles.position[i];
+    for (int axis = 0; axis < Dim; ++axis) {
+      ends[axis] = std::min(ends[axis], x[axis]);
+      ends[Dim + axis] = std::min(ends[Dim + axis], -x[axis]);
+    }
+  }
+  flow.setup.ranks.least_of_each(ends);
+  Vec<Dim> middle;
+  for (int axis = 0; axis < Dim; ++axis) middle[axis] = 0.5 * (ends[axis] - ends[Dim + axis]);
+  return middle;
 }
 
 template <int Dim>
@@ -144,6 +168,7 @@ Json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
 
 TAILWATER_IN_2D_AND_3D(water_in);
 TAILWATER_IN_2D_AND_3D(water_outside);
+TAILWATER_IN_2D_AND_3D(middle_of_water_outside);
 TAILWATER_IN_2D_AND_3D(water_inside);
 TAILWATER_IN_2D_AND_3D(water_balance);
 

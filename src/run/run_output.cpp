@@ -1,6 +1,7 @@
 #include "run/run_output.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
@@ -279,9 +280,10 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
   if (outside == 0 || warned_outside_) return;
   warned_outside_ = true;
   warn("water-left-walls",
-       "at t = {:.4f} s {} fluid particle(s) passed the walls and cannot return; they are computed until they are "
-       "below all walls, and counted in summary.json. Remedy: raise the walls",
-       flow.state.time, outside);
+       "at t = {:.4f} s {} fluid particle(s) are outside the walls near ({:.4g}) and cannot return; they are computed "
+       "until they are below all walls, and counted in summary.json. Remedy: raise the walls if the water ran over "
+       "them; if it passed below their rim, close the gap there or use a smaller spacing",
+       flow.state.time, outside, fmt::join(middle_of_water_outside(flow), ", "));
 }
 
 template <int Dim>

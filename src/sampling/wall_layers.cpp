@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "base/eigen.h"
+#include "geometry/crossing.h"
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
@@ -78,8 +79,20 @@ bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, con
   if constexpr (Dim == 3) {
     for (const WallMesh& mesh : body_.meshes) {
       // The body is sampled where it is drawn.
-      if (&mesh != own && mesh.surface->first_crossed(place.stands_at(), place.foot, tolerance_) >= 0) return true;
+      if (&mesh != own && mesh.surface->first_crossed(place.stands_at(), place.foot, tolerance_) >= 0 &&
+          !crosses_own_wall(place, mesh.wall)) {
+        return true;
+      }
     }
+  }
+  return false;
+}
+
+template <int Dim>
+bool WallParticleCollector<Dim>::crosses_own_wall(const WallPlace<Dim>& place, int wall) const {
+  if constexpr (Dim == 3) {
+    const Vec<3> x = place.stands_at();
+    return cross_near(body_, place.wall, wall, x, (x - place.foot).norm());
   }
   return false;
 }

@@ -85,7 +85,8 @@ class WallParticleCollector {
                                  const WallMesh* own_mesh = nullptr) {
     if (taken_.has_near(place.position)) return;
     const auto hides = [&](int f) {
-      return !is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_);
+      return !is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_) &&
+             !crosses_own_wall(place, body_.faces[f].wall);
     };
     if (!is_behind_mesh(place, own_mesh) && std::ranges::none_of(faces_between(place), hides)) keep(place, number);
   }
@@ -100,6 +101,8 @@ class WallParticleCollector {
   std::span<const int> faces_between(const WallPlace<Dim>& place) const {
     return (place.stands_at() - place.foot).norm() <= plain_.reach() ? plain_.near(place.foot) : all_plain_;
   }
+  /// Whether a wall crosses that of the place. Behind its own wall it is then no border of water, and hides nothing.
+  bool crosses_own_wall(const WallPlace<Dim>& place, int wall) const;
   /// Whether a mesh other than its own lies between a place and its foot.
   bool is_behind_mesh(const WallPlace<Dim>& place, const WallMesh* own) const;
   /// The faces within reach behind whose planes a place is, nearest first.

@@ -312,5 +312,50 @@ TEST(MeshWall, HasNothingBehindItBeyondARimAtWhichAPlateEnds) {
   EXPECT_NEAR(boundary.nearest({0.7, 0.5, -0.04}, infinite).signed_distance, -0.04, 1e-12);
 }
 
+/// Still water over a slope of 2 in a box through which the slope passes: a place behind the box is behind, whichever
+/// of the two walls is nearer, and so is a place behind the slope.
+TEST(MeshWall, ThatCrossesABoxHasNoWaterBehindTheBox) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.06, 3);
+  TriangleMesh slope = sheet_mesh(3, [](double x, double) { return 2.0 * x; });
+  for (Vec<3>& point : slope.points) point = {2.4 * point[0] - 1.5, 2.0 * point[1] - 1.0, 2.4 * point[2] - 3.0};
+  spec.walls = {folder.wall(slope, FluidSide::above), box_wall({-0.6, 0.0, -1.7}, {0.3, 0.4, 0.4}, {"+z"})};
+  Boundary<3> boundary = make_boundary<3>(spec);
+  for (const bool are_filed : {false, true}) {
+    if (are_filed) boundary.file_faces(0.3);
+    for (int i = -5; i <= 5; ++i) {
+      for (int k = -5; k <= 5; ++k) {
+        const Vec<3> x(-0.6 + 0.021 * i, 0.2, -1.2 + 0.027 * k);
+        const double above_slope = (x[2] - 2.0 * x[0]) / std::sqrt(5.0);
+        const double inside_box = x[0] + 0.6;
+        const bool is_water = above_slope > 0.0 && inside_box > 0.0;
+        if (std::min(std::abs(above_slope), std::abs(inside_box)) < 1e-6) continue;
+        EXPECT_EQ(boundary.nearest(x, 0.3).signed_distance > 0.0, is_water) << x.transpose();
+      }
+    }
+  }
+}
+
+/// The slopes of a dyke meet at its crest and do not cross: a place beside one slope is not behind the other one.
+TEST(MeshWall, ThatMeetsAnotherAtACrestDoesNotCrossIt) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  const auto slope = [](double side) {
+    TriangleMesh mesh = sheet_mesh(2, [](double x, double) { return -2.0 * x; });
+    for (Vec<3>& point : mesh.points) point[0] *= side;
+    if (side < 0.0) {
+      for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    }
+    return mesh;
+  };
+  spec.walls = {MeshFolder::wall_of_file(folder.write("right.stl", binary_stl(slope(1.0))), FluidSide::above),
+                MeshFolder::wall_of_file(folder.write("left.stl", binary_stl(slope(-1.0))), FluidSide::above)};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_GT(boundary.nearest({side * 0.1, 0.5, -0.15}, 0.3).signed_distance, 0.0);
+    EXPECT_LT(boundary.nearest({side * 0.1, 0.5, -0.25}, 0.3).signed_distance, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace tailwater

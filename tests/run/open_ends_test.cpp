@@ -101,6 +101,22 @@ TEST(SectionOfAnOpening, DepthAndAreaOfAValley) {
   EXPECT_GT(excess(critical - 1e-3), 0.0);
 }
 
+/// While the level rises, the discharge at the border of the buffer is the prescribed one. At the opening it is larger
+/// by the rate at which the volume of the buffer grows.
+TEST(SectionOfAnOpening, ARisingLevelIsFedInAdditionToTheDischarge) {
+  const OpenEnd<3> end = valley();
+  OpenEndState state;
+  state.depth = 0.5;
+  state.depth_rate = 0.02;
+  state.entry_speed = 0.3;
+  const Vec<3> at_border = end.opening.corner - end.stretch * end.opening.normal + Vec<3>(0.0, 0.5, 0.1);
+  const Vec<3> at_opening = end.opening.corner + Vec<3>(0.0, 0.5, 0.1);
+  const double bottom = end.columns[end.column_at(at_opening)].bottom;
+  EXPECT_NEAR(-end.opening.normal.dot(end.velocity_at(state, at_border)), 0.3, 1e-12);
+  EXPECT_NEAR(-end.opening.normal.dot(end.velocity_at(state, at_opening)), 0.3 + end.stretch * 0.02 / (0.5 - bottom),
+              1e-12);
+}
+
 /// Fibres of equal speed move the buffer zone as one, for any column and height. Fibres that become deeper do so from
 /// the bottom of their column.
 TEST(SectionOfAnOpening, FibresOfOneSpeedMoveTheBufferAsOne) {

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "geometry/boundary.h"
@@ -156,6 +157,27 @@ TEST(MeshWall, HoldsWaterOffAtItsEdgesAsFarAsAtItsFaces) {
       nearest = std::min(nearest, boundary.nearest(x, infinite).signed_distance);
     }
     EXPECT_GE(nearest, (0.25 - 1e-6) * spec.particles.spacing) << "tilt " << tilt;
+  }
+}
+
+/// A slope of 2 continues beyond the box around it. All the space behind their foot has dummies, as far as the water of
+/// the foot reaches, at any angle: no sector is left out because the nearest point of its wall is behind the other one.
+TEST(MeshWall, ThatCrossesABoxLeavesNoGapBehindTheirFoot) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  TriangleMesh slope = sheet_mesh(3, [](double x, double) { return -2.0 * x; });
+  for (Vec<3>& point : slope.points) point = {2.4 * point[0] - 0.9, 1.2 * point[1] - 0.4, 2.4 * point[2] + 1.8};
+  spec.walls = {folder.wall(slope, FluidSide::above), box_wall({-0.3, 0.0, -1.7}, {0.6, 0.4, 0.4}, {"+z"})};
+  spec.fluid = {box_fluid({-0.3, 0.0, -1.2}, {0.6, 0.4, 0.0})};
+  const WallParticles<3> walls = walls_of(spec);
+  const double dx = spec.particles.spacing;
+  for (int degrees = 0; degrees < 360; degrees += 5) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Vec<3> x(0.6 + 2.5 * dx * std::cos(angle), 0.2, -1.2 + 2.5 * dx * std::sin(angle));
+    if (x[0] < 0.6 + 0.5 * dx && x[2] + 2.0 * x[0] > -0.5 * dx) continue;  // in the water or beside it
+    double nearest = infinite;
+    for (const Vec<3>& place : walls.position) nearest = std::min(nearest, (place - x).norm());
+    EXPECT_LT(nearest, dx) << degrees;
   }
 }
 

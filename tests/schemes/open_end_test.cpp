@@ -274,6 +274,27 @@ TEST(OpenEnd, AnInletThatIsReversedTakesWaterOut) {
             static_cast<std::int64_t>(count_fluid(flow)) + inlet.departed.particles + outlet.departed.particles);
 }
 
+/// The prescribed volume reaches the case, to one column of particles, though the water beyond the inlet becomes deeper
+/// or shallower with the water inside.
+TEST(OpenEnd, AnInletFillsAndEmptiesAPoolByItsDischarge) {
+  const double length = 1.0;
+  for (const double discharge : {0.1, -0.1}) {
+    const double depth = discharge > 0.0 ? 0.4 : 0.7;
+    CaseSpec spec = tank_case<2>(dx, length, depth);
+    open_start(spec).discharge = discharge;
+    Flow<2> flow = make_flow<2>(spec);
+    start(flow);
+    while (flow.state.time < 3.0) pass_and_step(flow);
+    const Particles<2>& particles = flow.state.particles;
+    double inside = 0.0;
+    for (std::size_t i = 0; i < particles.owned; ++i) {
+      if (particles.is_fluid(i) && particles.position[i][0] > 0.0) inside += particles.volume[i];
+    }
+    const double expected = length * depth + discharge * flow.state.time;
+    EXPECT_NEAR(inside, expected, dx * expected / length) << discharge;
+  }
+}
+
 /// A pump draws the prescribed volume to a row of particles, though four rows do not fill its opening exactly.
 TEST(OpenEnd, APumpInTheFloorDrawsTheVolumeThatIsPrescribed) {
   using testing_cases::polyline;
