@@ -38,7 +38,7 @@ template <int Dim>
 const double reach_of_row = std::sqrt(0.25 * (Dim - 1) + 0.625 * 0.625);
 
 /// Limit of some 2 GB: one bit per cell in six kinds of marks, and the data of each row of cells.
-constexpr double most_cells_of_map = 2e9;
+constexpr double max_cells_of_map = 2e9;
 
 /// Number of cells of the grid, with rows that fill words of marks.
 template <int Dim>
@@ -81,12 +81,12 @@ AirWatch<Dim>::AirWatch(const CaseSpec& spec, std::span<const Duct<Dim>> ducts, 
   }
   const bool repeats = std::ranges::all_of(domain, [](const auto& range) { return range.has_value(); });
   if (spec.air.pockets == AirPockets::none || (box.isEmpty() && !repeats)) return;
-  if (!(cells_over<Dim>(box, spacing_, domain) <= most_cells_of_map)) {
+  if (!(cells_over<Dim>(box, spacing_, domain) <= max_cells_of_map)) {
     throw CaseError(
         "air-map-too-large",
         {"{}: air is searched for in cells of half a particle spacing, and the walls and openings, wherever "
          "they move, span more than {:g} of them",
-         CaseLabel("air").with_key("pockets"), most_cells_of_map},
+         CaseLabel("air").with_key("pockets"), max_cells_of_map},
         {"leave out distant parts, use a larger particles.spacing, or choose \"none\""});
   }
   grid_ = std::make_shared<const VoidGrid<Dim>>(box, spacing_, domain);

@@ -10,7 +10,7 @@ namespace tailwater {
 namespace {
 
 /// Newton's method on a convex law. It may at most halve a volume in a step.
-constexpr int most_newton_steps = 50;
+constexpr int max_newton_steps = 50;
 constexpr double gas_tolerance = 1e-10;  // relative to the atmosphere
 
 /// Weight of the end of a step: of the velocity with which pockets grow, and of the pressure with which a slow
@@ -38,7 +38,7 @@ std::vector<double> GasStep::solve() const {
   Eigen::VectorXd start(count);
   for (Eigen::Index k = 0; k < count; ++k) start[k] = law_.pressure(pockets_[k].gas, pockets_[k].volume);
   Eigen::VectorXd pressure = start;
-  for (int step = 0; step < most_newton_steps; ++step) {
+  for (int step = 0; step < max_newton_steps; ++step) {
     const Eigen::VectorXd volume = volume_after(pressure);
     Eigen::VectorXd missing(count);
     Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(count, count);

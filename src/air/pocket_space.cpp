@@ -54,7 +54,7 @@ bool is_behind_plate(const Boundary<Dim>& boundary, const Vec<Dim>& from, const 
 
 /// Maximum number of cells of a block along an axis: the cube of a particle is in three, or in four where cells are a
 /// little smaller than dx/2.
-constexpr int most_along = 4;
+constexpr int max_along = 4;
 
 /// Calls `visit(offset, place)` for the cells `first` + `offset` of a block, `cells` along each axis, across a periodic
 /// border too. The place is that in a box of `count` cells from `low`; -1 outside of it.
@@ -63,7 +63,7 @@ void visit_block(const VoidGrid<Dim>& grid, const typename VoidGrid<Dim>::Cell& 
                  const typename VoidGrid<Dim>::Cell& count, const typename VoidGrid<Dim>::Cell& first,
                  const typename VoidGrid<Dim>::Cell& cells, Visit&& visit) {
   constexpr std::int64_t outside = std::numeric_limits<std::int64_t>::min() / 4;
-  std::array<std::array<std::int64_t, most_along>, Dim> parts;  // parts of the place, by axis
+  std::array<std::array<std::int64_t, max_along>, Dim> parts;  // parts of the place, by axis
   std::int64_t stride = 1;
   for (int d = Dim - 1; d >= 0; --d) {
     for (int k = 0; k < cells[d]; ++k) {
@@ -254,7 +254,7 @@ void PocketSpace<Dim>::take_water(const Boundary<Dim>& boundary, const Vec<Dim>&
     first[d] = static_cast<int>(std::floor(at[d] - half + 0.5));
     cells[d] = static_cast<int>(std::floor(at[d] + half + 0.5)) - first[d] + 1;
   }
-  std::array<std::pair<int, double>, static_cast<std::size_t>(power<Dim>(most_along))> taken;  // by pocket
+  std::array<std::pair<int, double>, static_cast<std::size_t>(power<Dim>(max_along))> taken;  // by pocket
   std::size_t count = 0;
   double all = 0.0;
   visit_block(*grid_, low_, count_, first, cells, [&](const Cell& offset, std::int64_t k) {

@@ -11,7 +11,7 @@ namespace tailwater {
 namespace {
 
 /// Columns of particles that may wait at an opening, or have entered early.
-constexpr double most_columns_waiting = 2.0;
+constexpr double max_columns_waiting = 2.0;
 
 template <int Dim>
 void subtract_fractions(const Flow<Dim>& flow, std::span<const std::pair<std::size_t, PocketShare>> fractions,
@@ -120,7 +120,7 @@ namespace {
 template <int Dim>
 double brought_by(const OpenEnd<Dim>& end, const OpenEndState& state) {
   const double passed = state.arrived.volume - state.departed.volume;
-  const double waiting = most_columns_waiting * end.spacing * end.area_below(state.depth);
+  const double waiting = max_columns_waiting * end.spacing * end.area_below(state.depth);
   return std::clamp(state.asked, passed - waiting, passed + waiting);
 }
 

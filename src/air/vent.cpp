@@ -13,7 +13,7 @@ constexpr double heat_ratio = 1.4;
 constexpr double pressure_over_density = 287.05 * 293.15;
 
 /// Minimum of G/V - 1. That flow is choked, and less gas gives the same flow.
-constexpr double least_excess = -0.999;
+constexpr double min_excess = -0.999;
 
 /// Number of bisections, to the last digit.
 constexpr int halvings = 60;
@@ -22,9 +22,9 @@ constexpr int halvings = 60;
 
 // With x = ln(G/V) pressures are p_0 exp(n x) and p_0, densities rho_0 exp(x) and rho_0.
 double vent_velocity(const GasLaw& law, double gas, double volume) {
-  const double most_fall = heat_ratio / (heat_ratio - 1.0) * std::log(0.5 * (heat_ratio + 1.0));  // of ln p
-  const double x = std::log1p(std::max((gas - volume) / volume, least_excess));
-  const double fall = std::min(law.exponent * std::abs(x), most_fall);
+  const double max_fall = heat_ratio / (heat_ratio - 1.0) * std::log(0.5 * (heat_ratio + 1.0));  // of ln p
+  const double x = std::log1p(std::max((gas - volume) / volume, min_excess));
+  const double fall = std::min(law.exponent * std::abs(x), max_fall);
   const double square = 2.0 * heat_ratio / (heat_ratio - 1.0) * pressure_over_density *
                         std::exp((law.exponent + 1.0) * std::max(x, 0.0) - 2.0 / heat_ratio * fall) *
                         -std::expm1(-(heat_ratio - 1.0) / heat_ratio * fall);

@@ -25,7 +25,7 @@
 namespace tailwater {
 namespace {
 
-constexpr std::size_t most_drawn_particles = 20000;
+constexpr std::size_t max_drawn_particles = 20000;
 
 /// `origin`: name of the case in messages.
 Json json_of(const Finding& finding, const std::string& origin) {
@@ -76,7 +76,7 @@ void add_lines(Json& drawing, const CaseSources& sources) {
 template <int Dim>
 Json particles_json(const FluidParticles<Dim>& fluid) {
   const std::size_t count = fluid.position.size();
-  const std::size_t stride = count / most_drawn_particles + 1;
+  const std::size_t stride = count / max_drawn_particles + 1;
   std::string positions;
   std::string blocks;
   for (std::size_t i = 0; i < count; i += stride) {

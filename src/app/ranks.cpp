@@ -118,7 +118,7 @@ int ranks_in_environment() {
 
 int usable_cores() { return static_cast<int>(usable_processors().size()); }
 
-int most_ranks_here() {
+int max_ranks_here() {
   constexpr int ranks_per_core = 8;
   return is_in_batch_job() ? std::numeric_limits<int>::max() : ranks_per_core * usable_cores();
 }

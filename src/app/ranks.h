@@ -20,7 +20,7 @@ int usable_cores();
 
 /// Largest number of ranks that this program starts: a few per core. No limit in a batch job, whose system can use
 /// other machines.
-int most_ranks_here();
+int max_ranks_here();
 
 /// The default number of ranks of a run: as many as there are free cores (parallel/cores.h) and as the case has water
 /// for. It is 1 where the number is set elsewhere (in a batch job, or by mpirun or srun), and where there is no mpirun.

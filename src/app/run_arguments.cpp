@@ -94,7 +94,7 @@ void ignore_hangup_and_open_messages(const Communicator& ranks, bool quiet) {
 
 void require_possible(int ranks) {
   if (ranks < 1) throw InputError("-n {}: a run has at least one rank; remedy: -n 2, or leave -n out", ranks);
-  if (const int most = most_ranks_here(); ranks > most) {
+  if (const int most = max_ranks_here(); ranks > most) {
     throw InputError(
         "-n {}: this machine's cores can share at most {} ranks; remedy: -n {}, or more nodes in a batch job", ranks,
         most, usable_cores());

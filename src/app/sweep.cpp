@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 constexpr auto time_between_looks_at_members = std::chrono::milliseconds(500);
 
 /// Minimum remaining wall time with which a member is started.
-constexpr std::chrono::duration<double> least_time_for_a_member(1.0);
+constexpr std::chrono::duration<double> min_time_for_a_member(1.0);
 
 /// Largest fraction shown for a running member: it has not ended before its last files are written.
 constexpr double largest_share_at_work = 0.999;
@@ -143,7 +143,7 @@ class Sweep {
     for (std::size_t m = 0; m < members_.size(); ++m) {
       if (running() >= static_cast<std::size_t>(options_.jobs) || is_asked_to_stop_) return;
       if (!members_[m].is_to_do) continue;
-      if (const auto left = time_left(); left && *left < least_time_for_a_member) {
+      if (const auto left = time_left(); left && *left < min_time_for_a_member) {
         is_asked_to_stop_ = true;
         return;
       }
@@ -281,9 +281,9 @@ void require_possible_jobs(const SweepOptions& options) {
   if (options.jobs < 1) {
     throw InputError("--jobs {}: at least one member runs at a time; remedy: --jobs 1", options.jobs);
   }
-  if (options.jobs > most_ranks_here() / ranks) {
+  if (options.jobs > max_ranks_here() / ranks) {
     throw InputError("--jobs {}: this machine's cores can share at most {} ranks; remedy: --jobs {}", options.jobs,
-                     most_ranks_here(), std::max(1, usable_cores() / ranks));
+                     max_ranks_here(), std::max(1, usable_cores() / ranks));
   }
   if (ranks_in_environment() > 0) {
     throw InputError("a sweep starts its members itself; remedy: tailwater without mpirun, and -n for each member");

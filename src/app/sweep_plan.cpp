@@ -27,7 +27,7 @@ namespace tailwater {
 namespace {
 
 /// Maximum number of folders in one folder; more is a mistake in the values.
-constexpr std::size_t most_members = 1000;
+constexpr std::size_t max_members = 1000;
 
 /// Bytes in the name of a member's folder; file systems allow 255.
 constexpr std::size_t longest_folder_name = 200;
@@ -106,8 +106,8 @@ SweepPlan sweep_plan(const std::vector<std::string>& options) {
       throw InputError("--sweep {}: the key is swept twice; remedy: give all its values in one --sweep", option);
     }
     count *= key.values.size();
-    if (count > most_members) {
-      throw InputError("--sweep {}: makes more than {} members; remedy: fewer values", option, most_members);
+    if (count > max_members) {
+      throw InputError("--sweep {}: makes more than {} members; remedy: fewer values", option, max_members);
     }
     keys.push_back(std::move(key));
   }

@@ -150,7 +150,7 @@ ViewActions view_actions(const ViewContent& content, const std::vector<fs::path>
                                                   : content.runs.front().name;
   ViewActions actions;
   actions.version = version_line();
-  actions.most_ranks = usable_cores();
+  actions.max_ranks = usable_cores();
   actions.free_name = [folder, stem] { return free_name(folder, stem); };
   actions.templates = [] {
     Json names = Json::array();

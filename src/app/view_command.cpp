@@ -100,7 +100,7 @@ std::string name_of_folder(const fs::path& folder) {
 
 /// Describes a folder that cannot be shown: its runs, with the command that shows them, or the missing files.
 std::string what_it_has(const fs::path& folder) {
-  constexpr std::size_t most_named = 4;
+  constexpr std::size_t max_named = 4;
   std::vector<std::string> runs;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
@@ -110,7 +110,7 @@ std::string what_it_has(const fs::path& folder) {
     return fmt::format("none of {}, {}, {} and {}", effective_case_name, sweep_record_name, report_name, study_name);
   }
   std::ranges::sort(runs);
-  if (runs.size() > most_named) runs.resize(most_named);
+  if (runs.size() > max_named) runs.resize(max_named);
   return fmt::format("runs in it; remedy: tailwater view {}", fmt::join(runs, " "));
 }
 

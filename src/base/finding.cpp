@@ -72,13 +72,13 @@ Findings merge_alike(const Findings& findings) {
 }
 
 std::string CaseError::text_of(const Findings& findings) {
-  constexpr std::size_t most_shown = 50;
+  constexpr std::size_t max_shown = 50;
   std::vector<std::string> lines;
   for (const Finding& finding : findings) {
-    if (lines.size() < most_shown) lines.push_back(finding.line());
+    if (lines.size() < max_shown) lines.push_back(finding.line());
   }
-  if (findings.size() > most_shown) {
-    lines.back() += fmt::format(" (and {} more problems)", findings.size() - most_shown);
+  if (findings.size() > max_shown) {
+    lines.back() += fmt::format(" (and {} more problems)", findings.size() - max_shown);
   }
   return fmt::format("{}", fmt::join(lines, "\n"));
 }

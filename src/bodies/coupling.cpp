@@ -34,16 +34,16 @@ constexpr int passes_with_old_inertia = 6;
 /// Passes of a rough solve. One pass is enough where water under tension resists like other water. Where tension was
 /// limited in much of the water in the last step, the estimated inertia is too small. A single pass would then
 /// accelerate the body so much that all water seems to be under tension.
-constexpr int most_rough_passes = 3;
+constexpr int max_rough_passes = 3;
 
 /// Acceleration for the measurement of inertia, over that of gravity; in m/s^2 without gravity.
 constexpr double probing_share = 0.1;
 
 /// Largest net area, as a fraction of the surface that faces air, that counts as an error of pairs and pieces.
-constexpr double most_wrong = 0.25;
+constexpr double max_wrong = 0.25;
 
 /// Least resistance of a degree of freedom, over its mass or mean moment of inertia.
-constexpr double least_share_of_mass = 0.5;
+constexpr double min_share_of_mass = 0.5;
 
 }  // namespace
 
@@ -113,7 +113,7 @@ void BodyCoupling<Dim>::remove_net_air_force() {
         all += share.share * piece.area.norm();
       }
     }
-    if (net[b].template head<Dim>().norm() >= most_wrong * all) continue;  // open air reaches it as well
+    if (net[b].template head<Dim>().norm() >= max_wrong * all) continue;  // open air reaches it as well
     PocketWall<Dim> correction{.wall = bodies_.bodies[b].walls.front(),
                                .x = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time),
                                .area = -net[b].template head<Dim>(),
@@ -259,7 +259,7 @@ void BodyCoupling<Dim>::measure_inertia(const Eigen::VectorXd& g, double toleran
     accelerate(other);
     report.iterations += solve_once(tolerance).iterations;
     inertia().col(k) = (residual() - g) / step - air_.col(k);
-    inertia()(k, k) = std::max(inertia()(k, k), least_share_of_mass * scale_[k]);
+    inertia()(k, k) = std::max(inertia()(k, k), min_share_of_mass * scale_[k]);
     flow_.state.particles.pressure = pressure;
   }
   accelerate(A);
@@ -283,7 +283,7 @@ void BodyCoupling<Dim>::correct(Eigen::VectorXd& g, double tolerance, SolveRepor
   const Eigen::VectorXd weighted = change.cwiseProduct(scale_);
   const Eigen::VectorXd answer = (after + push_) - (g + pushed) - air_ * change;
   const double square = change.dot(weighted);
-  if (square > 0.0 && change.dot(answer) >= least_share_of_mass * square) {
+  if (square > 0.0 && change.dot(answer) >= min_share_of_mass * square) {
     inertia() += (answer - inertia() * change) * weighted.transpose() / square;
   }
   g = after;
@@ -297,7 +297,7 @@ SolveReport BodyCoupling<Dim>::solve_roughly(double tolerance) {
   int passes = 0;
   do {
     correct(g, tolerance, report);
-  } while (++passes < most_rough_passes && size(g) > agreement_over_tolerance * tolerance * largest_force_);
+  } while (++passes < max_rough_passes && size(g) > agreement_over_tolerance * tolerance * largest_force_);
   // The response of water whose tension is not limited yet must not change the inertia.
   if (!known.empty()) flow_.state.motion.bodies.inertia = known;
   return report;

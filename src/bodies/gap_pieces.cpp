@@ -24,7 +24,7 @@ constexpr double widest_line = 1.5;
 constexpr double longest_part = 0.1;
 
 /// Least value of -cos of the angle between the normals of a piece and of the wall that it faces.
-constexpr double least_opposite = 0.5;
+constexpr double min_opposite = 0.5;
 
 /// Sum of w W over the water from which on a piece counts as wet. In a right angle between a hull and a bed the sum is
 /// 1/4, beside a row of particles in a gap of dx it is 0.3.
@@ -57,7 +57,7 @@ void NarrowGaps<Dim>::find_pieces(double time) {
     }
     const Vec<Dim>& normal = boundary.faces[patch.face].normal;
     const OtherWall across = wall.wall >= 0 ? wall_across(hull, x, normal, wall) : wall;
-    const bool faces = -normal.dot(across.normal) >= least_opposite;
+    const bool faces = -normal.dot(across.normal) >= min_opposite;
     const double gap = std::max(0.0, across.distance);
     pieces_.push_back({.hull = hull,
                        .other_wall = across.wall,
@@ -80,7 +80,7 @@ typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::wall_across(int hull, const
   for (double way = 0.0; way <= widest_film() * dx; way += step_across * dx) {
     if (way > 0.0) wall = other_wall(hull, x + way * normal, widest_film() * dx);
     const double facing = -normal.dot(wall.normal);
-    if (wall.wall < 0 || facing < least_opposite) continue;
+    if (wall.wall < 0 || facing < min_opposite) continue;
     wall.distance += facing * way;
     return wall;
   }
@@ -152,7 +152,7 @@ double NarrowGaps<Dim>::width_at(int hull, const Vec<Dim>& x) const {
   if (own.face < 0) return widest;
   const OtherWall wall = other_wall(hull, x, widest - own.signed_distance);
   const Vec<Dim> normal = placement.linear * surface->boundary.faces[own.face].normal;
-  return -wall.normal.dot(normal) < least_opposite ? widest : std::max(0.0, own.signed_distance + wall.distance);
+  return -wall.normal.dot(normal) < min_opposite ? widest : std::max(0.0, own.signed_distance + wall.distance);
 }
 
 template <int Dim>

@@ -9,7 +9,7 @@ namespace tailwater {
 namespace {
 
 /// More sweeps are needed only where many points of a body touch at once.
-constexpr int most_sweeps = 300;
+constexpr int max_sweeps = 300;
 
 /// [dx per step]; a sweep that changes speeds by less is the last.
 constexpr double settled_displacement = 1e-12;
@@ -34,7 +34,7 @@ Eigen::VectorXd find_one_sided(std::vector<OneSidedForce>& forces, const Eigen::
     answers.emplace_back(factors.solve(one.direction));
   }
   double largest = std::numeric_limits<double>::infinity();  // change of a speed in a sweep
-  for (int sweep = 0; sweep < most_sweeps && largest > settled_displacement * spacing / dt; ++sweep) {
+  for (int sweep = 0; sweep < max_sweeps && largest > settled_displacement * spacing / dt; ++sweep) {
     largest = 0.0;
     for (std::size_t n = 0; n < forces.size(); ++n) {
       OneSidedForce& one = forces[n];

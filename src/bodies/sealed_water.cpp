@@ -27,7 +27,7 @@ namespace {
 constexpr double share_of_row = 0.2;
 
 /// C/C_0; water with less is at a surface, or beside air.
-constexpr double least_inside = 0.8;
+constexpr double min_inside = 0.8;
 
 /// dx; water is between particles that are farther apart, or a wall, or a film.
 constexpr double longest_pair = 2.0;
@@ -54,7 +54,7 @@ class Waters {
       number[i] = static_cast<double>(particles.id[i]);
       if (flow.role[i] != Role::water) {
         surface[i] = anywhere;
-      } else if (flow.surroundings.concentration[i] < least_inside) {
+      } else if (flow.surroundings.concentration[i] < min_inside) {
         surface[i] = surface_at(particles.position[i]);
       }
       for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
@@ -145,7 +145,7 @@ SealedWater NarrowGaps<Dim>::find_sealed(const std::vector<double>& pressure) co
       least[3 * n + 2] = std::min(least[3 * n + 2], -waters.surface[i]);
     }
   }
-  flow_.setup.ranks.least_of_each(least);
+  flow_.setup.ranks.min_of_each(least);
   std::vector<double> water(pieces_.size());  // of each piece, -1: none or several
   for (std::size_t n = 0; n < water.size(); ++n) water[n] = least[3 * n] == -least[3 * n + 1] ? least[3 * n] : -1.0;
   const std::vector<double> heads = heads_beside(pressure);

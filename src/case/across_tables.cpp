@@ -52,25 +52,24 @@ void check_interval(double interval, double end, double most, const CaseLabel& k
 }
 
 void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  constexpr double most_lines = 1e8;
-  constexpr double most_files = 1e6;
-  check_interval(spec.output.fields_interval, spec.time.end, most_files,
-                 CaseLabel("output").with_key("fields_interval"), root["output"]["fields_interval"].node(),
-                 "field files", "a hundred files", problems);
-  check_interval(spec.output.view_interval, spec.time.end, most_files, CaseLabel("output").with_key("view_interval"),
+  constexpr double max_lines = 1e8;
+  constexpr double max_files = 1e6;
+  check_interval(spec.output.fields_interval, spec.time.end, max_files, CaseLabel("output").with_key("fields_interval"),
+                 root["output"]["fields_interval"].node(), "field files", "a hundred files", problems);
+  check_interval(spec.output.view_interval, spec.time.end, max_files, CaseLabel("output").with_key("view_interval"),
                  root["output"]["view_interval"].node(), "frames", "four hundred frames", problems);
   for (std::size_t i = 0; i < spec.probes.size(); ++i) {
-    check_interval(spec.probes[i].interval, spec.time.end, most_lines, CaseLabel("probe", i).with_key("interval"),
+    check_interval(spec.probes[i].interval, spec.time.end, max_lines, CaseLabel("probe", i).with_key("interval"),
                    root["probe"][i]["interval"].node(), "lines", "a line at every step", problems);
   }
 }
 
 /// The surface of a fill is perpendicular to the last axis. The axes may be turned along a sloping bed.
 void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  constexpr double least_downward = 0.5;  // cosine between gravity and the way down along that axis
+  constexpr double min_downward = 0.5;  // cosine between gravity and the way down along that axis
   const double g = gravity_magnitude(spec.physics);
   const int dimension = spec.general.dimension;
-  if (spec.physics.gravity.back() <= -least_downward * g) return;
+  if (spec.physics.gravity.back() <= -min_downward * g) return;
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
     const toml::node* node = root["fluid"][k]["level"].node();
     if (spec.fluid[k].shape != BlockShape::fill || node == nullptr) continue;

@@ -29,7 +29,7 @@ void check_box(const Coordinates& min, const Coordinates& max, TableReader& read
   }
 }
 
-std::size_t least_corners(WallShape shape, int dimension) {
+std::size_t min_corners(WallShape shape, int dimension) {
   if (shape == WallShape::plate && dimension == 3) return 4;
   return shape == WallShape::polyline || shape == WallShape::plate ? 2 : 3;
 }

@@ -16,7 +16,7 @@ void check_shape_dimension(std::string_view shape, int dimension, std::string_vi
 void check_box(const Coordinates& min, const Coordinates& max, TableReader& reader);
 
 /// The minimum number of corners of a wall of this shape.
-std::size_t least_corners(WallShape shape, int dimension);
+std::size_t min_corners(WallShape shape, int dimension);
 
 void check_corner_count(const std::vector<Coordinates>& points, std::size_t least, TableReader& reader,
                         std::string_view key = "points");

@@ -95,7 +95,7 @@ void read_linked_files(WallTable& wall, TableReader& reader) {
   if (!wall.points_file.empty() && wall.points.empty() && !reader.is_wrong("shape")) {
     read_linked("points_file", reader, [&] {
       wall.points = read_points_file(reader.linked(wall.points_file));
-      const std::size_t least = least_corners(wall.shape, reader.dimension());
+      const std::size_t least = min_corners(wall.shape, reader.dimension());
       if (wall.points.size() < least) {
         throw InputError("has too few points for shape = \"{}\": {}; give at least {}", name_of(wall.shape),
                          wall.points.size(), least);

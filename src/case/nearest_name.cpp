@@ -10,7 +10,7 @@ namespace {
 
 /// No name of a case file has more letters; comparing such names would take long.
 constexpr std::size_t longest_name = 100;
-constexpr std::size_t most_listed = 100;
+constexpr std::size_t max_listed = 100;
 
 char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }
 
@@ -54,10 +54,10 @@ std::optional<std::string_view> nearest_name(std::string_view given, std::span<c
 
 std::string quoted_list(std::span<const std::string_view> names) {
   std::string list;
-  for (const std::string_view name : names.first(std::min(names.size(), most_listed))) {
+  for (const std::string_view name : names.first(std::min(names.size(), max_listed))) {
     list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", name.substr(0, longest_name));
   }
-  if (names.size() > most_listed) list += fmt::format(" and {} more", names.size() - most_listed);
+  if (names.size() > max_listed) list += fmt::format(" and {} more", names.size() - max_listed);
   return list;
 }
 

@@ -20,7 +20,7 @@ constexpr std::string_view usage =
     "write --set table.key=value, for example scheme.courant=0.1, fluid[0].max=[1,2] or probe.NAME.interval=0.01";
 
 /// No key of a case is deeper: list, number, key, number, number.
-constexpr std::size_t most_steps = 8;
+constexpr std::size_t max_steps = 8;
 
 /// One step down the tree: a name in a table, or a name or number in a list.
 using Step = std::variant<std::string, std::size_t>;
@@ -51,7 +51,7 @@ std::vector<Step> parse_path(std::string_view path) {
       throw Misplaced{fmt::format("a name is missing in the key; {}", usage)};
     }
     steps.emplace_back(std::string(name));
-    if (steps.size() > most_steps) throw Misplaced{fmt::format("the key has too many parts; {}", usage)};
+    if (steps.size() > max_steps) throw Misplaced{fmt::format("the key has too many parts; {}", usage)};
     while (bracket != std::string_view::npos) {
       segment.remove_prefix(bracket + 1);
       const std::size_t close = segment.find(']');

@@ -20,7 +20,7 @@ enum class Parts {
   vector,        ///< NAME_x, NAME_y and in 3D NAME_z
   turn,          ///< in 2D one number, in 3D NAME_x, NAME_y and NAME_z
   velocity,      ///< NAMEu, NAMEv and in 3D NAMEw
-  vector_range,  ///< least_NAME_x, largest_NAME_x, and so on
+  vector_range,  ///< min_NAME_x, largest_NAME_x, and so on
   turn_range,
 };
 

@@ -213,7 +213,7 @@ void check(const WallTable& wall, TableReader& reader) {
   }
   check_points_given(wall, reader);
   check_box(wall.min, wall.max, reader);
-  check_corner_count(wall.points, least_corners(wall.shape, reader.dimension()), reader);
+  check_corner_count(wall.points, min_corners(wall.shape, reader.dimension()), reader);
   if (const toml::node* node = reader.given("open"); node != nullptr && reader.dimension() == 2) {
     for (const std::string& face : wall.open) {
       if (face.ends_with('z')) {
@@ -333,14 +333,14 @@ void check(const ProbeTable& probe, TableReader& reader) {
 }
 
 void check(const DomainTable& domain, TableReader& reader) {
-  const auto check_period = [&](std::string_view key, const std::vector<double>& range, int least_dimension) {
+  const auto check_period = [&](std::string_view key, const std::vector<double>& range, int min_dimension) {
     const toml::node* node = reader.given(key);
     if (node == nullptr || reader.is_wrong(key) || range.empty()) return;
     if (range.size() != 2) {
       reader.wrong("range-expected", key, "give two numbers in m, [low, high], or remove the key");
     } else if (range[0] >= range[1]) {
       reader.wrong("range-empty", key, "is empty; give [low, high] with low below high, in m");
-    } else if (reader.dimension() != 0 && reader.dimension() < least_dimension) {
+    } else if (reader.dimension() != 0 && reader.dimension() < min_dimension) {
       reader.wrong("period-z-in-2d", key, "a 2D case has no z; remove the key");
     }
   };

@@ -8,7 +8,7 @@ namespace tailwater {
 namespace {
 
 /// The parser limits the nesting of lists and tables in braces, but not the dots of keys.
-constexpr int most_dots = 8;
+constexpr int max_dots = 8;
 
 /// The position behind the string that begins at `start`; for a string without end, the end of the line or of the text.
 std::size_t end_of_string(std::string_view toml, std::size_t start) {
@@ -92,7 +92,7 @@ std::optional<std::size_t> line_of_deep_key(std::string_view toml) {
       i = end_of_string(toml, i);
     } else {
       if (ends_of_keys.find(toml[i]) != std::string_view::npos) dots = 0;
-      if (toml[i] == '.' && ++dots > most_dots) {
+      if (toml[i] == '.' && ++dots > max_dots) {
         return 1 +
                static_cast<std::size_t>(std::count(toml.begin(), toml.begin() + static_cast<std::ptrdiff_t>(i), '\n'));
       }

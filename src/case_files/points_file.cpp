@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-constexpr std::size_t most_points = 10000;  // the maximum of a list of points in the case
+constexpr std::size_t max_points = 10000;  // the maximum of a list of points in the case
 
 constexpr std::array<std::string_view, 4> names_along{"x", "station", "chainage", "distance"};
 constexpr std::array<std::string_view, 5> names_up{"y", "z", "elevation", "height", "level"};
@@ -60,8 +60,8 @@ class PointsFile : ColumnFile {
       }
     }
     const std::vector<std::string_view> fields = numbers_of(line);
-    if (points_.size() == most_points) {
-      wrong("has more than {} points; a wall has at most that many: give fewer, or several walls", most_points);
+    if (points_.size() == max_points) {
+      wrong("has more than {} points; a wall has at most that many: give fewer, or several walls", max_points);
     }
     points_.push_back({columns_.unit_along * number_at(fields, columns_.along, "length"),
                        columns_.unit_up * number_at(fields, columns_.up, "length")});

@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-constexpr std::size_t most_samples = 1000000;
+constexpr std::size_t max_samples = 1000000;
 
 constexpr std::array<Unit, 4> time_units{{{"s", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"h", 3600.0}}};
 constexpr std::array<Unit, 2> angle_units{{{"rad", 1.0}, {"deg", std::numbers::pi / 180.0}}};
@@ -96,8 +96,8 @@ class SeriesFile : ColumnFile {
       return;
     }
     const std::vector<std::string_view> fields = numbers_of(line);
-    if (series_.time.size() == most_samples) {
-      wrong("has more than {} lines of numbers; give fewer", most_samples);
+    if (series_.time.size() == max_samples) {
+      wrong("has more than {} lines of numbers; give fewer", max_samples);
     }
     for (std::size_t k = 0; k < found_.size(); ++k) {
       const auto [wanted, unit] = found_[k];

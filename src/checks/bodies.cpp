@@ -22,7 +22,7 @@ Box<Dim> box_of_body(const FloatingBody<Dim>& body, const Boundary<Dim>& boundar
 
 /// dx. With a smaller draught the pressure of a single row of particles is larger than the weight of the body. Its
 /// motion and the pressure are then inconsistent (0.04 dx failed, 0.08 dx did not).
-constexpr double least_draught = 0.05;
+constexpr double min_draught = 0.05;
 
 /// An error for a body that floats on the surface like a film; empty if it does not.
 template <int Dim>
@@ -36,14 +36,14 @@ Findings check_mass(const CaseSpec& spec, const FloatingBody<Dim>& body, const B
   const double per_draught = spec.physics.density * sides.prod();  // kg/m
   const double dx = spec.particles.spacing;
   const double draught = body.mass / per_draught;
-  if (draught >= least_draught * dx) return {};
+  if (draught >= min_draught * dx) return {};
   return {
       Finding::error("body-too-light",
                      {"{} = {:.4g} is so light that it floats with a draught of {:.3g} m, less than {} spacings: its "
                       "motion cannot be computed from the pressure of the particles",
-                      CaseLabel("body", body.name).with_key("mass"), Amount{body.mass, "kg"}, draught, least_draught},
+                      CaseLabel("body", body.name).with_key("mass"), Amount{body.mass, "kg"}, draught, min_draught},
                      {"give a mass of at least {:.3g} kg, or a spacing of at most {:.3g} m",
-                      1.01 * least_draught * dx * per_draught, 0.99 * draught / least_draught})};
+                      1.01 * min_draught * dx * per_draught, 0.99 * draught / min_draught})};
 }
 
 /// A warning for each key of a body that has an effect only on degrees of freedom that the body does not have.
@@ -70,7 +70,7 @@ Findings check_freedoms(const FloatingBody<Dim>& body) {
 
 /// dx; least radius of inertia. A body with less turns faster in its own spray than the pressure can follow (at 0.01 dx
 /// runs failed after two steps, at 0.03 dx they did not).
-constexpr double least_radius_of_inertia = 0.05;
+constexpr double min_radius_of_inertia = 0.05;
 
 template <int Dim>
 Findings check_inertia(const CaseSpec& spec, const FloatingBody<Dim>& body) {
@@ -78,13 +78,13 @@ Findings check_inertia(const CaseSpec& spec, const FloatingBody<Dim>& body) {
     if (entry < Dim) continue;
     const double inertia = body.inertia[entry - Dim];
     const double radius = std::sqrt(inertia / body.mass);
-    const double least = least_radius_of_inertia * spec.particles.spacing;
+    const double least = min_radius_of_inertia * spec.particles.spacing;
     if (radius >= least) continue;
     return {Finding::error("inertia-too-small",
                            {"{} = {:.4g} with a mass of {:.4g} kg means a radius of inertia of {:.3g} m, less than {} "
                             "spacings: the rotation cannot be computed from the pressure of the particles",
                             CaseLabel("body", body.name).with_key("inertia"), Amount{inertia, "kg m^2"}, body.mass,
-                            radius, least_radius_of_inertia},
+                            radius, min_radius_of_inertia},
                            {"give an inertia of at least {:.3g} kg m^2, or leave the rotation out of `free`",
                             1.01 * body.mass * least * least})};
   }

@@ -13,10 +13,10 @@ namespace {
 /// dx; minimum sum of the gaps on both sides of a body. Water does not pass smaller gaps: trapped water can neither
 /// leave nor be compressed, and its pressure moves the body arbitrarily. A box that falls into a tank failed with a sum
 /// of up to 2, and with 3 at no spacing.
-constexpr double least_sum = 3.0;
+constexpr double min_sum = 3.0;
 
 /// Minimum cosine: a wall is on a side of a body if it faces that side within 45 degrees.
-constexpr double least_facing_side = 0.7;
+constexpr double min_facing_side = 0.7;
 
 /// The nearest wall at rest on one side of a body.
 template <int Dim>
@@ -38,7 +38,7 @@ SideGaps<Dim> side_gaps_of(const std::vector<Vec<Dim>>& points, const Boundary<D
     if (near.face < 0 || std::abs(near.signed_distance) >= reach) continue;
     const WallFace<Dim>& face = resting.faces[near.face];
     for (int axis = 0; axis < Dim; ++axis) {
-      if (std::abs(face.normal[axis]) < least_facing_side) continue;
+      if (std::abs(face.normal[axis]) < min_facing_side) continue;
       auto& gap = gaps[2 * axis + (face.normal[axis] > 0.0 ? 0 : 1)];
       const double width = std::max(0.0, near.signed_distance);
       if (!gap || width < gap->width) gap = SideGap<Dim>{width, face.wall, x};
@@ -65,7 +65,7 @@ bool spans_period(const CaseSpec& spec, const std::vector<Vec<Dim>>& points, int
   if (range.size() != 2 || points.empty()) return false;
   const auto along = [axis](const Vec<Dim>& a, const Vec<Dim>& b) { return a[axis] < b[axis]; };
   const auto [least, most] = std::ranges::minmax(points, along);
-  return most[axis] - least[axis] > range[1] - range[0] - least_sum * spec.particles.spacing;
+  return most[axis] - least[axis] > range[1] - range[0] - min_sum * spec.particles.spacing;
 }
 
 template <int Dim>
@@ -73,21 +73,21 @@ Finding body_gap_finding(const CaseSpec& spec, const Boundary<Dim>& boundary, co
                          const SideGap<Dim>& gap) {
   const double dx = spec.particles.spacing;
   const Clause finer =
-      gap.width > 0.1 * dx ? Clause(", or use a spacing of at most {:.3g} m", 0.99 * gap.width / least_sum) : Clause();
+      gap.width > 0.1 * dx ? Clause(", or use a spacing of at most {:.3g} m", 0.99 * gap.width / min_sum) : Clause();
   return Finding::error(
       "body-gaps-too-narrow",
       {"the gaps on both sides of {}, such as the gap to {} at {}, are together {:.3g} wide, {:.2g} spacings: "
        "water cannot pass the body",
        CaseLabel("body", body), wall_label(boundary, gap.wall), place(gap.where), Amount{gap.width, "m"},
        gap.width / dx},
-      {"leave {:.3g} m or more on one side of the body{}", 1.01 * least_sum * dx, finer});
+      {"leave {:.3g} m or more on one side of the body{}", 1.01 * min_sum * dx, finer});
 }
 
 /// The gap that prevents water from passing a body; none if it can pass.
 template <int Dim>
 std::optional<SideGap<Dim>> closing_gap(const CaseSpec& spec, const std::vector<Vec<Dim>>& points,
                                         const Boundary<Dim>& resting, int upright) {
-  const double least = least_sum * spec.particles.spacing;
+  const double least = min_sum * spec.particles.spacing;
   const SideGaps<Dim> gaps = side_gaps_of(points, resting, least);
   std::optional<SideGap<Dim>> widest;
   for (int axis = 0; axis < Dim; ++axis) {

@@ -16,7 +16,7 @@
 namespace tailwater {
 
 /// Maximum number of cells of a whole case; if there would be more cells of size dx, the cells are larger.
-constexpr double most_cells_of_case = 4e6;
+constexpr double max_cells_of_case = 4e6;
 
 /// The faces of the walls, and the faces that close the `ends`.
 template <int Dim>

@@ -28,10 +28,10 @@ constexpr double rows_of_good_gap = 5.0;
 constexpr double narrow = 4.95;
 
 /// Minimum cosine of walls that face each other within 45 degrees.
-constexpr double least_facing_of_gap = 0.7;
+constexpr double min_facing_of_gap = 0.7;
 
 /// Minimum cosine: places within 60 degrees of the outward direction of an edge are beyond it, not beside the plate.
-constexpr double least_beyond_edge = 0.5;
+constexpr double min_beyond_edge = 0.5;
 
 /// An opening between two walls that is too narrow for water.
 template <int Dim>
@@ -148,7 +148,7 @@ std::optional<Gap<Dim>> narrow_gap_beyond(const Boundary<Dim>& boundary, const s
       const Vec<Dim> offset = closest_point(boundary.faces[f], x) - x;
       const double width = offset.norm();
       // A wall that touches the edge is on no side of it.
-      const bool is_beside = width > narrowest_drawn * dx && offset.dot(edge.out) < least_beyond_edge * width;
+      const bool is_beside = width > narrowest_drawn * dx && offset.dot(edge.out) < min_beyond_edge * width;
       if (width >= narrow * dx || is_beside) continue;
       if (!nearest || width < nearest->width) nearest = Gap<Dim>{plate, boundary.faces[f].wall, width, x};
     }
@@ -173,7 +173,7 @@ bool meet_somewhere(const WallFace<Dim>& face, const WallFace<Dim>& other, doubl
 template <int Dim>
 std::optional<Gap<Dim>> gap_between(const WallFace<Dim>& face, const WallFace<Dim>& other, double dx) {
   const double facing = -face.normal.dot(other.normal);
-  if (facing < least_facing_of_gap || face.box().exteriorDistance(other.box()) >= narrow * dx) return std::nullopt;
+  if (facing < min_facing_of_gap || face.box().exteriorDistance(other.box()) >= narrow * dx) return std::nullopt;
   const double tolerance = corner_tolerance * dx;
   const int samples = samples_along(face, dx);
   std::optional<Gap<Dim>> narrowest;

@@ -74,7 +74,7 @@ Findings check_closed_space(const CaseSpec& spec, const Boundary<Dim>& boundary,
     if (end.flow.feeds()) feeding.push_back(end.mouth);
   }
   if (feeding.empty()) return {};
-  const CellSpace<Dim> space(spec, faces_with(boundary, feeding), fluid.box(), most_cells_of_case);
+  const CellSpace<Dim> space(spec, faces_with(boundary, feeding), fluid.box(), max_cells_of_case);
   Findings findings;
   for (const ChannelEnd<Dim>& end : ends) {
     if (end.flow.feeds() && end.circuit < 0) check_space_of(end, space, boundary, fluid, spec.time.end, findings);

@@ -9,7 +9,7 @@ namespace tailwater {
 namespace {
 
 /// Minimum cosine: walls that close at less than 45 degrees crush the water; others push it out of the wedge.
-constexpr double least_facing = 0.7;
+constexpr double min_facing = 0.7;
 
 template <int Dim>
 double distance_from_rim(const WallFace<Dim>& face, const Vec<Dim>& x) {
@@ -51,7 +51,7 @@ std::optional<Vec<Dim>> crossing(const WallFace<Dim>& a, const WallFace<Dim>& b,
 template <int Dim>
 std::optional<Vec<Dim>> narrowing(const WallFace<Dim>& a, const WallFace<Dim>& b, const WallFace<Dim>& a_before,
                                   const WallFace<Dim>& b_before, double dx) {
-  if (-a.normal.dot(b.normal) < least_facing) return std::nullopt;
+  if (-a.normal.dot(b.normal) < min_facing) return std::nullopt;
   const double tolerance = corner_tolerance * dx;
   const int samples = samples_along(a, dx);
   const auto gap = [](const WallFace<Dim>& face, const Vec<Dim>& foot, const WallFace<Dim>& opposite) {

@@ -10,7 +10,7 @@ namespace tailwater {
 namespace {
 
 /// A face whose normal has a smaller cosine to the vertical is a side and carries no water.
-constexpr double least_upward_cosine = 0.01;
+constexpr double min_upward_cosine = 0.01;
 
 constexpr double at_opening = 0.1;  // dx, between the end of a polyline and an inlet or outlet that closes it
 
@@ -49,7 +49,7 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary) {
     const std::optional<double> rim = rim_height(points, open_ends, spec.particles.spacing, up);
     if (!rim) continue;
     for (const WallFace<2>& face : boundary.faces) {
-      if (face.wall != static_cast<int>(w) || up.dot(face.normal) < least_upward_cosine) continue;
+      if (face.wall != static_cast<int>(w) || up.dot(face.normal) < min_upward_cosine) continue;
       for (const Vec<2>& corner : face.corners) {
         const bool is_end =
             (corner - points.front()).norm() <= tolerance || (corner - points.back()).norm() <= tolerance;

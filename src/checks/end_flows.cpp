@@ -12,13 +12,13 @@
 namespace tailwater {
 namespace {
 
-constexpr double rim_on_wall = 0.1;          // dx, between the top of an opening and a lid
-constexpr double least_cosine = 1.0 - 1e-6;  // between gravity's part along an opening and an edge of it
-constexpr double most_of_range = 0.5;        // of the largest value; change while a wave crosses the end
-constexpr double most_moments = 1e5;         // maximum number of times at which a quantity is evaluated
-constexpr double in_front = 3.0;             // dx; water so near to an opening stands before it
+constexpr double rim_on_wall = 0.1;        // dx, between the top of an opening and a lid
+constexpr double min_cosine = 1.0 - 1e-6;  // between gravity's part along an opening and an edge of it
+constexpr double max_of_range = 0.5;       // of the largest value; change while a wave crosses the end
+constexpr double max_moments = 1e5;        // maximum number of times at which a quantity is evaluated
+constexpr double in_front = 3.0;           // dx; water so near to an opening stands before it
 /// Froude number beyond which a value is mistyped: a jet of 20 m/s and 0.1 m depth.
-constexpr double most_froude = 20.0;
+constexpr double max_froude = 20.0;
 constexpr const char* unit_hint =
     "a discharge is in m^3/s, in 2D per metre of width (1 l/s is 0.001), a velocity in m/s";
 
@@ -137,7 +137,7 @@ class EndFlowCheck {
     if (end_.flow.level && full_gravity_.isZero(0.0)) {
       error("level-needs-gravity", {"{} needs gravity, which the case does not have", label_.with_key("level")},
             {"give a discharge or a velocity instead"});
-    } else if (end_.gravity > 0.0 && end_.up.dot(end_.rise) < least_cosine) {
+    } else if (end_.gravity > 0.0 && end_.up.dot(end_.rise) < min_cosine) {
       error("opening-oblique-to-gravity", {"{}: gravity is oblique to its edges, so it has no bed", label_},
             {"turn the case so that one edge is upright"});
     }
@@ -145,7 +145,7 @@ class EndFlowCheck {
 
   /// The number of equal parts of the run at whose ends a quantity is evaluated.
   int samples() const {
-    return crossing_ > 0.0 ? static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, most_moments)) : 100;
+    return crossing_ > 0.0 ? static_cast<int>(std::clamp(std::ceil(last_ / crossing_), 100.0, max_moments)) : 100;
   }
 
   void look_at_values(const char* key, const char* unit, const std::optional<TimeFunction>& quantity) {
@@ -178,7 +178,7 @@ class EndFlowCheck {
       const double time = last_ * k / count;
       const double next = std::min(last_, time + std::min(crossing_, last_ / count));
       const double change = quantity->at(next) - quantity->at(time);
-      if (std::abs(change) <= most_of_range * scale) continue;
+      if (std::abs(change) <= max_of_range * scale) continue;
       error("value-jumps",
             {"{} jumps by {:.4g} between t = {:.6g} and {:.6g} s, faster than a wave crosses the end of the channel",
              label_.with_key(key), Amount{change, unit}, time, next},
@@ -284,7 +284,7 @@ class EndFlowCheck {
   void look_at_froude(double time, double q, double depth) {
     const double speed = depth > 0.0 ? std::abs(q) / depth : 0.0;
     const double froude = depth > 0.0 ? speed / std::sqrt(end_.gravity * depth) : 0.0;
-    if (froude > most_froude) {
+    if (froude > max_froude) {
       error("inflow-implausibly-fast",
             {"{}: at t = {:.6g} s water would enter at {:.4g}, which is implausible (Froude number {:.3g})", label_,
              time, Amount{speed, "m/s"}, froude},

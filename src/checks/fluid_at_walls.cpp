@@ -82,7 +82,7 @@ bool is_short(const WallFace<Dim>& face, double dx) {
 /// The least distance [m] at a place in a zone. Particles keep off walls by the spacing in the middle of their cells,
 /// which differs by up to a fifth in a border.
 template <int Dim>
-double least_in(const SpacingField<Dim>& field, double least, const Vec<Dim>& x) {
+double min_in(const SpacingField<Dim>& field, double least, const Vec<Dim>& x) {
   constexpr double change_in_cell = 0.8;
   const double relative = field.at(x);
   return relative < 1.0 ? change_in_cell * relative * least : least;
@@ -135,7 +135,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
     const bool is_square = std::abs(std::abs(near.signed_distance) - std::abs(height)) < corner_tolerance * dx;
     if (near.signed_distance >= 0.0) {
       contact.in_front += is_square ? 1 : 0;
-      contact.too_near += near.signed_distance < least_in(field, least, x) ? 1 : 0;
+      contact.too_near += near.signed_distance < min_in(field, least, x) ? 1 : 0;
       if (near.signed_distance < contact.nearest) {
         contact.nearest = near.signed_distance;
         contact.nearest_at = x;
@@ -189,7 +189,7 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
       findings.push_back(
           Finding::error("water-too-near-wall",
                          {"{} is too near to {}: {} particles are nearer than {:.6g} m, the nearest {:.3g} at {}",
-                          block, wall, contact.too_near, least_in(field, least, contact.nearest_at),
+                          block, wall, contact.too_near, min_in(field, least, contact.nearest_at),
                           Amount{contact.nearest, "m"}, place(contact.nearest_at)},
                          {"put the block's edge on the wall or a whole number of spacings ({:.6g} m) from it", dx}));
     }

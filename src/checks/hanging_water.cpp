@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// [edge of a cell]; minimum height above its surface at which water counts as hanging.
-constexpr double least_height = 2.0;
+constexpr double min_height = 2.0;
 
 /// Pa; the pressure of the atmosphere. Below it by this much cold water boils.
 constexpr double largest_tension = 1e5;
@@ -66,7 +66,7 @@ template <int Dim>
 Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.isZero(0.0) || fluid.all == 0) return {};
-  const CellSpace<Dim> space(spec, faces_with(boundary, make_open_ends<Dim>(spec)), fluid.box(), most_cells_of_case);
+  const CellSpace<Dim> space(spec, faces_with(boundary, make_open_ends<Dim>(spec)), fluid.box(), max_cells_of_case);
   std::vector<bool> is_wet(space.count(), false);
   std::vector<bool> is_known(space.count(), false);
   const auto water = cells_of<Dim>(space, fluid);
@@ -86,7 +86,7 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
     const bool has_surface = connected.surface > -std::numeric_limits<double>::infinity();
     if (connected.is_at_end || !has_surface) continue;
     const double above = connected.ceiling - connected.surface;
-    if (above < least_height * space.edge()) continue;
+    if (above < min_height * space.edge()) continue;
     const double tension = spec.physics.density * gravity.norm() * above;
     if (tension <= spec.physics.tension) continue;
     const auto remedy = tension <= largest_tension

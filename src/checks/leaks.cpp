@@ -21,7 +21,7 @@ namespace {
 constexpr double reach_with_inertia = 1.5;
 
 /// The least yield stress over the weight of a unit volume [m], of all liquids; 0 if one has no yield stress.
-double least_yield_height(const CaseSpec& spec, double gravity) {
+double min_yield_height(const CaseSpec& spec, double gravity) {
   double least = std::numeric_limits<double>::infinity();
   for (const FluidTable& block : spec.fluid) {
     if (block.liquid.empty()) return 0.0;
@@ -63,7 +63,7 @@ bool is_walled(const CellSpace<Dim>& space, const typename CellSpace<Dim>::Cell&
 template <int Dim>
 std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>& space,
                                      const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity) {
-  const double a = least_yield_height(spec, gravity.norm());
+  const double a = min_yield_height(spec, gravity.norm());
   if (a == 0.0) return std::nullopt;
   const Box<Dim> box = fluid.box();
   Slump<Dim> slump{0.5 * (box.min() + box.max()), 0.0};
@@ -172,7 +172,7 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   if (gravity.isZero(0.0) || boundary.faces.empty()) return {};
   const Vec<Dim> down = gravity.normalized();
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
-  const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), most_cells_of_case);
+  const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), max_cells_of_case);
   std::vector<typename CellSpace<Dim>::Cell> wet = cells_of<Dim>(space, fluid);
   add_cells_at_ends(spec, boundary, space, wet);
   const Spread<Dim> reached = spread(space, wet, down);

@@ -18,7 +18,7 @@ constexpr double largest_share_of_water = 200.0;
 constexpr double largest_share_of_case = 2.0;
 
 /// Cosine: walls back to back are a plate where they differ by less than 8 degrees from parallel; else a sharp edge.
-constexpr double least_facing_of_plate = 0.99;
+constexpr double min_facing_of_plate = 0.99;
 
 Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurface& surface, const Box<3>& water) {
   const double dx = spec.particles.spacing;
@@ -131,7 +131,7 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
                                              middle - (needed - tolerance) * face.normal, tolerance);
     if (behind < 0 || share_a_point(surface.mesh(), t - mesh.first_face, behind)) continue;
     const WallFace<3>& other = boundary.faces[mesh.first_face + behind];
-    if (-face.normal.dot(other.normal) < least_facing_of_plate) continue;
+    if (-face.normal.dot(other.normal) < min_facing_of_plate) continue;
     return {Finding::error("mesh-too-thin",
                            {"{} is only {:.3g} thick at {}, with the water on its other side: its {} layers of wall "
                             "particles need {:.6g} m, or the water on one side would interact with that on the other",

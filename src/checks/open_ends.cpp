@@ -14,7 +14,7 @@ namespace tailwater {
 namespace {
 
 constexpr double wall_clearance = 0.25;   // dx, between walls and the path of the water
-constexpr double least_flush = 0.9;       // cosine between an opening's normal and that of the wall that it is cut into
+constexpr double min_flush = 0.9;         // cosine between an opening's normal and that of the wall that it is cut into
 constexpr double largest_opening = 10.0;  // over the size of all walls and water
 
 /// Points `first`, ..., `last` with at most `step` (m) between them; at most 200.
@@ -196,7 +196,7 @@ bool is_cut_into_wall(const Boundary<Dim>& boundary, const Opening<Dim>& end, co
   Vec<Dim> middle = end.corner;
   for (const Vec<Dim>& edge : end.edges) middle += 0.5 * edge;
   const NearestWall<Dim> wall = boundary.nearest(on_rim + dx * (on_rim - middle).normalized(), 0.5 * dx);
-  return wall.face >= 0 && std::abs(boundary.faces[wall.face].normal.dot(end.normal)) >= least_flush;
+  return wall.face >= 0 && std::abs(boundary.faces[wall.face].normal.dot(end.normal)) >= min_flush;
 }
 
 /// Checks that the far side of a hole in a wall is defined: a continuing channel is impossible there.

@@ -17,11 +17,11 @@ namespace tailwater {
 namespace {
 
 /// Minimum number of samples of a path, even where it does not seem to move.
-constexpr int least_samples = 2000;
+constexpr int min_samples = 2000;
 
 /// Maximum cost of following the paths, in evaluations of the place of a wall: 10 km of one wall at dx = 0.01 m. It
 /// takes some seconds.
-constexpr double most_looks = 4e6;
+constexpr double max_looks = 4e6;
 
 constexpr double looks_per_letter = 0.01;    ///< per letter of an expression
 constexpr double looks_per_corner = 0.01;    ///< per corner of a wall
@@ -90,18 +90,18 @@ class PathWalk {
   Findings findings(double end) {
     look_for_collisions(0.0);
     Places before = places_at(0.0);
-    for (int k = 0; k < least_samples; ++k) {
-      if (looks_ > most_looks) {
+    for (int k = 0; k < min_samples; ++k) {
+      if (looks_ > max_looks) {
         findings_.push_back(
             Finding::warning("path-checked-in-part",
                              {"{} or another wall moves so far that collisions are only checked up to t = {:.6g}",
-                              label(movers_.front().wall), Amount{end * k / least_samples, "s"}},
+                              label(movers_.front().wall), Amount{end * k / min_samples, "s"}},
                              {"check the paths after that time by eye"}));
         break;
       }
-      const double to = end * (k + 1) / least_samples;
+      const double to = end * (k + 1) / min_samples;
       Places after = places_at(to);
-      follow(end * k / least_samples, before, to, after);
+      follow(end * k / min_samples, before, to, after);
       if (room_) look_for_room(to);
       before = std::move(after);
     }
@@ -156,7 +156,7 @@ class PathWalk {
   }
 
   void follow(double from, const Places& start, double to, const Places& end) {
-    if (looks_ > most_looks) return;
+    if (looks_ > max_looks) return;
     double longest = 0.0;
     bool is_far = false;
     for (std::size_t m = 0; m < movers_.size(); ++m) {
@@ -277,7 +277,7 @@ template <int Dim>
 Findings check_paths(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid,
                      const std::vector<int>& moving) {
   // The last time step may pass the end.
-  const double end = spec.time.end * (1.0 + 1.0 / least_samples);
+  const double end = spec.time.end * (1.0 + 1.0 / min_samples);
   return PathWalk<Dim>(spec, drawn, fluid, moving).findings(end);
 }
 

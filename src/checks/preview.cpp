@@ -15,8 +15,8 @@
 namespace tailwater {
 namespace {
 
-constexpr std::size_t most_drawn = 40000;
-constexpr std::size_t most_drawn_faces = 20000;
+constexpr std::size_t max_drawn = 40000;
+constexpr std::size_t max_drawn_faces = 20000;
 constexpr double plot_width = 900.0;  // px; a tall case is limited by plot_height instead
 constexpr double plot_height = 620.0;
 constexpr double page_margin = 24.0;
@@ -85,9 +85,9 @@ std::vector<Marker> markers_of(const CaseSpec& spec) {
 }
 
 void draw_axes(Svg& svg, const View& view) {
-  const double least_apart[] = {80.0, 26.0};  // px, along x and along the vertical axis
+  const double min_apart[] = {80.0, 26.0};  // px, along x and along the vertical axis
   for (int axis = 0; axis < 2; ++axis) {
-    const double step = tick_step(least_apart[axis] / view.scale);
+    const double step = tick_step(min_apart[axis] / view.scale);
     for (double k = std::ceil(view.low[axis] / step - 1e-9); k * step <= view.high[axis] + 1e-9 * step; ++k) {
       // + 0.0 turns -0 into 0.
       const std::string label = fmt::format("{:.6g}", k * step + 0.0);
@@ -217,12 +217,12 @@ void draw_wall_particles(Svg& svg, const Boundary<Dim>& boundary, const WallPart
     const bool is_seen = Dim == 2 || walls.blocked[i](1, 1) < 0.5;
     if (is_seen && is_drawn(boundary, walls, i)) shown.push_back(walls.position[i]);
   }
-  if (shown.size() <= most_drawn) svg.dots(shown, view, dummy_colour, diameter);
+  if (shown.size() <= max_drawn) svg.dots(shown, view, dummy_colour, diameter);
 }
 
 template <int Dim>
 void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid, const View& view, double diameter) {
-  if (fluid.position.size() <= most_drawn) {
+  if (fluid.position.size() <= max_drawn) {
     std::map<int, std::vector<Vec<Dim>>> of_size;  // in half halvings of the spacing
     for (std::size_t i = 0; i < fluid.position.size(); ++i) {
       const double relative = spec.refinement.empty() ? 1.0 : edge_of<Dim>(fluid.volume[i]) / spec.particles.spacing;
@@ -251,7 +251,7 @@ void draw_fluid(Svg& svg, const CaseSpec& spec, const FluidParticles<Dim>& fluid
 
 template <int Dim>
 void draw_walls(Svg& svg, const Boundary<Dim>& boundary, const View& view) {
-  if (boundary.faces.size() > most_drawn_faces) return;
+  if (boundary.faces.size() > max_drawn_faces) return;
   for (const WallFace<Dim>& face : boundary.faces) {
     for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
       const Vec<Dim> edge = face.corners[(c + 1) % Dim] - face.corners[c];

@@ -8,13 +8,13 @@ namespace tailwater {
 namespace {
 
 /// Small enough for a check each time a wall has moved by dx.
-constexpr double most_cells_of_room = 2e4;
+constexpr double max_cells_of_room = 2e4;
 
 }  // namespace
 
 template <int Dim>
 RoomForWater<Dim>::RoomForWater(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid)
-    : space_(spec, drawn.faces, fluid.box(), most_cells_of_room),
+    : space_(spec, drawn.faces, fluid.box(), max_cells_of_room),
       water_(fluid.ranks.sum(std::reduce(fluid.volume.begin(), fluid.volume.end()))) {
   Vec<Dim> down = gravity_of<Dim>(spec);
   if (down.norm() > 0.0) down.normalize();

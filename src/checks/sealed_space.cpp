@@ -17,7 +17,7 @@ template <int Dim>
 class DrySpaces {
  public:
   DrySpaces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid, double level)
-      : space_(spec, faces_with(boundary, make_open_ends<Dim>(spec)), fluid.box(), most_cells_of_case),
+      : space_(spec, faces_with(boundary, make_open_ends<Dim>(spec)), fluid.box(), max_cells_of_case),
         walls_(boundary.faces.size()),
         level_(level),
         is_wet_(space_.count(), false),

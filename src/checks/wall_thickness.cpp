@@ -34,7 +34,7 @@ bool is_obstacle(const WallTable& wall) {
 template <int Dim>
 std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
-  const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), most_cells_of_case);
+  const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), max_cells_of_case);
   std::vector<typename CellSpace<Dim>::Cell> start = cells_of<Dim>(space, fluid);
   for (const Opening<Dim>& end : ends) {
     Vec<Dim> middle = end.corner;

@@ -14,11 +14,11 @@
 namespace tailwater {
 namespace {
 
-constexpr double reach = 4.0;         // dx; distance in front of a plate at which the water is sampled
-constexpr double most_error = 0.1;    // error of the depth, as a fraction of it
-constexpr double most_columns = 1.0;  // dx; error of the depth
-constexpr double most_plate_reflection = 0.1;
-constexpr double most_zone_reflection = 0.05;
+constexpr double reach = 4.0;        // dx; distance in front of a plate at which the water is sampled
+constexpr double max_error = 0.1;    // error of the depth, as a fraction of it
+constexpr double max_columns = 1.0;  // dx; error of the depth
+constexpr double max_plate_reflection = 0.1;
+constexpr double max_zone_reflection = 0.05;
 
 /// Height [m] of the water in front of a plate above its foot, over all ranks; none where there is no water.
 template <int Dim>
@@ -78,7 +78,7 @@ Findings check_absorption(const WaveMakerTable& maker, double gravity) {
   if (maker.absorption == Absorption::none || maker.period == 0.0) return {};
   const double omega = 2.0 * std::numbers::pi / maker.period;
   const double reflection = plate_reflection(maker.type, omega, gravity, maker.depth);
-  if (reflection <= most_plate_reflection) return {};
+  if (reflection <= max_plate_reflection) return {};
   return {Finding::warning("maker-reflects-waves",
                            {"{} reflects {:.0f} % of incoming waves of its own period, {:.4g} (kh = {:.3g})",
                             CaseLabel("wave_maker", maker.name), 100.0 * reflection, Amount{maker.period, "s"},
@@ -101,7 +101,7 @@ Findings check_level(const CaseSpec& spec, const DampingTable& zone, const Fluid
   surface = fluid.ranks.largest(surface);
   const double top = std::max(up.dot(box.min()), up.dot(box.max()));
   const bool is_known = surface > none && surface < top - dx;
-  if (!is_known || std::abs(surface - zone.level) <= std::max(most_error * zone.depth, most_columns * dx)) return {};
+  if (!is_known || std::abs(surface - zone.level) <= std::max(max_error * zone.depth, max_columns * dx)) return {};
   return {Finding::error("zone-level-differs",
                          {"{} = {:.4g}, but the surface of the water in the zone is at {:.4g} m at the start",
                           owner.with_key("level"), Amount{zone.level, "m"}, surface},
@@ -141,7 +141,7 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
            check_focus(maker, CaseLabel("wave_maker", maker.name), maker.depth, gravity_of<Dim>(spec).norm()));
     append(findings, check_absorption(maker, gravity_of<Dim>(spec).norm()));
     const std::optional<double> depth = depth_at(WavePlate<Dim>(spec, maker), fluid, dx);
-    if (!depth || std::abs(*depth - maker.depth) <= std::max(most_error * maker.depth, most_columns * dx)) continue;
+    if (!depth || std::abs(*depth - maker.depth) <= std::max(max_error * maker.depth, max_columns * dx)) continue;
     findings.push_back(
         Finding::error("maker-depth-differs",
                        {"{} = {:.4g}, but the water in front of it is {:.4g} m deep at the start: its waves would not "
@@ -167,7 +167,7 @@ Findings check_wave_zones(const CaseSpec& spec, const FluidParticles<Dim>& fluid
     if (!forecast) continue;
     const ZoneEstimate& estimate = forecast->estimate;
     const double error = made.has_waves() ? estimate.worse() : estimate.reflection;
-    if (error <= most_zone_reflection) continue;
+    if (error <= max_zone_reflection) continue;
     const double k = forecast->wave_number;
     findings.push_back(Finding::warning(
         "damping-reflects-waves",

@@ -43,11 +43,11 @@ struct WallLaw {
   template <class Profile>
   double solve(double speed, Profile&& profile) const {
     if (speed == 0.0 || (viscosity == 0.0 && roughness == 0.0)) return 0.0;
-    constexpr int most_passes = 30;
+    constexpr int max_passes = 30;
     double u_tau = 0.05 * speed;
     double before = 0.0;
     double change_before = 0.0;
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < max_passes; ++pass) {
       const double change = von_karman * speed / profile(u_tau) - u_tau;
       const double slope = pass > 0 ? (change - change_before) / (u_tau - before) : -1.0;
       before = u_tau;

@@ -10,7 +10,7 @@ namespace tailwater {
 namespace {
 
 /// Least g'/g. It limits the time step of liquids of equal density, which have no internal wave speed.
-constexpr double least_reduced_gravity = 1e-3;
+constexpr double min_reduced_gravity = 1e-3;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ TimeStepRule time_step_rule(const Flow<Dim>& flow) {
   const double balanced = balanced_density(flow);
   if (balanced == 0.0) return rule;
   const double reduced = *std::ranges::max_element(liquids.density) / balanced - 1.0;
-  rule.reference_speed *= std::sqrt(std::clamp(reduced, least_reduced_gravity, 1.0));
+  rule.reference_speed *= std::sqrt(std::clamp(reduced, min_reduced_gravity, 1.0));
   return rule;
 }
 

@@ -52,14 +52,14 @@ double largest_approach(Flow<Dim>& flow) {
   // If two particles approach each other fast enough to matter, one of them has at least half of that speed.
   const TimeStepRule rule = time_step_rule(flow);
   const double speed = largest_speed(flow);
-  const double least_speed = 0.5 * largest_approach_in_step / rule.courant * rule.limiting_speed(speed);
-  if (speed < least_speed) return 0.0;
+  const double min_speed = 0.5 * largest_approach_in_step / rule.courant * rule.limiting_speed(speed);
+  if (speed < min_speed) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   const std::vector<Float4> velocity = as_float4<Dim>(particles.velocity);
   const auto finest = static_cast<float>(flow.setup.finest_spacing());
   const double largest = largest_over(particles.owned, 0.0, [&](std::size_t i) {
-    if (!particles.is_fluid(i) || particles.velocity[i].norm() < least_speed) return 0.0;
+    if (!particles.is_fluid(i) || particles.velocity[i].norm() < min_speed) return 0.0;
     Lanes approach{};
     for_each_pair(pairs, i, [&](const auto& batch) {
       const PlaceLanes<Dim> place = batch.place();

@@ -10,7 +10,7 @@ namespace tailwater {
 namespace {
 
 /// [dx]; walls of which so much lies beside an edge of the rim close it. Of shorter edges they close half.
-constexpr double least_closed = 2.0;
+constexpr double min_closed = 2.0;
 constexpr double march = 0.25;         // dx; with which walls that lead on are followed
 constexpr double looking_away = -0.6;  // cosine between a wall's normal and the way inwards
 constexpr double led_straight = 1.0;   // dx; walls that lead to an opening are no farther from straight, a lead away
@@ -47,7 +47,7 @@ class Rim {
     for (int k = 0; k < pieces; ++k) {
       closed += wall_at(Vec<Dim>(from + (margin + (k + 0.5) * piece) / length * (to - from)), inwards).face >= 0;
     }
-    return closed > 0 && closed * piece >= std::min(0.5 * (length - 2.0 * margin), least_closed * dx_);
+    return closed > 0 && closed * piece >= std::min(0.5 * (length - 2.0 * margin), min_closed * dx_);
   }
 
   /// Length [m] over which walls continue from a place on the rim, at most the length of the duct.

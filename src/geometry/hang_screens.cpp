@@ -18,7 +18,7 @@ namespace {
 /// which water feels the wall particles that stand as near to the end.
 constexpr double plate_reach = 1.5;
 constexpr double screened_reach = plate_reach + 1.0;
-constexpr double least_bend = 0.4;  // sine of the angle between faces that make a corner
+constexpr double min_bend = 0.4;  // sine of the angle between faces that make a corner
 
 /// The front of one piece, without other walls.
 Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int piece) {
@@ -218,8 +218,8 @@ double reach_of_screens(const Boundary<2>& boundary, const WallEnd& end, const L
     }
     const Vec<2> further = boundary.faces[next].corners[1 - end.corner] - corner;
     const double sine = face.normal.dot(further.normalized());
-    if (sine > least_bend) return whole;
-    if (sine < -least_bend) return std::clamp(length - lengths.reach, 0.0, whole);
+    if (sine > min_bend) return whole;
+    if (sine < -min_bend) return std::clamp(length - lengths.reach, 0.0, whole);
     f = next;
   }
   return whole;

@@ -14,7 +14,7 @@ namespace tailwater {
 namespace {
 
 /// Some checks compare every piece of the walls with every other.
-constexpr std::size_t most_faces = 5000;
+constexpr std::size_t max_faces = 5000;
 
 double friction_of(const WallTable& wall) {
   switch (wall.slip) {
@@ -214,9 +214,9 @@ void append_plate(const WallTable& table, int wall, const CaseLabel& owner, doub
 }
 
 /// Plates are filed in cells of space before the memory of the particles is known (Boundary::hang_screens).
-constexpr double most_cells_of_a_plate = 3e8;
+constexpr double max_cells_of_a_plate = 3e8;
 /// Cells beside the plate, which are filed, take a hundred bytes each. So long a plate has 1e8 particles and more.
-constexpr double most_filed_cells = 1e7;
+constexpr double max_filed_cells = 1e7;
 
 template <int Dim>
 void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, const CaseLabel& owner, double spacing,
@@ -227,8 +227,8 @@ void require_few_cells(const Boundary<Dim>& boundary, std::size_t first_face, co
     box.extend(boundary.faces[f].box());
     filed += boundary.faces[f].measure() / power<Dim>(reach) * reach;
   }
-  const bool has_few_cells = box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= most_cells_of_a_plate;
-  if (has_few_cells && filed <= most_filed_cells) return;
+  const bool has_few_cells = box.isEmpty() || (box.sizes() / reach).cwiseMax(1.0).prod() <= max_cells_of_a_plate;
+  if (has_few_cells && filed <= max_filed_cells) return;
   const double length = box.sizes().maxCoeff();
   throw CaseError(
       "plate-too-large",
@@ -300,10 +300,10 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
     if (table.shape == WallShape::plate) require_few_cells(boundary, before, owner, spec.particles.spacing, reach);
     // The faces of a resting mesh are found by its own tree.
     if (table.shape != WallShape::mesh || boundary.walls.back().moves()) compared += boundary.faces.size() - before;
-    if (compared > most_faces) {
+    if (compared > max_faces) {
       throw CaseError("too-many-wall-pieces",
                       {"{}: with it the walls have {} pieces{}, and a case has at most {}", owner, compared,
-                       boundary.meshes.empty() ? "" : ", without meshes at rest", most_faces},
+                       boundary.meshes.empty() ? "" : ", without meshes at rest", max_faces},
                       {"draw them coarser"});
     }
   }

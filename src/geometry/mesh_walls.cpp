@@ -24,7 +24,7 @@ constexpr double torn_points = 4.0 * file_precision;
 constexpr double largest_round_off = 0.01;  // dx
 
 /// Fraction of the area of an open mesh; if the net upward area is less, neither side is above the other.
-constexpr double least_upward_share = 0.1;
+constexpr double min_upward_share = 0.1;
 
 Mat<3> rotation_of(const PlacedFile& file, const CaseLabel& owner) {
   Mat<3> turn = Mat<3>::Identity();
@@ -81,13 +81,13 @@ TriangleMesh read_mesh_of(const PlacedFile& file, const CaseLabel& owner) {
   }
 }
 
-void require_triangles_with_area(const TriangleMesh& mesh, double least_height, const Refusal& refuse) {
+void require_triangles_with_area(const TriangleMesh& mesh, double min_height, const Refusal& refuse) {
   int first = -1;
   std::size_t count = 0;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     double longest = 0.0;
     for (int c = 0; c < 3; ++c) longest = std::max(longest, (mesh.corner(t, c) - mesh.corner(t, (c + 1) % 3)).norm());
-    if (mesh.area_normal(t).norm() > least_height * longest) continue;
+    if (mesh.area_normal(t).norm() > min_height * longest) continue;
     if (count++ == 0) first = t;
   }
   if (count == 0) return;
@@ -191,7 +191,7 @@ void turn_up(TriangleMesh& mesh, const Vec<3>& up, const Refusal& refuse) {
     area += mesh.area_normal(t).norm();
   }
   const double upward = up.dot(sum) / area;
-  if (std::abs(upward) < least_upward_share) {
+  if (std::abs(upward) < min_upward_share) {
     refuse("mesh-without-upper-side",
            {"neither side of the mesh is above the other, because as much of it faces up as down"},
            {"give fluid_side = \"front\" or \"back\""});

@@ -14,7 +14,7 @@ namespace tailwater {
 namespace {
 
 /// Least sine of the angle between an opening's plane and its direction. Below it the outer side is not clear.
-constexpr double least_sine = 0.1;
+constexpr double min_sine = 0.1;
 constexpr double flat_within = 0.1;  // dx, of the corners of a polygon from its plane
 
 std::array<Vec<2>, 1> edges_between(const Vec<2>& from, const Vec<2>& to, double, const CaseLabel&) {
@@ -117,7 +117,7 @@ template <int Dim>
 void turn_to(const Vec<Dim>& direction, Opening<Dim>& opening) {
   opening.normal = across(opening.edges);
   const double sine = opening.normal.dot(direction);
-  if (std::abs(sine) < least_sine) {
+  if (std::abs(sine) < min_sine) {
     throw CaseError("opening-along-direction",
                     {"{} at {} lies along its direction {}, so it has no outside", opening.label(),
                      place(opening.corner), vector_text(direction)},
@@ -145,7 +145,7 @@ void span(const Coordinates& from_key, const Coordinates& to_key, double spacing
 /// Unit vector up in the plane at right angles to `normal`; any in a level plane.
 Vec<3> upright_in_plane(const Vec<3>& normal, const Vec<3>& gravity) {
   const Vec<3> rise = normal.dot(gravity) * normal - gravity;
-  if (rise.norm() > least_sine * gravity.norm()) return rise.normalized();
+  if (rise.norm() > min_sine * gravity.norm()) return rise.normalized();
   int axis = 0;
   normal.cwiseAbs().minCoeff(&axis);
   return (Vec<3>::Unit(axis) - normal[axis] * normal).normalized();

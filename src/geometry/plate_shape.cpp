@@ -7,7 +7,7 @@ namespace tailwater {
 namespace {
 
 /// 1 + cos of the angle by which a rim turns. Where it turns by more than 120 degrees, its corner is not drawn on.
-constexpr double least_opening = 0.5;
+constexpr double min_opening = 0.5;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -105,8 +105,7 @@ WidenedSheet widened(const MeshSurface& sheet, double reach,
     wide.edges[other.edge].before = one.edge;
     const double turn = one.out.cross(other.out).dot(mesh.area_normal(one.triangle).normalized());
     const double opening = 1.0 + one.out.dot(other.out);
-    if (turn <= straight || opening < least_opening)
-      continue;  // the strips touch or overlap, or the corner is a needle
+    if (turn <= straight || opening < min_opening) continue;  // the strips touch or overlap, or the corner is a needle
     const int corner = add_point(mesh.points[b] + reach / opening * (one.out + other.out));
     add(b, one.end, corner, one.triangle, {one.edge, other.edge});
     add(b, corner, other.begin, other.triangle, {one.edge, other.edge});

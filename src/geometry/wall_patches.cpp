@@ -48,7 +48,7 @@ void require_few_patches(const Boundary<Dim>& boundary, double longest) {
     patches += of_face;
     of_wall[face.wall] += of_face;
   }
-  if (patches <= most_wall_patches) return;
+  if (patches <= max_wall_patches) return;
   const auto largest = std::ranges::max_element(of_wall);
   const auto wall = static_cast<int>(largest - of_wall.begin());
   Box<Dim> box;
@@ -59,7 +59,7 @@ void require_few_patches(const Boundary<Dim>& boundary, double longest) {
                   {"{}, which reaches from {} to {}, has {:.3g} patches of {:.3g}, in which forces on walls are "
                    "computed, and a case has at most {:.3g}",
                    wall_label(boundary, wall), place<Dim>(box.min()), place<Dim>(box.max()), *largest,
-                   Amount{longest, "m"}, most_wall_patches},
+                   Amount{longest, "m"}, max_wall_patches},
                   {"draw the wall no longer than the water can come, or use a larger spacing"});
 }
 

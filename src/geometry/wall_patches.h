@@ -31,10 +31,10 @@ struct WallPatch {
 inline constexpr double longest_patch_edge = 1.5;
 
 /// Upper limit for the number of patches, which then take about 10 GB.
-inline constexpr double most_wall_patches = 1e8;
+inline constexpr double max_wall_patches = 1e8;
 
 /// Patches of all faces, halved at their longest edges until none is longer than `longest` [m]. The patches of a face
-/// are consecutive. Throws CaseError for more than `most_wall_patches` of them, before it allocates memory.
+/// are consecutive. Throws CaseError for more than `max_wall_patches` of them, before it allocates memory.
 template <int Dim>
 std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest);
 

@@ -70,8 +70,8 @@ void remove_if_empty(const fs::path& folder) {
 }
 
 /// Whether a name has the form START012.
-bool is_numbered(std::string_view stem, std::string_view start, std::size_t least_digits) {
-  return stem.starts_with(start) && stem.size() >= start.size() + least_digits &&
+bool is_numbered(std::string_view stem, std::string_view start, std::size_t min_digits) {
+  return stem.starts_with(start) && stem.size() >= start.size() + min_digits &&
          stem.find_first_not_of("0123456789", start.size()) == stem.npos;
 }
 

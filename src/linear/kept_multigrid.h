@@ -15,7 +15,7 @@ class KeptMultigrid {
   /// then a new set-up pays. Collective.
   void take(const LinearSystem& system, double residual) {
     const bool is_new = !multigrid_ || pattern_number_ != system.pattern_number();
-    if (system.ranks().any(is_new || (multigrid_->follow(system) && residual > most_to_follow))) {
+    if (system.ranks().any(is_new || (multigrid_->follow(system) && residual > max_to_follow))) {
       multigrid_.emplace(system);
       pattern_number_ = system.pattern_number();
     }
@@ -26,7 +26,7 @@ class KeptMultigrid {
  private:
   /// Relative residual above which a multigrid that has followed its system is set up again. From there it would take
   /// three times as many iterations to 1e-4 as a new one (docs/theory/linear.md#the-multigrid-on-cells).
-  static constexpr double most_to_follow = 0.1;
+  static constexpr double max_to_follow = 0.1;
 
   std::optional<CellMultigrid> multigrid_;
   std::uint64_t pattern_number_ = 0;

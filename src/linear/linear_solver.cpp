@@ -33,11 +33,11 @@ constexpr double hopeless_guess = 1e4;
 
 /// Below this tolerance the residual that a method updates may contain rounding errors, so the residual is computed
 /// from x.
-constexpr double least_sure_tolerance = 1e-7;
+constexpr double min_sure_tolerance = 1e-7;
 
 /// Maximum number of times that a method may report convergence. Each time its tolerance is halved, or reduced further.
 /// A method that has not reached the goal after this number of attempts will not reach it.
-constexpr int most_attempts = 30;
+constexpr int max_attempts = 30;
 
 /// A system, its current solution, and its residual. Its functions are collective.
 class Solve {
@@ -75,7 +75,7 @@ class Solve {
   MethodOutcome improve(Method& method, int iterations) {
     MethodOutcome outcome = method.improve(system_, {asked_, asked_ * rhs_norm_, iterations}, iterate_);
     report_.iterations += outcome.iterations;
-    const bool is_known = outcome.residual && tolerance_ >= least_sure_tolerance;
+    const bool is_known = outcome.residual && tolerance_ >= min_sure_tolerance;
     if (is_known) {
       report_.residual = *outcome.residual / rhs_norm_;
     } else {
@@ -206,7 +206,7 @@ SolveReport LinearSolver::solve(LinearSystem& system, std::span<double> solution
     const MethodOutcome outcome = solve.improve(*method, left);
     left -= outcome.iterations;
     if (solve.is_done()) break;
-    if (outcome.end == MethodOutcome::End::converged && attempt < most_attempts) {
+    if (outcome.end == MethodOutcome::End::converged && attempt < max_attempts) {
       solve.ask_for_more();  // PETSc measures the preconditioned residual, and ours may contain rounding errors
     } else if (outcome.end == MethodOutcome::End::broke_down && solve.report().restarts == 0) {
       solve.restart();

@@ -17,7 +17,7 @@ namespace tailwater::multigrid {
 namespace {
 
 /// Weights below this fraction of their row's sum are left out.
-constexpr double least_share = 0.02;
+constexpr double min_share = 0.02;
 
 /// To estimate the number of large weights, every row whose index is a multiple of this number is examined.
 constexpr int sampled = 16;
@@ -55,7 +55,7 @@ Survey survey(const LinearSystem& system) {
     found.total[i] = system.sum_of_weights(i);
     found.longest = std::max(found.longest, weights.size());
     if (i % sampled == 0) {
-      found.large += sampled * count_from(static_cast<float>(least_share * found.total[i]), weights);
+      found.large += sampled * count_from(static_cast<float>(min_share * found.total[i]), weights);
     }
   }
   return found;
@@ -68,7 +68,7 @@ class LargeWeights {
 
   /// Selects the large weights of row i, whose weights have the sum `total`. Returns their number.
   std::size_t find(const LinearSystem::Part& part, std::size_t i, double total) {
-    keep_from(static_cast<float>(least_share * total), part, i);
+    keep_from(static_cast<float>(min_share * total), part, i);
     if (count_ == 0) keep_from(std::numeric_limits<float>::min(), part, i);  // many weights, all of them small
     return count_;
   }

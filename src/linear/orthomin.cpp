@@ -13,7 +13,7 @@ namespace {
 constexpr int patience = 10;
 
 /// Number of stored directions. With two, systems whose first directions hardly reduce the residual stagnate.
-constexpr std::size_t most_kept = 5;
+constexpr std::size_t max_kept = 5;
 
 struct Direction {
   std::vector<double> step;   ///< ghosts stand behind the rows
@@ -94,8 +94,8 @@ MethodOutcome Orthomin::improve(const LinearSystem& system, const Goal& goal, It
     ++outcome.iterations;
     if (residual <= goal.residual) break;
     if (is_stuck(outcome.history)) return outcome.break_down("Orthomin got stuck");
-    if (kept.size() < most_kept) kept.push_back(new_direction());
-    std::swap(direction, kept[(outcome.iterations - 1) % most_kept]);
+    if (kept.size() < max_kept) kept.push_back(new_direction());
+    std::swap(direction, kept[(outcome.iterations - 1) % max_kept]);
   }
   outcome.residual = residual;
   if (residual <= goal.residual) outcome.end = MethodOutcome::End::converged;

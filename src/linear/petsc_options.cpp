@@ -28,7 +28,7 @@ constexpr int longest_history = 2000;
 
 /// Iterations after which FGMRES restarts: it stores two vectors of each iteration. Only cold solves need PETSc's
 /// default of 30; with 20 they take a few iterations more (docs/notebook/2026-11-24-speed.md).
-constexpr int most_directions = 20;
+constexpr int max_directions = 20;
 
 KSPType krylov_type(KrylovMethod method) {
   switch (method) {
@@ -158,7 +158,7 @@ void configure(KSP solver, const PressureSolverTable& settings, const SystemTrai
   check_petsc(KSPSetPCSide(solver, is_singular_multigrid && can_be_left ? PC_LEFT : PC_RIGHT));
   check_petsc(
       KSPSetTolerances(solver, settings.tolerance, no_absolute_tolerance, PETSC_DEFAULT, settings.max_iterations));
-  if (choice.method == KrylovMethod::fgmres) check_petsc(KSPGMRESSetRestart(solver, most_directions));
+  if (choice.method == KrylovMethod::fgmres) check_petsc(KSPGMRESSetRestart(solver, max_directions));
   check_petsc(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
   check_petsc(KSPSetResidualHistory(solver, nullptr, longest_history, PETSC_TRUE));
   if (is_singular_multigrid) relax_coarsest_level();

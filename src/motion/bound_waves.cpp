@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// Change of one of two equal frequencies, whose difference has the limit of close ones.
-constexpr double least_difference = 1e-4;
+constexpr double min_difference = 1e-4;
 
 /// The horizontal velocity of the sum (`sign` 1) or difference (-1) of two waves at the still water's level, in
 /// phase with the sum or difference of their angles: the solution of second_order.h
@@ -67,7 +67,7 @@ BoundWaves::BoundWaves(std::span<const TravellingWave> waves, double gravity, do
       // The product of two real parts is half of the real part of the product and of that with the conjugate.
       sums(n, m) = sums(m, n) = 0.5 * shapes * pair_velocity(one, other, 1.0, gravity, depth);
       if (m == n) {
-        other.omega *= 1.0 - least_difference;
+        other.omega *= 1.0 - min_difference;
         other.wave_number = tailwater::wave_number(other.omega, gravity, depth);
       }
       differences(n, m) = differences(m, n) =

@@ -15,7 +15,7 @@ namespace tailwater {
 namespace {
 
 /// A smaller fraction of gravity along an opening is rounding error.
-constexpr double least_gravity_share = 1e-9;
+constexpr double min_gravity_share = 1e-9;
 /// Lines along a column of a section, and the steps in which its ends are found.
 constexpr int lines_per_column = 4;
 constexpr double steps_per_spacing = 50.0;
@@ -23,7 +23,7 @@ constexpr double steps_per_spacing = 50.0;
 constexpr int profile_parts = 1000;
 /// By which the mean of a profile may change with twice as many parts. A profile that grows without bound towards the
 /// bed or the surface has a mean only if it grows slower than 1/s; with s^-0.9 it still changes by 2 %.
-constexpr double most_change_of_mean = 0.01;
+constexpr double max_change_of_mean = 0.01;
 
 /// The values of a profile in the middle of equal parts of the depth.
 std::vector<double> profile_values(Formula& formula, int parts, const CaseLabel& owner) {
@@ -60,7 +60,7 @@ std::vector<double> tabulated_profile(const std::optional<Varying>& profile, con
         {"give one whose mean is above 0"});
   }
   const double finer = mean_of(profile_values(formula, 2 * profile_parts, owner));
-  if (std::abs(finer - mean) > most_change_of_mean * mean) {
+  if (std::abs(finer - mean) > max_change_of_mean * mean) {
     const bool at_bed = std::abs(values.front()) > std::abs(values.back());
     throw CaseError("inlet-profile-unbounded",
                     {"{} grows without bound towards s = {}, so that it has no mean", owner.with_key("profile"),
@@ -143,7 +143,7 @@ ChannelEnd<Dim>::ChannelEnd(const Opening<Dim>& place, EndFlow what_flows, const
                             double duct_length)
     : mouth(place), duct(duct_length), opening(place.moved_out(duct_length)), flow(std::move(what_flows)) {
   const Vec<Dim> along = full_gravity - opening.normal.dot(full_gravity) * opening.normal;
-  gravity = along.norm() > least_gravity_share * full_gravity.norm() ? along.norm() : 0.0;
+  gravity = along.norm() > min_gravity_share * full_gravity.norm() ? along.norm() : 0.0;
   up = gravity > 0.0 ? Vec<Dim>(-along / gravity) : Vec<Dim>(Vec<Dim>::Zero());
   floor = up.dot(opening.corner);
   for (const Vec<Dim>& edge : opening.edges) floor += std::min(0.0, up.dot(edge));

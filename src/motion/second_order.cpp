@@ -156,7 +156,7 @@ double size_of_pair(const FirstOrder& one, const FirstOrder& other) {
 }
 
 /// The least size of a pair that counts.
-double least_size(const std::vector<FirstOrder>& flows) {
+double min_size(const std::vector<FirstOrder>& flows) {
   std::vector<double> sizes;
   for (std::size_t n = 0; n < flows.size(); ++n) {
     for (std::size_t m = 0; m <= n; ++m) sizes.push_back(size_of_pair(flows[n], flows[m]));
@@ -186,7 +186,7 @@ std::vector<SecondOrderWave> second_order_waves(MakerType type, std::span<const 
     flows.push_back(first_order(type, motion, gravity, depth));
     conjugates.push_back(conjugate(flows.back()));
   }
-  const double least = least_size(flows);
+  const double least = min_size(flows);
   std::vector<SecondOrderWave> found;
   for (std::size_t n = 0; n < flows.size(); ++n) {
     for (std::size_t m = 0; m <= n; ++m) {

@@ -43,12 +43,12 @@ CellGrid<Dim>::CellGrid(std::span<const Vec<Dim>> positions, double reach) : edg
   axis_ = axes_by_spread<Dim>(positions);
 
   // A few distant particles must not make the grid huge. Coarser cells are slower, never wrong.
-  const double most_cells = 64.0 * static_cast<double>(positions.size()) + 1e5;
+  const double max_cells = 64.0 * static_cast<double>(positions.size()) + 1e5;
   const auto cells_along = [&](int d) { return std::floor((high[axis_[d]] - low[axis_[d]]) / edge_) + 1.0; };
   for (;; edge_ *= 2.0) {
     double cells = 1.0;
     for (int d = 0; d < Dim; ++d) cells *= cells_along(d);
-    if (cells <= most_cells) break;
+    if (cells <= max_cells) break;
   }
   std::int64_t cells = 1;
   for (int d = 0; d < Dim; ++d) {

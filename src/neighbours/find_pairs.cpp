@@ -134,7 +134,7 @@ class Candidates {
     const Place<Dim>& own = pairs.place[i];
     const double radius = kernel_radius(pairs.kernel);
     const FloatBatch radius_squared = FloatBatch{} + static_cast<float>((1.0 - rounded_at_rim) * radius * radius);
-    const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.least_squared;
+    const FloatBatch too_near = FloatBatch{} + static_cast<float>(1.0 - parted_tolerance) * pairs.min_distance_squared;
     const std::array<float, Dim> unit = pairs.unit;
     // Copies of the addresses: the loop, which writes, keeps them in registers.
     const std::int32_t* const index = index_.data();
@@ -214,9 +214,9 @@ class Candidates {
 /// place.
 template <int Dim>
 void part_coinciding(Pairs<Dim>& pairs) {
-  const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
+  const auto least = static_cast<std::uint32_t>(std::ceil(pairs.min_distance / pairs.unit[0]));
   // The threshold exceeds that of the search for any rounding error: pairs that are found twice have moved in between.
-  const double too_near = (1.0 - 0.5 * parted_tolerance) * pairs.least_distance * pairs.least_distance;
+  const double too_near = (1.0 - 0.5 * parted_tolerance) * pairs.min_distance * pairs.min_distance;
   const auto squared_distance = [&](const Place<Dim>& a, const Place<Dim>& b) {
     double squared = 0.0;
     for (int d = 0; d < Dim; ++d) {
@@ -318,12 +318,12 @@ std::size_t find_rows(const RowSearch<Dim>& search, Pairs<Dim>& pairs) {
 
 template <int Dim>
 void find_pairs(const Kernel<Dim>& kernel, const CellGrid<Dim>& grid, const Particles<Dim>& particles,
-                WallRows wall_rows, double least_distance, Pairs<Dim>& pairs) {
+                WallRows wall_rows, double min_distance, Pairs<Dim>& pairs) {
   pairs.position = particles.position;
   pairs.weight.clear();
   pairs.id = particles.id;
-  pairs.least_distance = least_distance;
-  pairs.least_squared = static_cast<float>(least_distance * least_distance);
+  pairs.min_distance = min_distance;
+  pairs.min_distance_squared = static_cast<float>(min_distance * min_distance);
   pairs.kernel = kernel;
   pairs.kernel_in_lanes = in_single_precision(kernel);
   // Most dummies are dry and meet only empty cells in the grids of the fluid.

@@ -11,7 +11,7 @@ namespace tailwater {
 namespace {
 
 /// Least distance in dx: nearer particles count as this far apart, so directions stay defined and weights finite.
-constexpr double least_distance_over_spacing = 1e-6;
+constexpr double min_distance_over_spacing = 1e-6;
 
 /// Cost of a row, and of a pair of a wall particle, in pairs of a fluid particle (docs/scaling.md).
 constexpr double row_cost = 10.0;
@@ -63,7 +63,7 @@ bool Neighbourhood<Dim>::update(Particles<Dim>& particles) {
   grid_ = CellGrid<Dim>(particles.position, kernel_radius(kernel_));
   find_places<Dim>(particles, domain_, kernel_radius(kernel_), pairs_);
   find_relative_spacing(particles);
-  find_pairs<Dim>(kernel_, grid_, particles, wall_rows_, least_distance_over_spacing * spacing_, pairs_);
+  find_pairs<Dim>(kernel_, grid_, particles, wall_rows_, min_distance_over_spacing * spacing_, pairs_);
   has_pairs_ = true;
   return renew;
 }

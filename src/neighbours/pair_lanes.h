@@ -81,7 +81,9 @@ struct PairBatch {
   }
 
   /// m; between the particles, never 0.
-  Lanes distance(const VecLanes<Dim>& d) const { return sqrt_of(max_of(d.dot(d), Lanes{} + pairs.least_squared)); }
+  Lanes distance(const VecLanes<Dim>& d) const {
+    return sqrt_of(max_of(d.dot(d), Lanes{} + pairs.min_distance_squared));
+  }
   /// 1/m^(Dim+2); F = -(dW/dr)/r at these differences times the weights of the pairs, 0 in unused lanes.
   Lanes F(const VecLanes<Dim>& d) const {  // NOLINT(readability-identifier-naming): as in formulas
     if constexpr (!is_graded) return weighted(range.only(kernel_steepness(pairs.kernel_in_lanes, distance(d))));

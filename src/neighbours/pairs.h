@@ -45,8 +45,8 @@ struct Pairs {
   std::vector<float> relative_spacing;
   std::vector<std::uint8_t> has_one_spacing;  ///< of row i, where particles have several; 1: all of it has that of i
   float inverse_cell = 1.0F;                  ///< 1/m^Dim; inverse volume of a particle with the spacing of the case
-  double least_distance = 0.0;                ///< m; two particles nearer than this count as this far apart
-  float least_squared = 0.0F;                 ///< m^2; square of the least distance
+  double min_distance = 0.0;                  ///< m; two particles nearer than this count as this far apart
+  float min_distance_squared = 0.0F;          ///< m^2; square of the least distance
   Kernel<Dim> kernel = make_kernel<Dim>(KernelName::wendland_c2, 1.0);
   Kernel<Dim, float> kernel_in_lanes = in_single_precision(kernel);
 
@@ -54,8 +54,8 @@ struct Pairs {
   /// direction, opposite for the two (by their ids), so that they can separate.
   Vec<Dim> d(std::size_t i, std::size_t k) const {
     const Vec<Dim> r_ij = position[i] - position[j[k]];
-    if (r_ij.squaredNorm() > least_distance * least_distance) return r_ij;
-    return (id[j[k]] > id[i] ? least_distance : -least_distance) * Vec<Dim>::UnitX();
+    if (r_ij.squaredNorm() > min_distance * min_distance) return r_ij;
+    return (id[j[k]] > id[i] ? min_distance : -min_distance) * Vec<Dim>::UnitX();
   }
   double r(std::size_t i, std::size_t k) const { return d(i, k).norm(); }          ///< m; |r_ij|
   Vec<Dim> e(std::size_t i, std::size_t k) const { return d(i, k).normalized(); }  ///< unit vector along r_ij

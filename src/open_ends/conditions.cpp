@@ -12,7 +12,7 @@ namespace tailwater {
 namespace {
 
 /// [dx]; shallower water gives no reliable level.
-constexpr double least_depth_over_spacing = 0.1;
+constexpr double min_depth_over_spacing = 0.1;
 /// Time over which the invariant is averaged where the channel goes on, in travel times of a long wave from the gauge
 /// into the buffer. It is long compared with the waves that must leave, because waves that the mean follows are
 /// reflected (docs/theory/open_ends.md).
@@ -24,16 +24,16 @@ constexpr double passes_of_waves = 8.0;
 constexpr double shortest_wave = 3.0;
 /// (k h)^2 below which a wave is long, and the square of a Froude number below which there is none.
 constexpr double longest_wave = 1e-6;
-constexpr double least_swing = 1e-12;
+constexpr double min_swing = 1e-12;
 /// Fraction of the depth by which the level may follow a wave.
-constexpr double most_absorbed = 0.5;
+constexpr double max_absorbed = 0.5;
 /// Averaging time of the error of a prescribed level, in depths that a long wave travels. A level that is off by more
 /// than dx for this many averaging times is reported.
 constexpr double depths_of_watch = 5.0;
 constexpr double windows_until_told = 2.0;
 /// [dx]; the entering lattice gains or loses a row when the depth differs from its rows by more than this. The lowest
 /// possible value is 0.5; a larger one prevents a slightly oscillating level from changing the rows repeatedly.
-constexpr double most_row_error = 0.75;
+constexpr double max_row_error = 0.75;
 
 /// Sums over the water before the buffer, over all ranks, weighted by a hat function, which sums a lattice exactly at
 /// any offset.
@@ -90,7 +90,7 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   state.surface = water.depth;
   const double breadth = std::max(end.breadth_at(water.depth), end.spacing);
   const bool was_wet = state.is_wet;
-  state.is_wet = area > least_depth_over_spacing * end.spacing * breadth;
+  state.is_wet = area > min_depth_over_spacing * end.spacing * breadth;
   if (!state.is_wet) {
     state.acceleration = 0.0;
     return {};
@@ -158,7 +158,7 @@ void watch_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double head, do
 /// 1/m; wave number of the waves that leave, by the frequency with which the speed before the buffer varies; 0: long
 /// ones.
 double number_of(const LeavingWave& wave, double gravity, double depth) {
-  const bool is_still = wave.swing <= least_swing * gravity * depth;
+  const bool is_still = wave.swing <= min_swing * gravity * depth;
   if (is_still || wave.swing_rate * depth <= longest_wave * gravity * wave.swing) return 0.0;
   const double omega = std::sqrt(wave.swing_rate / wave.swing);
   return std::min(wave_number(omega, gravity, depth), shortest_wave / depth);
@@ -176,7 +176,7 @@ void follow_wave(const OpenEnd<Dim>& end, double depth, OpenEndState& state) {
   const double at_buffer = state.speed - state.acceleration * end.gauge / crests;
   const double change = std::max(at_buffer - state.mean_speed, -2.0 * std::sqrt(g * depth));
   const double height = (g * depth / crests + 0.25 * change) * change / g;
-  wave.height = end.flow.absorbing * std::clamp(height, -most_absorbed * depth, most_absorbed * depth);
+  wave.height = end.flow.absorbing * std::clamp(height, -max_absorbed * depth, max_absorbed * depth);
 }
 
 /// Where a level is prescribed: depth and pressure of the buffer, and the inflow if the water enters with a free
@@ -257,7 +257,7 @@ void choose_rows(const OpenEnd<Dim>& end, OpenEndState& state) {
   state.rows.resize(end.columns.size(), 0);
   for (std::size_t c = 0; c < end.columns.size(); ++c) {
     const double wanted = end.depth_in(c, state) / end.spacing;
-    const bool fit = state.rows[c] > 0 && std::abs(wanted - static_cast<double>(state.rows[c])) <= most_row_error;
+    const bool fit = state.rows[c] > 0 && std::abs(wanted - static_cast<double>(state.rows[c])) <= max_row_error;
     if (!fit) state.rows[c] = std::lround(wanted);
   }
 }

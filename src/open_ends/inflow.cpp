@@ -19,12 +19,12 @@ namespace {
 constexpr double first_entry = 0.5;
 /// [dx]; how far behind the opening a particle stands at least that comes in where a level is prescribed: one at the
 /// very plane would leave and enter again with every tremble of water at rest.
-constexpr double least_entry = 0.25;
+constexpr double min_entry = 0.25;
 
 /// [dx]; least distance of a particle that enters from other water. And the least free volume of its row, over its own
 /// volume: a row of an even lattice that can just take a particle has half of it free.
 constexpr double closest_entry = 0.7;
-constexpr double least_free_volume = 0.25;
+constexpr double min_free_volume = 0.25;
 
 /// A particle that comes in.
 template <int Dim>
@@ -109,7 +109,7 @@ std::vector<double> free_lengths(const OpenEnd<Dim>& end, const EntryLattice<Dim
     lattice.for_cells_at(x, 0,
                          [&](std::size_t cell) { length[cell] = std::min(length[cell], -end.opening.beyond(x)); });
   }
-  flow.setup.ranks.least_of_each(length);
+  flow.setup.ranks.min_of_each(length);
   return length;
 }
 
@@ -145,12 +145,12 @@ void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, c
       if (of_cell[cell]) nearest[cell] = std::min(nearest[cell], (of_cell[cell]->position - x).norm());
     });
   }
-  flow.setup.ranks.least_of_each(nearest);
+  flow.setup.ranks.min_of_each(nearest);
   const std::vector<double> free = free_volumes(end, lattice, flow);
   for (std::size_t cell = 0; cell < nearest.size(); ++cell) {
     std::optional<Entrant<Dim>>& entrant = of_cell[cell];
     const bool has_room = nearest[cell] >= closest_entry * end.spacing;
-    if (entrant && (!has_room || free[cell] < least_free_volume * entrant->volume)) entrant.reset();
+    if (entrant && (!has_room || free[cell] < min_free_volume * entrant->volume)) entrant.reset();
   }
 }
 
@@ -167,7 +167,7 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
     const double length = volume ? *volume / lattice.area(cell) : end.spacing;
     const double distance = free[cell] < 2.0 * length ? free[cell] - length : first_entry * length;
-    if (distance < (end.holds_level() ? least_entry * length : 0.0)) continue;
+    if (distance < (end.holds_level() ? min_entry * length : 0.0)) continue;
     const Vec<Dim> position = lattice.middle(cell) - distance * end.opening.normal;
     const Vec<Dim> velocity = end.velocity_at(state, position);
     const double pressure =

@@ -14,7 +14,7 @@ namespace {
 
 /// An inlet is reported when its volume is off by more than this fraction of the prescribed one and this many columns
 /// of particles: some always wait for free space.
-constexpr double most_missing = 0.02;
+constexpr double max_missing = 0.02;
 constexpr double columns_that_wait = 3.0;
 
 /// The warning of an inlet through which the net volume that came in is less than prescribed by `missing` [m^3], which
@@ -60,7 +60,7 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
     }
     const double missing = state.missing();
     const double columns = columns_that_wait * end.spacing * end.area_below(state.depth);
-    const bool falls_short = std::abs(missing) > most_missing * state.asked_total + columns;
+    const bool falls_short = std::abs(missing) > max_missing * state.asked_total + columns;
     if (end.flow.feeds() && falls_short && is_first(label + ": discharge")) {
       tailwater::warn("discharge-not-met", "{}",
                       discharge_warning(label, flow.state.time, missing, state.asked, end.circuit >= 0));

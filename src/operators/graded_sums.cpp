@@ -14,7 +14,7 @@ constexpr int points_along_radius = 8;
 /// Volumes over (h dx)^Dim of which the sums are tabulated: lattice spacings from 0.3 to 2 h dx. Volumes keep within
 /// half and 1.34 of the wanted ones, those of walls within a third and 2.
 template <int Dim>
-constexpr double least_volume = Dim == 2 ? 0.09 : 0.027;
+constexpr double min_volume = Dim == 2 ? 0.09 : 0.027;
 template <int Dim>
 constexpr double largest_volume = Dim == 2 ? 4.0 : 8.0;
 constexpr double entries_per_volume = 100.0;
@@ -42,9 +42,9 @@ double integral_over_plane(const Kernel<Dim>& kernel, double distance) {
 template <int Dim>
 GradedSums<Dim>::GradedSums(const Kernel<Dim>& kernel, double spacing, SpacingField<Dim> field)
     : kernel_(kernel), spacing_(spacing), field_(std::move(field)), behind_surface_(sums_behind_surface(kernel)) {
-  const int last = static_cast<int>(std::ceil((largest_volume<Dim> - least_volume<Dim>)*entries_per_volume));
+  const int last = static_cast<int>(std::ceil((largest_volume<Dim> - min_volume<Dim>)*entries_per_volume));
   for (int n = 0; n <= last; ++n) {
-    const double volume = least_volume<Dim> + n / entries_per_volume;
+    const double volume = min_volume<Dim> + n / entries_per_volume;
     lattices_.push_back(lattice_sums<Dim>(kernel, edge_of<Dim>(volume) * spacing));
   }
 }
@@ -52,7 +52,7 @@ GradedSums<Dim>::GradedSums(const Kernel<Dim>& kernel, double spacing, SpacingFi
 template <int Dim>
 typename GradedSums<Dim>::Entry GradedSums<Dim>::entry(double relative_spacing, double volume) const {
   const double relative_volume = volume / power<Dim>(relative_spacing * spacing_);
-  const double place = std::clamp((relative_volume - least_volume<Dim>)*entries_per_volume, 0.0,
+  const double place = std::clamp((relative_volume - min_volume<Dim>)*entries_per_volume, 0.0,
                                   static_cast<double>(lattices_.size() - 1));
   const auto n = std::min(static_cast<std::size_t>(place), lattices_.size() - 2);
   return {lattices_[n], lattices_[n + 1], place - static_cast<double>(n), relative_volume};

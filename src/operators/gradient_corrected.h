@@ -16,18 +16,16 @@
 namespace tailwater {
 
 /// Fraction of the correction that is applied where M has this smallest eigenvalue.
-inline double correction_share(double least_eigenvalue_M) {
-  return std::clamp((least_eigenvalue_M - 0.3) / 0.2, 0.0, 1.0);
-}
+inline double correction_share(double min_eigenvalue_M) { return std::clamp((min_eigenvalue_M - 0.3) / 0.2, 0.0, 1.0); }
 
 /// Fraction of the correction for M. Inside the water the bound of the eigenvalue by Gershgorin's circles suffices for
 /// 1.
 template <int Dim>
 double share_of_correction(const Mat<Dim>& first_moment) {
   const Vec<Dim> off_diagonal = first_moment.cwiseAbs() * Vec<Dim>::Ones() - first_moment.diagonal().cwiseAbs();
-  const double least_possible = (first_moment.diagonal() - off_diagonal).minCoeff();
-  if (correction_share(least_possible) == 1.0) return 1.0;
-  return correction_share(least_eigenvalue<Dim>(first_moment));
+  const double min_possible = (first_moment.diagonal() - off_diagonal).minCoeff();
+  if (correction_share(min_possible) == 1.0) return 1.0;
+  return correction_share(min_eigenvalue<Dim>(first_moment));
 }
 
 /// A sum over pairs with the fraction `share` of the correction by M.
@@ -68,7 +66,7 @@ Mat<Dim> gradient_over(const Pairs<Dim>& pairs, std::size_t i, std::span<const F
     }
   });
   const Mat<Dim> moment = sum_of(moments);
-  return corrected<Dim>(sum_of(sums), moment, std::clamp((least_eigenvalue<Dim>(moment) - 0.1) / 0.15, 0.0, 1.0));
+  return corrected<Dim>(sum_of(sums), moment, std::clamp((min_eigenvalue<Dim>(moment) - 0.1) / 0.15, 0.0, 1.0));
 }
 
 /// Gradient as above over fluid neighbours alone, for water at a no-slip wall, whose dummies show a slip velocity.

@@ -13,18 +13,18 @@
 namespace tailwater {
 
 /// Distances below this fraction of dx count as this: the weight stays bounded for pairing particles.
-inline constexpr double least_morris_distance = 0.1;
+inline constexpr double min_morris_distance = 0.1;
 
 /// Coefficient of (v_j - v_i) [1/m^2], never negative.
 inline double morris_laplacian_weight(double volume_j, double F, double distance_squared, double spacing) {
-  const double least = least_morris_distance * spacing;
+  const double least = min_morris_distance * spacing;
   const double weight = 2.0 * volume_j * F;
   return distance_squared < least * least ? weight * std::sqrt(distance_squared) / least : weight;
 }
 
 /// Factor by which the least distance reduces the weights 2 w_j F of several pairs: 1 for nearly all.
 inline Lanes share_of_morris_weight(Lanes distance_squared, double spacing) {
-  const double least = least_morris_distance * spacing;
+  const double least = min_morris_distance * spacing;
   if (!any_of(distance_squared < in_all_lanes(least * least))) return in_all_lanes(1.0);
   return min_of(in_all_lanes(1.0), sqrt_of(distance_squared) / in_all_lanes(least));
 }

@@ -15,7 +15,7 @@ namespace tailwater {
 namespace {
 
 /// Least eigenvalue of a first moment in divisions, over its largest: that of half a support.
-constexpr double least_share = 0.5;
+constexpr double min_share = 0.5;
 
 /// T = lambda_min M^-1: T M is isotropic, and T is I across a surface, where lambda is least. Eigenvalues of M below
 /// half of its largest one are raised to that value, so T is between 1/2 and 1 for any set.
@@ -25,7 +25,7 @@ Mat<Dim> equalising_correction(const Mat<Dim>& moment) {
   eigen.computeDirect(to_eigen(moment));  // reads the lower triangle
   const double largest = eigen.eigenvalues()[Dim - 1];
   if (!(largest > 0.0)) return Mat<Dim>::Identity();
-  const double least = std::max(eigen.eigenvalues()[0], least_share * largest);
+  const double least = std::max(eigen.eigenvalues()[0], min_share * largest);
   const auto vectors = from_eigen<Dim, Dim>(eigen.eigenvectors());
   const auto scale = Vec<Dim>::NullaryExpr([&](int d) { return least / std::max(eigen.eigenvalues()[d], least); });
   return vectors * scale.asDiagonal() * vectors.transpose();

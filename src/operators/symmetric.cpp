@@ -6,7 +6,7 @@
 
 namespace tailwater {
 
-double least_eigenvalue_of(const Mat<3>& matrix) {
+double min_eigenvalue_of(const Mat<3>& matrix) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(to_eigen(matrix), Eigen::EigenvaluesOnly);
   return solver.eigenvalues()[0];

@@ -66,18 +66,18 @@ Packed<Dim> packed(const Mat<Dim>& full) {
   return packed;
 }
 
-double least_eigenvalue_of(const Mat<3>& matrix);
+double min_eigenvalue_of(const Mat<3>& matrix);
 
 /// Least eigenvalue of a symmetric matrix.
 template <int Dim>
-double least_eigenvalue(const Mat<Dim>& matrix) {
+double min_eigenvalue(const Mat<Dim>& matrix) {
   if constexpr (Dim == 2) {
     const double half_difference = 0.5 * (matrix(0, 0) - matrix(1, 1));
     const double off_diagonal = matrix(1, 0);
     return 0.5 * (matrix(0, 0) + matrix(1, 1)) -
            std::sqrt(half_difference * half_difference + off_diagonal * off_diagonal);
   } else {
-    return least_eigenvalue_of(matrix);
+    return min_eigenvalue_of(matrix);
   }
 }
 

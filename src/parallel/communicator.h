@@ -68,7 +68,7 @@ class Communicator {
   /// The sum of each entry, in place. All ranks give equally many.
   void sum_of_each(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_SUM); }
   /// The least value of each entry, in place. All ranks give equally many.
-  void least_of_each(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_MIN); }
+  void min_of_each(std::span<double> values) const { reduce(values.data(), values.size(), MPI_DOUBLE, MPI_MIN); }
   /// The bits that any rank has set, in place. All ranks give equally many words.
   void unite(std::span<std::uint64_t> words) const { reduce(words.data(), words.size(), MPI_UINT64_T, MPI_BOR); }
   bool any(bool value) const { return largest(static_cast<std::int64_t>(value)) != 0; }

@@ -14,7 +14,7 @@ namespace {
 
 /// Fraction of the molecular viscosity below which there is no layer, so that water that no layer has reached stays
 /// free of it.
-constexpr double least_layer_over_molecular = 1e-3;
+constexpr double min_layer_over_molecular = 1e-3;
 
 /// Distance from the nearest wall with friction [m], measured from neighbour to neighbour: a particle computes its
 /// distance from the known ones of its neighbours.
@@ -61,7 +61,7 @@ double next_layer_viscosity(const Flow<Dim>& flow, const FrictionWall<Dim>& wall
   }
   const double diffusion = sa::diffusion(flow.pairs(), particles, molecular, setup.scale.spacing, i);
   const double next = (nu + dt * (sa::c_b1 * rate * nu + diffusion)) / (1.0 + dt * destruction);
-  return next < least_layer_over_molecular * molecular ? seed : std::max(next, seed);
+  return next < min_layer_over_molecular * molecular ? seed : std::max(next, seed);
 }
 
 }  // namespace

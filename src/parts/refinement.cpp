@@ -37,7 +37,7 @@ constexpr double distance_to_merge = 1.35;
 /// V^(1/Dim); a particle nearer to a wall than the first is split along the wall, and no particle is put nearer than
 /// the second.
 constexpr double split_along_wall = 0.8;
-constexpr double least_distance_from_wall = 0.1;
+constexpr double min_distance_from_wall = 0.1;
 
 /// C/C_0 below which a particle is split along the surface.
 constexpr double surface_concentration = 0.9;
@@ -127,7 +127,7 @@ class Adaptation {
     const Boundary<Dim>& boundary = flow_.walls.boundary;
     const Vec<Dim>& from = particles_.position[i];
     if (is_hidden<Dim>(boundary.screens, boundary.screens_near(x, (x - from).norm()), from, x)) return false;
-    const double distance = least_distance_from_wall * flow_.setup.scale.spacing * flow_.setup.relative_spacing(x);
+    const double distance = min_distance_from_wall * flow_.setup.scale.spacing * flow_.setup.relative_spacing(x);
     return boundary.nearest_to_water(x, distance).face < 0;
   }
 

@@ -15,7 +15,7 @@ namespace {
 /// [dx]
 constexpr double step_over_spacing = 0.5;
 /// Some gigabytes: a layer of more has its lengths in a wrong unit, or is drawn far beyond the case.
-constexpr double most_nodes = 1e8;
+constexpr double max_nodes = 1e8;
 
 /// The fraction of a cell of this edge that is on the positive side of a surface at this signed distance.
 double fraction_of_cell(double distance, double edge) { return std::clamp(0.5 + distance / edge, 0.0, 1.0); }
@@ -71,7 +71,7 @@ PorousField<Dim>::PorousField(const CaseSpec& spec, const Boundary<Dim>& boundar
   for (const PorousTable& table : spec.porous) {
     regions.emplace_back(spec, table);
     media.push_back(make_medium(table, spec.physics.viscosity, gravity_magnitude(spec.physics)));
-    least_porosity_ = std::min(least_porosity_, table.porosity);
+    min_porosity_ = std::min(min_porosity_, table.porosity);
     box.extend(regions.back().box());
   }
   const double margin = kernel_radius(kernel) + 2.0 * step_;
@@ -87,12 +87,12 @@ PorousField<Dim>::PorousField(const CaseSpec& spec, const Boundary<Dim>& boundar
   }
   double nodes = 1.0;
   for (const std::int64_t along : count_) nodes *= static_cast<double>(along);
-  if (nodes > most_nodes) {
+  if (nodes > max_nodes) {
     throw CaseError(
         "porous-layers-too-large",
         {"the porous layers from {} to {} need {:.3g} cells, each half of particles.spacing = {:.6g} m wide, "
          "but a case has at most {:.3g}",
-         place<Dim>(box.min()), place<Dim>(box.max()), nodes, spec.particles.spacing, most_nodes},
+         place<Dim>(box.min()), place<Dim>(box.max()), nodes, spec.particles.spacing, max_nodes},
         {"give their coordinates in metres, and end them at the walls"});
   }
   nodes_.resize(static_cast<std::size_t>(nodes));

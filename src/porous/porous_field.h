@@ -36,7 +36,7 @@ class PorousField {
   double porosity_at(const Vec<Dim>& x) const { return at(x).porosity(); }
   /// grad n [1/m]
   Vec<Dim> porosity_gradient_at(const Vec<Dim>& x) const;
-  double least_porosity() const { return least_porosity_; }  ///< of all layers; 1 if there is none
+  double min_porosity() const { return min_porosity_; }  ///< of all layers; 1 if there is none
 
  private:
   using Index = std::array<std::int64_t, Dim>;
@@ -59,7 +59,7 @@ class PorousField {
   double step_ = 1.0;                   ///< m; between nodes
   Index count_{};
   std::vector<Node> nodes_;
-  double least_porosity_ = 1.0;
+  double min_porosity_ = 1.0;
 };
 
 }  // namespace tailwater

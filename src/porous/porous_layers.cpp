@@ -89,7 +89,7 @@ double volume_of(const Boundary<Dim>& boundary, const std::vector<int>& walls, c
   return volume;
 }
 
-/// How far [m] below x a layer begins; 0 in the layer, infinite if there is none above the next wall of another body.
+/// [m]; depth below x at which a layer begins: 0 in the layer, infinite if the next wall below is above it.
 template <int Dim>
 double way_to_layer(const PorousRegion<Dim>& region, const Boundary<Dim>& boundary, const std::vector<int>& own,
                     const Vec<Dim>& x, const Vec<Dim>& down, double spacing) {
@@ -157,11 +157,11 @@ PorousLayers<Dim>::PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, c
   for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) bodies_.push_back({body.name, body.walls});
   // The range is from water that has left the tightest layer to water that has entered it.
   const double dx = setup.scale.spacing;
-  const double widening = std::pow(field_.least_porosity(), -1.0 / Dim);
-  least_spacing_ = dx / widening;
-  spacing_step_ = (dx * widening - least_spacing_) / (lattice_count - 1);
+  const double widening = std::pow(field_.min_porosity(), -1.0 / Dim);
+  min_spacing_ = dx / widening;
+  spacing_step_ = (dx * widening - min_spacing_) / (lattice_count - 1);
   for (int k = 0; k < lattice_count; ++k) {
-    lattices_.push_back(lattice_sums<Dim>(setup.scale.kernel, least_spacing_ + k * spacing_step_));
+    lattices_.push_back(lattice_sums<Dim>(setup.scale.kernel, min_spacing_ + k * spacing_step_));
   }
 }
 
@@ -202,7 +202,7 @@ PoreSpace PorousLayers<Dim>::at(const Vec<Dim>& x) const {
 
 template <int Dim>
 LatticeSums PorousLayers<Dim>::lattice_of(double volume) const {
-  const double steps = (std::pow(volume, 1.0 / Dim) - least_spacing_) / spacing_step_;
+  const double steps = (std::pow(volume, 1.0 / Dim) - min_spacing_) / spacing_step_;
   const double bounded = std::clamp(steps, 0.0, lattice_count - 1.0);
   const int low = std::min(static_cast<int>(bounded), lattice_count - 2);
   const double share = bounded - low;

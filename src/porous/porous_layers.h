@@ -71,8 +71,8 @@ class PorousLayers final : public Part<Dim>, public Pores<Dim> {
   std::vector<PorousRegion<Dim>> regions_;  ///< of the layers
   std::vector<std::string> region_names_;
   std::vector<BodyWalls> bodies_;
-  double least_spacing_ = 0.0;  ///< m; of the first of `lattices_`
-  double spacing_step_ = 1.0;   ///< m; between consecutive `lattices_`
+  double min_spacing_ = 0.0;   ///< m; of the first of `lattices_`
+  double spacing_step_ = 1.0;  ///< m; between consecutive `lattices_`
   std::vector<LatticeSums> lattices_;
   std::vector<Arrival> arrivals_;
 

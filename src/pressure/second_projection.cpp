@@ -26,7 +26,7 @@ void limit_correction(const Flow<Dim>& flow, const std::vector<double>& allowed,
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     const double sum = pressure[i] + correction[i];
     const double share = tension_share(flow, i);
-    const double least = least_pressure(flow, allowed, i);
+    const double least = min_pressure(flow, allowed, i);
     if (sum < least && share < 1.0) correction[i] = std::lerp(least, sum, share) - pressure[i];
   });
 }

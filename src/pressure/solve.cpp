@@ -50,7 +50,7 @@ template <int Dim>
 std::vector<double> limit_tension(Flow<Dim>& flow, const std::vector<double>& allowed, std::vector<double> rough) {
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     const double share = tension_share(flow, i);
-    const double least = least_pressure(flow, allowed, i);
+    const double least = min_pressure(flow, allowed, i);
     if (rough[i] >= least || share >= 1.0) return;
     flow.equation->rows.divide_diagonal(i, share, least);
     rough[i] = std::lerp(least, rough[i], share);

@@ -26,7 +26,7 @@ std::vector<double> allowed_tension(const Flow<Dim>& flow) {
 
 /// The lowest pressure [Pa] that owned particle i keeps in full, with the tension by which walls hold water.
 template <int Dim>
-double least_pressure(const Flow<Dim>& flow, const std::vector<double>& allowed, std::size_t i) {
+double min_pressure(const Flow<Dim>& flow, const std::vector<double>& allowed, std::size_t i) {
   const std::vector<double>& of_walls = flow.surroundings.wall_tension;
   return -(allowed.empty() ? 0.0 : allowed[i]) - (of_walls.empty() ? 0.0 : of_walls[i]);
 }

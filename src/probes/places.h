@@ -22,13 +22,13 @@ inline double step_of(const ProbeTable& probe, double spacing) {
 }
 
 /// Maximum number of places of a probe; each of them is read separately.
-inline constexpr double most_places = 1e6;
+inline constexpr double max_places = 1e6;
 
 /// Throws CaseError if there are too many places, before memory is requested for them.
 inline void require_few_places(const ProbeTable& probe, double places) {
-  if (places <= most_places) return;
+  if (places <= max_places) return;
   throw CaseError("probe-too-many-places",
-                  {"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places, most_places},
+                  {"{} has {:.3g} places, and at most {:.3g} are possible", label(probe), places, max_places},
                   {"give a larger step, or a smaller part of the channel"});
 }
 

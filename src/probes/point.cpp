@@ -15,7 +15,7 @@ namespace {
 /// On a lattice with support 3 dx the reciprocal condition number of M is 0.07 to 0.10 inside the fluid, above 0.01 on
 /// a flat surface and above 0.007 in a corner of one. Far below that the weights of single particles, and with them
 /// their noise, grow without bound.
-constexpr double least_reciprocal_condition = 1e-3;
+constexpr double min_reciprocal_condition = 1e-3;
 
 template <int Dim>
 using Moments = Mat<Dim + 1>;
@@ -41,8 +41,8 @@ Basis<Dim> fit(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
   });
   const Basis<Dim> first = Basis<Dim>::UnitX();
   const Eigen::LDLT<Eigen::Matrix<double, Dim + 1, Dim + 1>> factors(to_eigen(moments));
-  return factors.rcond() > least_reciprocal_condition ? from_eigen<Dim + 1, 1>(factors.solve(to_eigen(first)))
-                                                      : first / moments(0, 0);
+  return factors.rcond() > min_reciprocal_condition ? from_eigen<Dim + 1, 1>(factors.solve(to_eigen(first)))
+                                                    : first / moments(0, 0);
 }
 
 /// f at `x`, where there is fluid; `zero` is the initial value of the sum.
@@ -70,7 +70,7 @@ Mat<Dim> velocity_gradient_at(const ProbeContext<Dim>& context, const Vec<Dim>& 
   });
   const Eigen::LDLT<Eigen::Matrix<double, Dim + 1, Dim + 1>> factors(to_eigen(moments));
   Mat<Dim> gradient = Mat<Dim>::Zero();
-  if (factors.rcond() <= least_reciprocal_condition) return gradient;
+  if (factors.rcond() <= min_reciprocal_condition) return gradient;
   const Eigen::Matrix<double, Dim + 1, Dim> linear = factors.solve(sums);
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b < Dim; ++b) gradient(a, b) = linear(b + 1, a) / kernel_radius(context.kernel);

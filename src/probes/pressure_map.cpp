@@ -129,7 +129,7 @@ struct PressureMap {
       least[k] = here.least;
     });
     context.ranks.sum_of_each(sums);
-    context.ranks.least_of_each(least);
+    context.ranks.min_of_each(least);
     std::vector<PressureOnWall> pressure(patches.size());
     for_each(patches.size(), [&](std::size_t k) {
       pressure[k] = wall_pressure<Dim>(context, patches[k].centre(context.boundary),

@@ -75,7 +75,7 @@ struct RunUp {
       const auto k = std::min(static_cast<std::size_t>((height - heights.low) / bin), connected.size() - 1);
       if (-height < connected[k] && is_connected(context, static_cast<std::int32_t>(i))) connected[k] = -height;
     }
-    context.ranks.least_of_each(connected);
+    context.ranks.min_of_each(connected);
     highest_now = context.ranks.largest(highest_now);
     const auto is_wet = [&](double reach) { return reach < -heights.low; };
     const auto first = std::ranges::find_if(connected, is_wet);

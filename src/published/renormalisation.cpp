@@ -35,8 +35,8 @@ template <int Dim>
 Renormalisation<Dim> renormalisation_of(const PairMoments<Dim>& moments) {
   Renormalisation<Dim> result;
   result.trace_A = moments.A.trace();
-  result.least_eigenvalue_A = least_eigenvalue<Dim>(moments.A);
-  if (result.least_eigenvalue_A < 1e-9) return result;
+  result.min_eigenvalue_A = min_eigenvalue<Dim>(moments.A);
+  if (result.min_eigenvalue_A < 1e-9) return result;
   result.B1 = moments.A.inverse();
 
   // sum over a <= b of m_ab B2_ab M_ab,cd = I_cd, M = E - C . B1 . D, is the transposed system for m * B2.

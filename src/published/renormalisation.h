@@ -21,7 +21,7 @@ namespace tailwater {
 /// Smallest eigenvalue of A below which the neighbours do not span space well enough for a gradient: 0.1 in 2D. In the
 /// interior A is about I/Dim, so the bound scales with 1/Dim.
 template <int Dim>
-inline constexpr double least_sound_eigenvalue = 0.2 / Dim;
+inline constexpr double min_sound_eigenvalue = 0.2 / Dim;
 
 /// Largest |B2xx| + |B2yy| + |B2xy| (and so on in 3D) at which a Laplacian row is used: 20 in 2D, where the sum is 4.9
 /// in the interior and 215 at a corner. The interior value scales with Dim^2, and so does the bound.
@@ -34,10 +34,10 @@ struct Renormalisation {
   Packed<Dim> B2 = Packed<Dim>::Zero();
   Vec<Dim> drift = Vec<Dim>::Zero();  ///< 1/m; B1 . (C : B2), the first-derivative part of the row (F23)
   double trace_A = 0.0;
-  double least_eigenvalue_A = 0.0;
+  double min_eigenvalue_A = 0.0;
   double b2_sum = 0.0;       ///< S_B2: sum of |entries|, each off-diagonal entry once
   bool has_inverse = false;  ///< whether A and the system of B2 could be inverted
-  bool gradient_is_sound() const { return has_inverse && least_eigenvalue_A > least_sound_eigenvalue<Dim>; }
+  bool gradient_is_sound() const { return has_inverse && min_eigenvalue_A > min_sound_eigenvalue<Dim>; }
   bool laplacian_is_sound() const { return gradient_is_sound() && b2_sum < largest_sound_b2_sum<Dim>; }
 };
 

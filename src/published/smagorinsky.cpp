@@ -23,7 +23,7 @@ void sub_particle_stress(const Pairs<Dim>& pairs, const Particles<Dim>& particle
       A += wW * pairs.e(i, k) * pairs.e(i, k).transpose();
       sum -= wW / pairs.r(i, k) * (velocity[j] - velocity[i]) * pairs.e(i, k).transpose();
     }
-    if (least_eigenvalue<Dim>(A) < least_sound_eigenvalue<Dim>) return;
+    if (min_eigenvalue<Dim>(A) < min_sound_eigenvalue<Dim>) return;
     const Mat<Dim> gradient = sum * A.inverse();
     const Mat<Dim> S = 0.5 * (gradient + gradient.transpose());
     const double nu_t = c_s * c_s * spacing * spacing * std::sqrt(2.0) * S.norm();

@@ -16,7 +16,7 @@ const double cone_cosine = std::cos(0.5 * 105.0 * std::numbers::pi / 180.0);
 
 /// beta of (B21). The paper gives no number; this one distinguishes the rows of a flat surface
 /// (docs/theory/two-step.md).
-constexpr double least_density = 0.99;
+constexpr double min_density = 0.99;
 
 /// Half the neighbours that a full lattice has within the published 2.4 dx: 20 in 2D, 56 in 3D. A flat surface has 12
 /// and 38.
@@ -41,7 +41,7 @@ bool cone_is_empty(const ConeInput<Dim>& input, std::size_t i) {
     if (pairs.r(i, k) < cone_reach * input.spacing && -pairs.e(i, k).dot(outward) > cone_cosine) is_empty = false;
   }
   if (count_neighbours(pairs, i) < cone_fewest_neighbours ||
-      input.tensors[i].least_eigenvalue_A < least_sound_eigenvalue<Dim>)
+      input.tensors[i].min_eigenvalue_A < min_sound_eigenvalue<Dim>)
     return true;
   return is_empty && input.concentration[i] < cone_concentration;
 }
@@ -58,7 +58,7 @@ template <int Dim>
 void mark_by_density(const Pairs<Dim>& pairs, const Particles<Dim>& particles, std::span<const double> concentration,
                      std::span<std::uint8_t> is_surface) {
   for_each(pairs.owned(), [&](std::size_t i) {
-    is_surface[i] = concentration[i] < least_density ||
+    is_surface[i] = concentration[i] < min_density ||
                     (particles.is_fluid(i) && count_neighbours(pairs, i) < fewest_neighbours_inside<Dim>);
   });
 }

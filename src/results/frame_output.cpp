@@ -37,7 +37,7 @@ template <int Dim>
 FrameOutput<Dim>::FrameOutput(const CaseSpec& spec, const RunFolder& folder, const Flow<Dim>& flow)
     : series_(folder.view(), spec.particles.spacing, flow.box()),
       schedule_(spec.output.view_interval > 0.0 ? spec.output.view_interval : spec.time.end / default_frames),
-      least_steps_(spec.output.view_interval > 0.0 ? 1 : default_least_steps) {}
+      min_steps_(spec.output.view_interval > 0.0 ? 1 : default_least_steps) {}
 
 template <int Dim>
 void FrameOutput<Dim>::begin(const CaseSpec& spec, const Flow<Dim>& flow) {
@@ -52,7 +52,7 @@ void FrameOutput<Dim>::write_due(const Flow<Dim>& flow) {
   if (!schedule_.is_due(flow.state.time) || flow.state.step < next_step_) return;
   write(flow);
   schedule_.set_next(flow.state.time);
-  next_step_ = flow.state.step + least_steps_;
+  next_step_ = flow.state.step + min_steps_;
 }
 
 template <int Dim>

@@ -29,7 +29,7 @@ class FrameOutput {
  private:
   FrameSeries<Dim> series_;
   Schedule schedule_;
-  std::int64_t least_steps_;  ///< minimum from one due frame to the next
+  std::int64_t min_steps_;  ///< minimum from one due frame to the next
   std::int64_t next_step_ = 0;
 };
 

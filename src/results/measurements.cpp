@@ -82,7 +82,7 @@ MeasurementScore scored(const MeasurementTable& measurement, std::optional<doubl
   score.column = measurement.column;
   score.file = measurement.file;
   score.scatter = measurement.scatter;
-  score.most_shift = measurement.shift;
+  score.max_shift = measurement.shift;
   if (!end) return score;
   // The end of a late curve is not yet computed, so the largest shift is left out at the end.
   const TimeSeries measured = within_run(measurement.series, *end - measurement.shift);
@@ -144,8 +144,8 @@ std::string MeasurementScore::words() const {
   if (samples == 0) return fmt::format("{}: the run has no reading at the times of {}", column, name);
   std::string text = fmt::format("{} against {}, {} samples of {:.4g} to {:.4g} s: rms {:.3g} {}, bias {:+.3g} {}",
                                  column, name, samples, from, to, as_timed.rms, unit, as_timed.bias, unit);
-  if (most_shift > 0.0) {
-    const bool is_at_limit = std::abs(best_shift) >= most_shift;
+  if (max_shift > 0.0) {
+    const bool is_at_limit = std::abs(best_shift) >= max_shift;
     text +=
         fmt::format("; best {:.3g} s {}{}: rms {:.3g} {}", std::abs(best_shift), best_shift < 0.0 ? "early" : "late",
                     is_at_limit ? ", which is all that is allowed" : "", shifted.rms, unit);
@@ -181,8 +181,8 @@ Json json_of(const std::vector<MeasurementScore>& scores) {
     if (score.samples > 0) {
       one.update({{"from_s", score.from}, {"to_s", score.to}});
       one.update(difference_json(score.as_timed, score.scatter));
-      if (score.most_shift > 0.0) {
-        one["most_shift_s"] = score.most_shift;
+      if (score.max_shift > 0.0) {
+        one["most_shift_s"] = score.max_shift;
         one["best_shift_s"] = score.best_shift;
         one["shifted"] = difference_json(score.shifted, score.scatter);
       }

@@ -42,7 +42,7 @@ struct MeasurementScore {
   double to = 0.0;
   double scatter = 0.0;  ///< 0: unknown
   Difference as_timed;
-  double most_shift = 0.0;  ///< s; largest allowed shift
+  double max_shift = 0.0;   ///< s; largest allowed shift
   double best_shift = 0.0;  ///< s, within that: shift with the smallest rms; above 0 where the computed curve is late
   Difference shifted;       ///< difference with that shift
 

@@ -70,7 +70,7 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
     case Statistic::last:
       return quantity(column.last, at(last_time));
     case Statistic::last_min:
-      return quantity(column.least_of_last, at(last_time));
+      return quantity(column.min_of_last, at(last_time));
     case Statistic::last_max:
       break;
   }

@@ -102,7 +102,7 @@ void ColumnDigest::add(double time, double value, double half, double over) {
     largest_rate.add(time, value, over);
     largest_mean.add(time, sum_, over);
   }
-  least_of_last = is_same_time ? std::min(least_of_last, value) : value;
+  min_of_last = is_same_time ? std::min(min_of_last, value) : value;
   largest_of_last = is_same_time ? std::max(largest_of_last, value) : value;
   if (!is_first) add_stretch(time, value, half);
   last = value;

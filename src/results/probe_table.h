@@ -50,7 +50,7 @@ struct ColumnDigest {
   double time_of_largest = 0.0;  ///< s
   double last = 0.0;
   double last_time = 0.0;        ///< s
-  double least_of_last = 0.0;    ///< smallest value in the lines of the last time
+  double min_of_last = 0.0;      ///< smallest value in the lines of the last time
   double largest_of_last = 0.0;  ///< largest value in the lines of the last time
   LargestMean largest_rate;      ///< of the growth per second
   LargestMean largest_mean;

@@ -44,7 +44,7 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   unexplained_least_ = std::min(unexplained_least_, accounted - density_work_);
   unexplained_rise_ = std::max(unexplained_rise_, accounted - density_work_ - unexplained_least_);
   escaped_ = escaped;
-  most_escaped_ = std::max(most_escaped_, escaped);
+  max_escaped_ = std::max(max_escaped_, escaped);
   interventions_ += report.interventions;
 }
 
@@ -85,7 +85,7 @@ Json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particle
        {{"fluid_particles_start", fluid_particles_at_start},
         {"fluid_particles_end", fluid_particles},
         {"outside_the_walls_end", escaped_},
-        {"outside_the_walls_most", most_escaped_},
+        {"outside_the_walls_most", max_escaped_},
         {"density_error_mean", density_error_sum_ / steps},
         {"density_error_rms", std::sqrt(density_error_squares_ / steps)}}},
       {"interventions",

@@ -31,7 +31,7 @@ class RunStatistics {
                   divergence_reports_, divergence_old_squares_, divergence_new_squares_, divergence_moved_squares_,
                   density_error_sum_, density_error_squares_, energy_start_, energy_end_, energy_out_, energy_in_,
                   brought_by_walls_, brought_by_ends_, brought_by_air_, brought_by_slope_, viscous_work_, energy_least_,
-                  energy_rise_, density_work_, density_share_sum_, unexplained_least_, unexplained_rise_, most_escaped_,
+                  energy_rise_, density_work_, density_share_sum_, unexplained_least_, unexplained_rise_, max_escaped_,
                   escaped_, interventions_)
 
  private:
@@ -62,7 +62,7 @@ class RunStatistics {
   double density_share_sum_ = 0.0;
   double unexplained_least_;  ///< least energy so far, minus density_work_
   double unexplained_rise_ = 0.0;
-  std::size_t most_escaped_ = 0;
+  std::size_t max_escaped_ = 0;
   std::size_t escaped_ = 0;
   Interventions interventions_;
 };

@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// dx; a surface that moves less is considered at rest: the water's edge on a beach moves by 0.32 dx before any wave.
-constexpr double least_motion = 0.4;
+constexpr double min_motion = 0.4;
 
 /// Probes with a height each, of which the largest is reported.
 struct Gauges {
@@ -68,7 +68,7 @@ Findings unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder, cons
     const double lowest = lowest_resolved_wave * dx;
     if (probe.type == ProbeType::depth && surface.largest > 0.0 && surface.largest < lowest) {
       films.add(probe.name, surface.largest, dx);
-    } else if (has_waves && motion > least_motion * dx && motion < lowest) {
+    } else if (has_waves && motion > min_motion * dx && motion < lowest) {
       waves.add(probe.name, motion, dx);
     }
   }

@@ -139,7 +139,7 @@ Vec<Dim> middle_of_water_outside(const Flow<Dim>& flow) {
       ends[Dim + axis] = std::min(ends[Dim + axis], -x[axis]);
     }
   }
-  flow.setup.ranks.least_of_each(ends);
+  flow.setup.ranks.min_of_each(ends);
   Vec<Dim> middle;
   for (int axis = 0; axis < Dim; ++axis) middle[axis] = 0.5 * (ends[axis] - ends[Dim + axis]);
   return middle;

@@ -35,7 +35,7 @@ constexpr double reduction_of_passes = 5e-3;
 constexpr double change_of_next_pass = 0.03;
 
 /// Error over the velocity, both in the energy norm, below which rounding dominates: products are in single precision.
-constexpr double least_error = 1e-5;
+constexpr double min_error = 1e-5;
 
 }  // namespace
 
@@ -140,7 +140,7 @@ int ThickLiquid<Dim>::solve_pass(const Flow<Dim>& flow, std::span<const double> 
       flow.setup.ranks.sum(sum_over(rhs.size(), 0.0, [&](std::size_t i) { return rhs[i].dot(velocity_[i]); }));
   const bool varies = std::ranges::any_of(liquids_, varies_with_shear);
   const double of_present = (varies ? reduction_of_passes : reduction) * present_residual_;
-  const ShellGoal goal{std::max(least_error * std::sqrt(std::abs(power)), of_present),
+  const ShellGoal goal{std::max(min_error * std::sqrt(std::abs(power)), of_present),
                        varies ? reduction_of_pass : reduction, max_iterations};
   const ShellReport report = solve_viscous_step<Dim>(flow, forces_, inertia, rhs, goal, velocity_);
   if (present_residual_ == 0.0) present_residual_ = report.first_residual;

@@ -23,7 +23,7 @@ double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, d
   const Walls<Dim>& walls = flow.walls;
   const double depth = walls.depth[row];
   const double distance =
-      std::max(d.dot(walls.particles.normal[row]) - depth, least_friction_distance * flow.setup.scale.spacing);
+      std::max(d.dot(walls.particles.normal[row]) - depth, min_friction_distance * flow.setup.scale.spacing);
   return 2.0 * walls.friction[row] * (1.0 + depth / distance) * F;
 }
 
@@ -81,11 +81,11 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, const WallRates<Dim>& w
     if (!particles.is_fluid(i)) return;
     const Mat<Dim> moment = weigh_fluid(flow, i);
     const Mat<Dim> of_walls = weigh_walls(flow, walls, i);
-    const double least = least_eigenvalue<Dim>(moment);
+    const double least = min_eigenvalue<Dim>(moment);
     share_[i] = std::clamp((least - no_moment) / (full_moment - no_moment), 0.0, 1.0);
     if (share_[i] == 0.0) return;
     inverse_moment_[i] = moment.inverse();
-    if (wall_weight_[i] > 0.0) fluid_share_[i] = least / least_eigenvalue<Dim>(moment + of_walls);
+    if (wall_weight_[i] > 0.0) fluid_share_[i] = least / min_eigenvalue<Dim>(moment + of_walls);
   });
 }
 

@@ -45,13 +45,13 @@ void keep_whole(const Flow<Dim>& flow, std::vector<double>& interior) {
 /// Walls hold water only where it is inside, so that no air can come between.
 template <int Dim>
 void find_wall_tension(const Flow<Dim>& flow, std::vector<double>& tension) {
-  constexpr double least_interior = 0.75;  // mean over the water beside a wall particle
+  constexpr double min_interior = 0.75;  // mean over the water beside a wall particle
   const Particles<Dim>& particles = flow.state.particles;
   tension.assign(particles.owned, 0.0);
   for_each(particles.owned, [&](std::size_t i) {
     if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) return;
     const double inside = mean_over_fluid<Dim>(flow.pairs(), i, flow.surroundings.interior, 0.0);
-    tension[i] = flow.setup.liquid.tension * std::max(0.0, (inside - least_interior) / (1.0 - least_interior));
+    tension[i] = flow.setup.liquid.tension * std::max(0.0, (inside - min_interior) / (1.0 - min_interior));
   });
 }
 

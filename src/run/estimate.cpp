@@ -28,14 +28,14 @@ constexpr int trial_steps = 3;
 
 /// Maximum number of particles in the tank that replaces a case that is too large to try. A small case costs more per
 /// particle, so its tank is as small.
-constexpr double most_in_tank = 1e4;
-constexpr double least_in_tank = 100.0;
+constexpr double max_in_tank = 1e4;
+constexpr double min_in_tank = 100.0;
 
 /// Minimum fraction of the mean amount of water at the start. With less the trial steps do not represent the run.
 constexpr double share_to_try = 0.5;
 
 /// At a millisecond per step, which is fast, this many take twelve days.
-constexpr double most_steps = 1e9;
+constexpr double max_steps = 1e9;
 
 /// bytes; memory of a run without any particle, libraries included
 constexpr double program_memory = 1.1e8;
@@ -55,7 +55,7 @@ double time_of_a_step(Flow<Dim>& flow, double end) {
 /// `fluid` of the case.
 template <int Dim>
 CaseSpec tank_instead_of(const CaseSpec& spec, double fluid) {
-  const double count = std::clamp(fluid, least_in_tank, most_in_tank);
+  const double count = std::clamp(fluid, min_in_tank, max_in_tank);
   const double side = spec.particles.spacing * std::round(std::pow(count, 1.0 / Dim));
   CaseSpec tank;
   tank.general.dimension = Dim;
@@ -193,17 +193,17 @@ Findings check_memory(const CaseSpec& spec, const Boundary<Dim>& boundary, doubl
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule) {
   const double largest_step = rule.largest(0.0, 0.0);
   // No quotient is used, since it may overflow for a mistyped end time.
-  if (spec.time.end > most_steps * largest_step) {
+  if (spec.time.end > max_steps * largest_step) {
     throw CaseError(
         "end-out-of-reach",
         {"{} = {:g} is out of reach: with time steps of at most {:.3g} s the run takes more than {:g} steps",
-         CaseLabel("time").with_key("end"), Amount{spec.time.end, "s"}, largest_step, most_steps},
-        {"give the end in seconds, at most {:.3g}, or a larger particles.spacing", most_steps * largest_step});
+         CaseLabel("time").with_key("end"), Amount{spec.time.end, "s"}, largest_step, max_steps},
+        {"give the end in seconds, at most {:.3g}, or a larger particles.spacing", max_steps * largest_step});
   }
 }
 
 template <int Dim>
-RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs) {
+RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double max_pairs) {
   RunEstimate estimate;
   estimate.particles.wall = static_cast<double>(flow.walls.all);
   estimate.has_implicit_viscosity = flow.setup.has_implicit_viscosity;
@@ -222,7 +222,7 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pair
   const double at_start = estimate.particles.fluid + estimate.particles.wall;
   const double in_the_mean = water.mean / of_a_particle + estimate.particles.wall;
   estimate.grows_much = estimate.particles.fluid < share_to_try * water.mean / of_a_particle;
-  estimate.is_from_tank = at_start * neighbours > most_pairs || estimate.grows_much;
+  estimate.is_from_tank = at_start * neighbours > max_pairs || estimate.grows_much;
   double per_particle = 0.0;
   if (estimate.is_from_tank) {
     Flow<Dim> tank = make_flow<Dim>(tank_instead_of<Dim>(spec, water.mean / of_a_particle));

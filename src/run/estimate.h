@@ -44,9 +44,9 @@ inline constexpr double pairs_in_a_second = 4e6;
 void require_reachable_end(const CaseSpec& spec, const TimeStepRule& rule);
 
 /// Runs a few trial steps of `flow`, which was made from `spec`. They are replaced by steps of a tank by the same
-/// scheme if the flow has more than `most_pairs` pairs, or few compared with its later number (inflow_estimate.h). The
+/// scheme if the flow has more than `max_pairs` pairs, or few compared with its later number (inflow_estimate.h). The
 /// time of these steps is scaled by the number of particles. The mean number of particles over the run counts.
 template <int Dim>
-RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double most_pairs = pairs_in_a_second);
+RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double max_pairs = pairs_in_a_second);
 
 }  // namespace tailwater

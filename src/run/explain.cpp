@@ -144,12 +144,12 @@ std::string kind_of(const WallTable& wall) {
 }
 
 std::string about_walls(const CaseSpec& spec) {
-  constexpr std::size_t most_named = 8;
+  constexpr std::size_t max_named = 8;
   std::vector<std::string> walls;
   std::size_t more = 0;
   for (const WallTable& wall : spec.walls) {
     if (wall.drive.by == Drive::By::gate || wall.drive.by == Drive::By::wave_maker) continue;
-    if (walls.size() < most_named) {
+    if (walls.size() < max_named) {
       walls.push_back(kind_of(wall));
     } else {
       ++more;
@@ -260,9 +260,9 @@ std::string about_probes(const CaseSpec& spec) {
   for (const ProbeTable& probe : spec.probes) by_type[name_of(probe.type)].push_back("'" + probe.name + "'");
   std::vector<std::string> parts;
   for (const auto& [type, names] : by_type) {
-    constexpr std::size_t most_named = 4;
-    parts.push_back(names.size() > most_named ? fmt::format("{} ({} probes)", type, names.size())
-                                              : fmt::format("{} ({})", type, listed(names)));
+    constexpr std::size_t max_named = 4;
+    parts.push_back(names.size() > max_named ? fmt::format("{} ({} probes)", type, names.size())
+                                             : fmt::format("{} ({})", type, listed(names)));
   }
   return fmt::format("Measured are {}.", listed(parts));
 }

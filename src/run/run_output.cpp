@@ -375,18 +375,18 @@ void RunOutput<Dim>::tell_water(const Flow<Dim>& flow) const {
 
 template <int Dim>
 void RunOutput<Dim>::tell_results() const {
-  constexpr std::size_t most_told = 20;
-  for (std::size_t k = 0; k < std::min(results_.size(), most_told); ++k) {
+  constexpr std::size_t max_told = 20;
+  for (std::size_t k = 0; k < std::min(results_.size(), max_told); ++k) {
     tell("{}: {}", results_[k].probe, results_[k].words());
   }
-  if (results_.size() > most_told) {
-    tell("and {} more probes: tailwater info {}", results_.size() - most_told, folder_.path().string());
+  if (results_.size() > max_told) {
+    tell("and {} more probes: tailwater info {}", results_.size() - max_told, folder_.path().string());
   }
-  for (std::size_t k = 0; k < std::min(scores_.size(), most_told); ++k) {
+  for (std::size_t k = 0; k < std::min(scores_.size(), max_told); ++k) {
     tell("{}: {}", scores_[k].probe, scores_[k].words());
   }
-  if (scores_.size() > most_told) {
-    tell("and {} more measurements: tailwater info {}", scores_.size() - most_told, folder_.path().string());
+  if (scores_.size() > max_told) {
+    tell("and {} more measurements: tailwater info {}", scores_.size() - max_told, folder_.path().string());
   }
 }
 

@@ -163,7 +163,7 @@ template <int Dim>
 ClassifiedCell classify(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const Cell<Dim>& cell) {
   if (block.is_reached(cell)) return classify_reached<Dim>(block, cutter, cell);
   const CellBox<Dim> box(block.lattice.axes, cell);
-  const double height = cutter.least_height(box.centre);
+  const double height = cutter.min_height(box.centre);
   const bool is_cut = height < 0.0 && height > -box.half_diagonal();
   if (!is_cut || !is_beside_water<Dim>(block, cell)) return {CellUse::dry};
   const double fraction = cutter.fraction_of_water(box);
@@ -195,7 +195,7 @@ void visit_parts(const BlockToFit<Dim>& block, const Cutter<Dim>& cutter, const 
     sums.volume_of_water += fraction * part.volume();
     const double local = dx * block.field->at(centre);
     const bool can_be_particle =
-        fraction > same_fraction && cutter.least_height(centre) > -max_depth * local && block.has_room(centre, local);
+        fraction > same_fraction && cutter.min_height(centre) > -max_depth * local && block.has_room(centre, local);
     cut.push_back({cell, number++, can_be_particle ? fraction : 0.0, part.volume(), false});
   });
 }

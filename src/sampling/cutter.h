@@ -61,7 +61,7 @@ class Cutter {
   }
 
   /// Height [m] of a place above the walls and the surface, negative behind any of them, infinite far from all.
-  double least_height(const Vec<Dim>& x) const {
+  double min_height(const Vec<Dim>& x) const {
     double least = std::numeric_limits<double>::infinity();
     const auto see = [&](const Vec<Dim>&, double height) { least = std::min(least, height); };
     visit_walls(x, see);

@@ -26,7 +26,7 @@
 namespace tailwater {
 namespace {
 
-constexpr double least_wall_distance = 0.25;  // dx, beside slanted walls
+constexpr double min_wall_distance = 0.25;  // dx, beside slanted walls
 
 /// Largest fraction of a mesh's volume that may be in cells without particles. At a surface, half of the cut cells are
 /// left out, with a quarter of their volume: for a ball of three spacings in diameter, 0.3 of its volume.
@@ -49,7 +49,7 @@ std::int64_t ids_per_cell(const SpacingField<Dim>& field) {
   return std::llround(power<Dim>(1.0 / field.finest()));
 }
 
-/// `x`, or, if it is too near a wall, the point at least_wall_distance from that wall. `dx` is the spacing at x.
+/// `x`, or, if it is too near a wall, the point at min_wall_distance from that wall. `dx` is the spacing at x.
 template <int Dim>
 Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidTable& block, double dx,
                         Vec<Dim> x) {
@@ -59,13 +59,13 @@ Vec<Dim> kept_off_walls(const CaseSpec& spec, const Boundary<Dim>& boundary, con
       const Vec<3> moved = boundary.displacement_of(mesh);
       const SurfacePlace place = mesh.surface->nearest(x - moved, 0.5 * dx);
       if (place.triangle < 0 || place.is_on_rim || place.signed_distance >= 0.0) continue;
-      x += (least_wall_distance * dx - place.signed_distance) * boundary.faces[mesh.first_face + place.triangle].normal;
+      x += (min_wall_distance * dx - place.signed_distance) * boundary.faces[mesh.first_face + place.triangle].normal;
     }
   }
   // In a corner, a move away from one wall may approach the next. At most Dim walls meet, so Dim moves are enough.
   for (int move = 0; move < Dim; ++move) {
     const NearestWall<Dim> wall = boundary.nearest(x, 0.5 * dx);
-    const double missing = least_wall_distance * dx - wall.signed_distance;
+    const double missing = min_wall_distance * dx - wall.signed_distance;
     if (wall.face < 0 || missing <= 0.0 || !adapts_to_wall(spec, block, boundary.faces[wall.face])) break;
     const WallFace<Dim>& face = boundary.faces[wall.face];
     // At an edge, move straight away from it: the normal of one of its faces is parallel to the other face.
@@ -222,7 +222,7 @@ class BlockWater {
     const auto is_taken_by = [&](const auto& block) { return block->has_particle_at(centre); };
     if (std::ranges::any_of(earlier_, is_taken_by)) return false;
     const NearestWall<Dim> wall = boundary_.nearest(kept_off_walls(spec_, boundary_, block_, dx, centre), dx);
-    return wall.face == -1 || wall.signed_distance > (least_wall_distance - corner_tolerance) * dx;
+    return wall.face == -1 || wall.signed_distance > (min_wall_distance - corner_tolerance) * dx;
   }
 
   bool takes(const Cell<Dim>& cell) {
@@ -294,7 +294,7 @@ Box<Dim> FluidParticles<Dim>::box() const {
       least[Dim + axis] = std::min(least[Dim + axis], -x[axis]);
     }
   }
-  ranks.least_of_each(least);
+  ranks.min_of_each(least);
   Box<Dim> box;
   if (all == 0) return box;
   for (int axis = 0; axis < Dim; ++axis) {
@@ -312,7 +312,7 @@ double FluidParticles<Dim>::extent_along(const Vec<Dim>& direction) const {
     least[0] = std::min(least[0], height);
     least[1] = std::min(least[1], -height);
   }
-  ranks.least_of_each(least);
+  ranks.min_of_each(least);
   return all == 0 ? 0.0 : -least[1] - least[0];
 }
 

@@ -11,10 +11,10 @@
 namespace tailwater {
 namespace {
 
-constexpr double farthest_share = 1.5;         // of the layers' depth; sharp mitres are cut off at this distance
-constexpr double least_distance_to_tip = 0.3;  // dx, for the particles in the tip of a crest
-constexpr double sharp_turn_cosine = 0.866;    // a corner that turns by more than 30 degrees gets a particle of its own
-constexpr double folded_back_cosine = -0.9;    // faces that turn by more than 154 degrees have no useful mitre
+constexpr double farthest_share = 1.5;       // of the layers' depth; sharp mitres are cut off at this distance
+constexpr double min_distance_to_tip = 0.3;  // dx, for the particles in the tip of a crest
+constexpr double sharp_turn_cosine = 0.866;  // a corner that turns by more than 30 degrees gets a particle of its own
+constexpr double folded_back_cosine = -0.9;  // faces that turn by more than 154 degrees have no useful mitre
 
 /// The joints between the faces of a 2D boundary at shared corners: -1 for a face with a free end.
 struct Joints {
@@ -167,7 +167,7 @@ void fill_tips(const Boundary<2>& body, const Joints& joints, const WallLayers& 
     if (!is_convex || from.normal.dot(to.normal) > -corner_tolerance) continue;
     const Vec<2> tip = from.corners[1];
     const Vec<2> back = mitre(from, to, layers.first_depth()) - tip;
-    for (double distance = back.norm() - 0.5 * layers.spacing; distance >= least_distance_to_tip * layers.spacing;
+    for (double distance = back.norm() - 0.5 * layers.spacing; distance >= min_distance_to_tip * layers.spacing;
          distance -= 0.5 * layers.spacing) {
       collector.add({tip + distance * back.normalized(), tip, {from.normal, to.normal}, from.wall});
     }

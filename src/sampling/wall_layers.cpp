@@ -12,7 +12,7 @@
 namespace tailwater {
 namespace {
 
-constexpr double least_separation = 0.5;   // dx, between wall particles
+constexpr double min_separation = 0.5;     // dx, between wall particles
 constexpr double reach_over_depth = 2.0;   // most wall particles are nearer to their feet
 constexpr double seam_over_spacing = 2.0;  // four places may be in the way of each other
 constexpr double edge_cosine = 0.766;      // a wall that turns by 40 degrees
@@ -64,7 +64,7 @@ WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, con
       seam_(seam_over_spacing * layers.spacing),
       look_distance_(edge_width * layers.spacing),
       reach_(layers.starts_on_wall ? 0.0 : layers.count * layers.spacing),
-      taken_((least_separation - corner_tolerance) * layers.spacing),
+      taken_((min_separation - corner_tolerance) * layers.spacing),
       plain_(reach_over_depth * layers.count * layers.spacing) {
   body.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = body.faces[f];

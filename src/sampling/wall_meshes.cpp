@@ -17,9 +17,9 @@ namespace {
 
 /// Beyond the rim of an open mesh, wall particles stand only where they are more behind its last triangle than beside
 /// it.
-constexpr double least_behind = 0.7;
+constexpr double min_behind = 0.7;
 
-constexpr double least_cell_share = 0.01;  // of a cell; less than that behind the wall gets no particle
+constexpr double min_cell_share = 0.01;  // of a cell; less than that behind the wall gets no particle
 
 /// Whether a plate ends at the rim of the mesh there: places beyond are on the other side of the plate.
 bool ends_at_plate(const WallMesh& mesh, const SurfacePlace& place) {
@@ -33,7 +33,7 @@ bool is_beyond_rim(const WallMesh& mesh, const Vec<3>& x, const SurfacePlace& pl
   if (!place.is_on_rim) return false;
   if (ends_at_plate(mesh, place)) return true;
   const Vec<3> normal = mesh.surface->mesh().area_normal(place.triangle).normalized();
-  return normal.dot(x - place.point) > least_behind * place.signed_distance;
+  return normal.dot(x - place.point) > min_behind * place.signed_distance;
 }
 
 /// The part of a cell that is behind a surface.
@@ -112,7 +112,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
       if (place.signed_distance >= half_diagonal || is_beyond_rim(mesh, x, place)) return;
       Behind behind{.share = 1.0};
       if (place.signed_distance > -half_diagonal) behind = part_behind(mesh, x, edge);
-      if (behind.share < least_cell_share) return;
+      if (behind.share < min_cell_share) return;
       const SurfacePlace near = surface.nearest(x + behind.offset, layers.count * layers.spacing + edge.norm());
       proposals.push_back({{.position = x,
                             .foot = near.point,

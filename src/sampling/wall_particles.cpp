@@ -15,7 +15,7 @@ namespace {
 /// dx; search radius for the wall of a wall particle, which is nearer to its wall.
 constexpr double reach_to_wall = 8.0;
 /// Fraction of half a cell. A plate that cuts off less than this does not divide the cell.
-constexpr double least_part = 0.05;
+constexpr double min_part = 0.05;
 
 // The functions that sample the walls in each dimension.
 WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
@@ -140,7 +140,7 @@ void cut_by_plates(const Boundary<Dim>& boundary, double spacing, WallParticles<
     const Vec<Dim>& x = particles.position[row];
     const double half = 0.5 * spacing * std::pow(particles.share[row], 1.0 / (Dim - 1));
     const bool is_of_plate = boundary.walls[particles.wall[row]].is_plate;
-    const Screen<Dim>* plate = is_of_plate ? nullptr : plate_through(boundary, x, (1.0 - least_part) * half);
+    const Screen<Dim>* plate = is_of_plate ? nullptr : plate_through(boundary, x, (1.0 - min_part) * half);
     if (plate == nullptr) {
       append_part(cut, particles, row, x, particles.share[row], 2 * particles.number[row]);
       continue;

@@ -15,7 +15,7 @@ namespace tailwater {
 namespace {
 
 /// dx; a face divides the lattice if its area is at least that of a square with this edge (in 2D, if it is as long).
-constexpr double least_edge = 3.0;
+constexpr double min_edge = 3.0;
 
 template <int Dim>
 bool is_axis_parallel(const WallFace<Dim>& face) {
@@ -49,10 +49,10 @@ Box<Dim> box_around(const FluidTable& block, const CaseLabel& owner) {
 
 /// Coordinates of the planes of axis-parallel walls normal to `axis` that reach into the box.
 template <int Dim>
-std::vector<double> planes_in(const Boundary<Dim>& boundary, const Box<Dim>& box, int axis, double least_measure) {
+std::vector<double> planes_in(const Boundary<Dim>& boundary, const Box<Dim>& box, int axis, double min_measure) {
   std::vector<double> planes;
   for (const WallFace<Dim>& face : boundary.faces) {
-    if (is_axis_parallel(face) && face.measure() >= least_measure && std::abs(face.normal[axis]) > 0.5 &&
+    if (is_axis_parallel(face) && face.measure() >= min_measure && std::abs(face.normal[axis]) > 0.5 &&
         box.intersects(face.box())) {
       planes.push_back(face.corners[0][axis]);
     }
@@ -78,7 +78,7 @@ std::vector<double> planes_in(const TriangleMesh& mesh, int axis, double spacing
     double area = 0.0;
     const double plane = flats[k].first;
     for (; k < flats.size() && flats[k].first - plane <= tolerance; ++k) area += flats[k].second;
-    if (area >= power<2>(least_edge * spacing)) planes.push_back(plane);
+    if (area >= power<2>(min_edge * spacing)) planes.push_back(plane);
   }
   return planes;
 }
@@ -87,7 +87,7 @@ std::vector<double> planes_in(const TriangleMesh& mesh, int axis, double spacing
 void append_flat_sides(const std::vector<Vec<2>>& outline, int axis, double spacing, std::vector<double>& planes) {
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec<2> side = outline[(k + 1) % outline.size()] - outline[k];
-    if (side[axis] == 0.0 && side.norm() >= least_edge * spacing) planes.push_back(outline[k][axis]);
+    if (side[axis] == 0.0 && side.norm() >= min_edge * spacing) planes.push_back(outline[k][axis]);
   }
 }
 
@@ -120,7 +120,7 @@ Lattice<Dim> make_lattice(const CaseSpec& spec, std::size_t block, const Boundar
         water.shape == BlockShape::fill && range.size() == 2) {
       planes = range;
     } else {
-      const std::vector<double> walls = planes_in(boundary, inside, axis, std::pow(least_edge * dx, Dim - 1));
+      const std::vector<double> walls = planes_in(boundary, inside, axis, std::pow(min_edge * dx, Dim - 1));
       planes.insert(planes.end(), walls.begin(), walls.end());
       if constexpr (Dim == 2) {
         if (water.shape == BlockShape::polygon) append_flat_sides(outline_of(water, owner), axis, dx, planes);

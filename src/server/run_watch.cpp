@@ -13,7 +13,7 @@
 namespace tailwater {
 namespace {
 
-constexpr auto least_time_between_infos = std::chrono::seconds(1);
+constexpr auto min_time_between_infos = std::chrono::seconds(1);
 /// Pause after each info, as a multiple of the time that it took: with long tables it takes a while.
 constexpr int rest_over_work = 20;
 
@@ -64,7 +64,7 @@ std::string RunWatch::info() {
   if (begin < next_info_time_) return "";
   const std::string told = event("info", run_info(folder_.path()));
   const auto end = Clock::now();
-  next_info_time_ = std::max<Clock::time_point>(begin + least_time_between_infos, end + rest_over_work * (end - begin));
+  next_info_time_ = std::max<Clock::time_point>(begin + min_time_between_infos, end + rest_over_work * (end - begin));
   if (told == last_info_) return "";
   last_info_ = told;
   return told;

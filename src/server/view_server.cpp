@@ -31,7 +31,7 @@ using httplib::Response;
 
 constexpr std::size_t threads = 48;
 constexpr std::size_t waiting_connections = 64;
-constexpr int most_streams = 24;                             // streams of events; each takes a thread
+constexpr int max_streams = 24;                              // streams of events; each takes a thread
 constexpr std::size_t largest_case = std::size_t{8} << 20U;  // bytes
 constexpr auto time_between_looks = std::chrono::milliseconds(200);
 constexpr auto time_between_signs_of_life = std::chrono::seconds(10);
@@ -245,7 +245,7 @@ class ViewServer::Service {
   }
 
   void answer_events(const Request& request, Response& response, const Run& run) {
-    if (++streams_ > most_streams) {
+    if (++streams_ > max_streams) {
       --streams_;
       response.set_header("Retry-After", "5");
       return answer_error(response, 503, "too many pages are open");
@@ -343,7 +343,7 @@ class ViewServer::Service {
             {"case", case_file_ ? Json{{"path", case_file_->string()}} : Json()},
             {"report", report_},
             {"version", actions_.version},
-            {"ranks_most", actions_.most_ranks},
+            {"ranks_most", actions_.max_ranks},
             {"out", actions_.free_name()}};
   }
 

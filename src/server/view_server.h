@@ -42,7 +42,7 @@ struct ViewActions {
   std::function<Json()> templates;
   std::function<std::optional<std::string>(const std::string& name)> template_text;
   std::function<std::string()> free_name;  ///< for the folder of a new run
-  int most_ranks = 1;
+  int max_ranks = 1;
   std::string version;
 };
 

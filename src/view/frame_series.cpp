@@ -29,7 +29,7 @@ namespace {
 constexpr int frames_per_key = 10;
 
 /// Resolution of places, in dx: smaller errors are invisible, and more digits cost bytes.
-constexpr double least_quantum_over_spacing = 1.0 / 128.0;
+constexpr double min_quantum_over_spacing = 1.0 / 128.0;
 
 /// Margin of the box around the water and the walls, as a fraction of their extent.
 constexpr double room_in_box = 0.05;
@@ -66,7 +66,7 @@ std::vector<double> extremes_of(const WaterNow<Dim>& water, const Communicator& 
   };
   for (int d = 0; d < Dim; ++d) add([&](std::size_t i) { return water.position[i][d]; });
   for (const std::span<const double> scalar : water.scalars) add([&](std::size_t i) { return scalar[i]; });
-  ranks.least_of_each(extremes);
+  ranks.min_of_each(extremes);
   return extremes;
 }
 
@@ -198,7 +198,7 @@ FrameScale FrameSeries<Dim>::scale_for(std::span<const double> extremes, std::si
     }
     if (low > high) low = high = 0.0;  // there is neither water nor a wall
     const double quantum =
-        std::max((1.0 + 2.0 * room_in_box) * (high - low) / largest_place, least_quantum_over_spacing * spacing_);
+        std::max((1.0 + 2.0 * room_in_box) * (high - low) / largest_place, min_quantum_over_spacing * spacing_);
     const double middle = 0.5 * (low + high);
     scale.low.push_back(middle - 0.5 * largest_place * quantum);
     scale.high.push_back(middle + 0.5 * largest_place * quantum);

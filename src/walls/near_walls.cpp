@@ -30,8 +30,8 @@ NearWalls<Dim>::NearWalls(const Communicator& ranks, const Walls<Dim>& walls, co
   const std::vector<Vec<Dim>>& position = walls.particles.position;
   const Box<Dim> box = box_of_resting(ranks, walls);
   // A few distant walls must not make the grid huge. Coarser cells only bring more walls near.
-  const double most_cells = 64.0 * static_cast<double>(walls.all) + 1e5;
-  while ((box.sizes() / edge_).each([](double cells) { return std::max(1.0, std::ceil(cells)); }).prod() > most_cells)
+  const double max_cells = 64.0 * static_cast<double>(walls.all) + 1e5;
+  while ((box.sizes() / edge_).each([](double cells) { return std::max(1.0, std::ceil(cells)); }).prod() > max_cells)
     edge_ *= 2.0;
   origin_ = box.min() - Vec<Dim>::Constant(edge_);
   std::size_t cells = 1;

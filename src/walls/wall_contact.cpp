@@ -6,7 +6,7 @@ namespace tailwater {
 namespace {
 
 constexpr double contact_distance = 0.5;  // dx
-constexpr double least_gap = 0.01;        // dx; a move that starts nearer, or behind a wall, counts as starting here
+constexpr double min_gap = 0.01;          // dx; a move that starts nearer, or behind a wall, counts as starting here
 
 /// Where the water was before a move, carried along by the wall.
 template <int Dim>
@@ -55,7 +55,7 @@ bool cushion(const Boundary<Dim>& boundary, double spacing, const WallDisplaceme
     const WallFace<Dim>& face = boundary.faces[wall.face];
     const Vec<Dim> carried = carried_by(displacements, face.wall, before);
     const Vec<Dim> normal = wall.side * face.normal;
-    const double gap = std::clamp(wall.side * face.height(carried), least_gap * spacing, contact);
+    const double gap = std::clamp(wall.side * face.height(carried), min_gap * spacing, contact);
     const double approach = gap - wall.signed_distance;
     if (approach <= 0.0) continue;
     const double share = gap / (gap + approach);

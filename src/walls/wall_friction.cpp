@@ -69,7 +69,7 @@ FrictionWall<Dim> find_friction_wall(const WallScene<Dim>& scene, const Friction
   });
   if (wall.weight == 0.0) return {};
   wall.slip_velocity /= wall.weight;
-  wall.distance = std::max(wall.distance / wall.weight, least_friction_distance * law.spacing * relative);
+  wall.distance = std::max(wall.distance / wall.weight, min_friction_distance * law.spacing * relative);
   wall.roughness /= wall.weight;
   apply_wall_law(law, law.spacing * relative, scene.particles.layer_viscosity[i], wall);
   return wall;

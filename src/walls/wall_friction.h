@@ -13,14 +13,14 @@ namespace tailwater {
 
 /// [dx]; least distance from a wall with friction: nearer water counts as this far away, because particles keep no
 /// nearer.
-inline constexpr double least_friction_distance = 0.25;
+inline constexpr double min_friction_distance = 0.25;
 
 /// Properties of the walls with friction in reach of a fluid particle: weighted means over their particles.
 template <int Dim>
 struct FrictionWall {
   double weight = 0.0;                        ///< 1/m^2; sum of lambda c_iw; 0: no such wall
   Vec<Dim> slip_velocity = Vec<Dim>::Zero();  ///< m/s; the water's velocity along the wall, relative to it
-  double distance = 0.0;                      ///< m; at least `least_friction_distance`
+  double distance = 0.0;                      ///< m; at least `min_friction_distance`
   double roughness = 0.0;                     ///< m; k_s
   double friction_velocity = 0.0;             ///< m/s; u_tau of the larger of the two laws
   double excess = 0.0;  ///< m^2/s^2; excess of the turbulent stress over the laminar one, divided by rho

@@ -10,7 +10,7 @@ namespace {
 
 /// A wall particle is wet when its kernel sum over the fluid exceeds this fraction of W(0): some fluid particle is
 /// inside its support, not merely on the edge.
-constexpr double least_wet_weight = 1e-6;
+constexpr double min_wet_weight = 1e-6;
 
 /// Projection of `d` onto the cone that the columns of `others` and `own` span: the nearest point of the cone. Exact
 /// where the columns are perpendicular to each other.
@@ -53,7 +53,7 @@ void find_wet_walls(const Pairs<Dim>& pairs, const Particles<Dim>& particles, do
     LaneSum sum;
     for_each_pair(pairs, i, [&](const auto& batch) { sum += batch.kernel_of_fluid(); });
     fluid_weight[i] = sum.total();
-    is_wet[i] = fluid_weight[i] > least_wet_weight * W_0;
+    is_wet[i] = fluid_weight[i] > min_wet_weight * W_0;
   });
 }
 

@@ -15,13 +15,13 @@ namespace tailwater {
 namespace {
 
 /// Limit that keeps a check below a fraction of a second with sanitizers.
-constexpr double most_particles = 2000.0;
+constexpr double max_particles = 2000.0;
 
 template <int Dim>
 Findings check_shapes(const CaseSpec& spec) {
   const Boundary<Dim> boundary = make_boundary<Dim>(spec);
   const ParticleCount count = expected_particle_count(spec, boundary);
-  if (count.fluid + count.wall > most_particles) return {};
+  if (count.fluid + count.wall > max_particles) return {};
   return check_geometry(spec, boundary, make_fluid_particles(spec, boundary));
 }
 

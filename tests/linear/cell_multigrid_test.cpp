@@ -114,31 +114,31 @@ int iterations_in(const Tank<Dim>& tank, PreconditionerName preconditioner = Pre
 }
 
 /// For systems up to 15 times as large as the first of these.
-constexpr int most_iterations = 12;
+constexpr int max_iterations = 12;
 
 TEST(CellMultigrid, IterationsDoNotGrowWithDepth) {
   for (const int edge : {25, 50, 100}) {
-    EXPECT_LE(iterations_in(Tank<2>(edge, Top::surface)), most_iterations) << edge << " rows deep";
+    EXPECT_LE(iterations_in(Tank<2>(edge, Top::surface)), max_iterations) << edge << " rows deep";
   }
   for (const int edge : {8, 12, 20}) {
-    EXPECT_LE(iterations_in(Tank<3>(edge, Top::surface)), most_iterations) << edge << " rows deep";
+    EXPECT_LE(iterations_in(Tank<3>(edge, Top::surface)), max_iterations) << edge << " rows deep";
   }
   // The iterations of SSOR grow, which shows that the systems are large enough:
-  EXPECT_GT(iterations_in(Tank<2>(100, Top::surface), PreconditionerName::ssor), 2 * most_iterations);
+  EXPECT_GT(iterations_in(Tank<2>(100, Top::surface), PreconditionerName::ssor), 2 * max_iterations);
 }
 
 TEST(CellMultigrid, AClosedTankIsNoHarder) {
-  EXPECT_LE(iterations_in(Tank<2>(50, Top::lid)), most_iterations);
-  EXPECT_LE(iterations_in(Tank<3>(12, Top::lid)), most_iterations);
+  EXPECT_LE(iterations_in(Tank<2>(50, Top::lid)), max_iterations);
+  EXPECT_LE(iterations_in(Tank<3>(12, Top::lid)), max_iterations);
 }
 
 TEST(CellMultigrid, WaterFarFromTheOriginIsNoHarder) {
   Tank<2> flat(50, Top::surface);
   for (Vec<2>& x : flat.set.particles.position) x += Vec<2>(-6e6, 5.3e6);
-  EXPECT_LE(iterations_in(flat), most_iterations);
+  EXPECT_LE(iterations_in(flat), max_iterations);
   Tank<3> solid(12, Top::surface);
   for (Vec<3>& x : solid.set.particles.position) x += Vec<3>(6e6, 5.3e6, -4e6);
-  EXPECT_LE(iterations_in(solid), most_iterations);
+  EXPECT_LE(iterations_in(solid), max_iterations);
 }
 
 /// Iterations for a tank in which some rows near the surface have larger diagonals, as where tension is limited. The
@@ -248,7 +248,7 @@ TEST(CellMultigrid, ManyDropsAreSolvedLikeOneBody) {
   std::vector<double> solution(1000, 0.0);
   const SolveReport report = system.solve(solution);
   EXPECT_LE(report.residual, tolerance);
-  EXPECT_LE(report.iterations, most_iterations);
+  EXPECT_LE(report.iterations, max_iterations);
 }
 
 double norm(const std::vector<double>& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }

@@ -274,7 +274,7 @@ TYPED_TEST(NeighbourhoodTest, PlacesOfCoincidingParticlesArePartedByTheirIds) {
     }
     neighbourhood.update(particles);
     const Pairs<Dim>& pairs = neighbourhood.pairs();
-    const auto least = static_cast<std::uint32_t>(std::ceil(pairs.least_distance / pairs.unit[0]));
+    const auto least = static_cast<std::uint32_t>(std::ceil(pairs.min_distance / pairs.unit[0]));
     ASSERT_GT(least, 10U);
     std::array<std::size_t, 3> by_id = those_that_meet;
     std::ranges::sort(by_id, {}, [&](std::size_t i) { return particles.id[i]; });
@@ -287,7 +287,7 @@ TYPED_TEST(NeighbourhoodTest, PlacesOfCoincidingParticlesArePartedByTheirIds) {
     for (std::size_t k = pairs.begin(i); k < pairs.end(i); ++k) {
       if (static_cast<std::size_t>(pairs.j[k]) != by_id[1]) continue;
       const VecLanes<Dim> d = one_pair(pairs, i, k).place().d;
-      EXPECT_EQ(pairs.r(i, k), pairs.least_distance);
+      EXPECT_EQ(pairs.r(i, k), pairs.min_distance);
       for (int a = 0; a < Dim; ++a) EXPECT_NEAR(d.at[a][0], pairs.d(i, k)[a], 2.0 * pairs.unit[0]);
     }
   }
@@ -314,7 +314,7 @@ TYPED_TEST(NeighbourhoodTest, PairsKeepTheirGeometryWhenParticlesJump) {
 
 TYPED_TEST(NeighbourhoodTest, RowsHoldLowerIndicesThenHigherOnesThenGhostsEachInTheOrderOfTheGrid) {
   constexpr int Dim = TypeParam::value;
-  constexpr std::size_t most_in_group = 32;  // those that are searched for with a particle have the order of indices
+  constexpr std::size_t max_in_group = 32;  // those that are searched for with a particle have the order of indices
   Particles<Dim> particles = random_fluid<Dim>(400, 13);
   auto neighbourhood = make_neighbourhood<Dim>(WallRows::all, unit_domain<Dim>(Dim));
   for (const bool is_sorted : {false, true}) {  // sorted, many particles are searched for together
@@ -332,7 +332,7 @@ TYPED_TEST(NeighbourhoodTest, RowsHoldLowerIndicesThenHigherOnesThenGhostsEachIn
         ASSERT_LE(last_kind, kind);
         last_kind = kind;
         const std::size_t apart = std::max(i, j) - std::min(i, j);
-        if (apart < most_in_group) continue;
+        if (apart < max_in_group) continue;
         ASSERT_LT(last_far, std::pair(kind, place[j]));
         last_far = {kind, place[j]};
       }

@@ -81,7 +81,7 @@ TYPED_TEST(ExactnessTest, GradientOfLinearFieldsInteriorAndEdges) {
                                                      set.pairs().r(i, k), set.pairs().value(i, k))
                          .norm();
         }
-        const double condition = tensors.trace_A / tensors.least_eigenvalue_A;
+        const double condition = tensors.trace_A / tensors.min_eigenvalue_A;
         const double bound = 16.0 * eps * weights + 64.0 * eps * condition * g.norm();
         ASSERT_LT((operators.gradient(i, linear) - g).norm(), bound);
         ASSERT_LT((operators.gradient(i, linear_vector) - G).norm(), 2.0 * bound);

@@ -97,7 +97,7 @@ TYPED_TEST(DensityWeightedTest, ShaoLoWeightsAreSymmetricAndMorrisWithoutEta) {
     const double weight = shao_lo_laplacian_weight(0.01, 0.7, 1.1, r, dW, shao_lo_eta_squared(radius));
     EXPECT_GE(weight, 0.0);
     EXPECT_EQ(weight, shao_lo_laplacian_weight(0.01, 1.1, 0.7, r, dW, shao_lo_eta_squared(radius)));
-    if (r >= least_morris_distance * dx) {
+    if (r >= min_morris_distance * dx) {
       const double morris = morris_laplacian_weight(0.01, -dW / r, r * r, dx);
       EXPECT_NEAR(shao_lo_laplacian_weight(0.01, 1.0, 1.0, r, dW, 0.0), morris, 8.0 * eps * morris);
     }

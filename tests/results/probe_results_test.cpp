@@ -94,7 +94,7 @@ TEST(ProbeTable, HasTheMagnitudeOfAForceAndTheLinesOfTheLastTime) {
   std::ofstream(path) << "time_s,force_x_N_per_m,force_y_N_per_m\n0,1,0\n1,3,4\n1,0,-2\n";
   const TableDigest table = digest_probe_table(path, 0.5);
   EXPECT_DOUBLE_EQ(table.magnitude_of_force.largest, 5.0);
-  EXPECT_EQ(table.columns[1].least_of_last, -2.0);
+  EXPECT_EQ(table.columns[1].min_of_last, -2.0);
   EXPECT_EQ(table.columns[1].largest_of_last, 4.0);
 }
 

@@ -19,7 +19,7 @@ constexpr double round_off = 1e-13;
 
 FluidParticles<2> fluid_of(const CaseSpec& spec) { return make_fluid_particles<2>(spec, make_boundary<2>(spec)); }
 
-double least_distance(const std::vector<Vec<2>>& points) {
+double min_distance(const std::vector<Vec<2>>& points) {
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) least = std::min(least, (points[i] - points[j]).norm());
@@ -214,7 +214,7 @@ TEST(FluidLattice, PolygonStandsOffASlantedWall) {
       EXPECT_GE(boundary.nearest(x, 1.0).signed_distance, (0.25 - 1e-9) * dx) << x.transpose();
     }
     if (jitter == 0.0) {
-      EXPECT_GE(least_distance(fluid.position), 0.75 * dx - round_off) << "moved by at most dx/4";
+      EXPECT_GE(min_distance(fluid.position), 0.75 * dx - round_off) << "moved by at most dx/4";
       EXPECT_NEAR(total_volume(fluid), 0.8 - 0.5 * 0.37, 1e-12);
       EXPECT_EQ(fluid.position.size(), 246u) << "cells in this area";
     }

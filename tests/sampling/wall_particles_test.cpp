@@ -38,7 +38,7 @@ int find_at(const WallParticles<Dim>& particles, const Vec<Dim>& x) {
 }
 
 template <int Dim>
-double least_distance(const WallParticles<Dim>& particles) {
+double min_distance(const WallParticles<Dim>& particles) {
   double least = std::numeric_limits<double>::max();
   for (std::size_t i = 0; i < particles.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) least = std::min(least, (particles.position[i] - particles.position[j]).norm());
@@ -60,7 +60,7 @@ void expect_behind_walls(const WallParticles<Dim>& particles, Boundary<Dim> boun
   for (const Vec<Dim>& x : particles.position) {
     EXPECT_LE(boundary.nearest(x, 1e9).signed_distance, -(0.5 - 1e-6) * spacing) << x.transpose();
   }
-  EXPECT_GE(least_distance(particles), (0.5 - 1e-6) * spacing);
+  EXPECT_GE(min_distance(particles), (0.5 - 1e-6) * spacing);
 }
 
 // The wall is extended by the depth of its layers beyond each end at which no wall of the same body stands.
@@ -144,7 +144,7 @@ TEST(Dummies, SkipRowsThatHaveFlipped) {
   spec.walls = {box_wall({0, 0}, {0.3, 2.0}, {}, FluidSide::outside)};
   const WallParticles<2> dummies = dummies_behind(make_boundary<2>(spec), 0.1);
   EXPECT_EQ(dummies.size(), 3u * 20u) << "three cells wide: two rings, the inner one a single column";
-  EXPECT_NEAR(least_distance(dummies), 0.1, round_off);
+  EXPECT_NEAR(min_distance(dummies), 0.1, round_off);
 }
 
 // A bed that rises by 45 degrees and, mirrored, one that falls: rows meet on the bisector.
@@ -396,7 +396,7 @@ TEST(Dummies, FillTheTipOfASharpCrest) {
   const WallParticles<2> dummies = dummies_behind(sharp, 0.1);
   EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.55}), 0);
   EXPECT_GE(find_at<2>(dummies, {1.0 + half, 0.50}), 0);
-  EXPECT_GE(least_distance(dummies), (0.5 - 1e-6) * 0.1);
+  EXPECT_GE(min_distance(dummies), (0.5 - 1e-6) * 0.1);
   for (const Vec<2>& x : dummies.position) EXPECT_LT(sharp.nearest(x, 1e9).signed_distance, 0.0) << x.transpose();
 
   spec.walls = {box_wall({0.0, 0.0}, {1.0, 1.0}, {}, FluidSide::outside)};

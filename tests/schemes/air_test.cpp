@@ -140,13 +140,13 @@ Motion move_column(const CaseSpec& spec, double periods, int steps_per_period, d
   Oscillation oscillation(mean_velocity(flow));
   Motion found;
   const double first_energy = energy_of_all(flow, dt);
-  double least_energy = first_energy;
+  double min_energy = first_energy;
   for (int n = 0; n < periods * steps_per_period; ++n) {
     if (n % 10 == 0) sort_particles(flow);
     advance(flow, dt);
     const double energy = energy_of_all(flow, dt);
-    found.energy_rise = std::max(found.energy_rise, (energy - least_energy) / first_energy);
-    least_energy = std::min(least_energy, energy);
+    found.energy_rise = std::max(found.energy_rise, (energy - min_energy) / first_energy);
+    min_energy = std::min(min_energy, energy);
     const double pressure = air_of(flow).measures().pressure;
     found.largest_pressure = std::max(found.largest_pressure, pressure);
     if (oscillation.turns() < 2 && pressure > half_pressure) found.impulse_time += dt;
@@ -271,14 +271,14 @@ TEST(VentedColumn, SinksAsTheDifferentialEquationSays) {
     double error_of_pressure = 0.0;
     double largest_velocity = 0.0;
     double largest_pressure = 0.0;
-    double least_energy = energy;
+    double min_energy = energy;
     double energy_rise = 0.0;
     while (flow.state.time < 0.3) {
       if (flow.state.step % 10 == 0) sort_particles(flow);
       advance(flow, dt);
       const double energy_now = energy_of_all(flow, dt);
-      energy_rise = std::max(energy_rise, energy_now - least_energy);
-      least_energy = std::min(least_energy, energy_now);
+      energy_rise = std::max(energy_rise, energy_now - min_energy);
+      min_energy = std::min(min_energy, energy_now);
       for (int n = 0; n < 200; ++n) exact.go_on(dt / 200.0, area / std::sqrt(vent.loss) / width);
       largest_velocity = std::max(largest_velocity, std::abs(exact.velocity));
       largest_pressure = std::max(largest_pressure, exact.pressure());

@@ -546,10 +546,10 @@ TEST(RanksTest, TheDensestWaterIsTheSameOnAllRanks) {
 /// prediction and its divergence.
 TEST(RanksTest, DamBreakWithinTheSolversTolerance) {
   const double end = 2.0 * std::sqrt(0.6 / g);
-  constexpr int most_steps = 500;  // far more than needed; with a water explosion the steps would become ever smaller
+  constexpr int max_steps = 500;  // far more than needed; with a water explosion the steps would become ever smaller
   const auto energy_at_end = [&](Flow<2>& flow) {
     start(flow);
-    while (flow.state.time < end && flow.state.step < most_steps) pass_and_step(flow);
+    while (flow.state.time < end && flow.state.step < max_steps) pass_and_step(flow);
     EXPECT_GE(flow.state.time, end);
     return measure(flow).energy();
   };

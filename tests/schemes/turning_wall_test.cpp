@@ -192,14 +192,14 @@ TEST(TurningWall, IsNoSurfaceForWaterThatHasLeftItByPartOfARow) {
   find_interior<2>(flow.pairs(), flow.state.particles, flow.surroundings.concentration,
                    flow.setup.scale.kernel_values.W_0, by_neighbours);
   double least = 1.0;
-  double least_by_neighbours = 1.0;
+  double min_by_neighbours = 1.0;
   for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {
     const Vec<2>& x = flow.state.particles.position[i];
     if (!flow.state.particles.is_fluid(i) || x.norm() > 1.0 + dx || x[0] < 0.95 * x.norm()) continue;
     least = std::min(least, flow.surroundings.interior[i]);
-    least_by_neighbours = std::min(least_by_neighbours, by_neighbours[i]);
+    min_by_neighbours = std::min(min_by_neighbours, by_neighbours[i]);
   }
-  EXPECT_LT(least_by_neighbours, 0.1);
+  EXPECT_LT(min_by_neighbours, 0.1);
   EXPECT_GT(least, 0.7);
 }
 
