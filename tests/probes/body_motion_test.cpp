@@ -38,8 +38,8 @@ TYPED_TEST(RollingBody, HasAnAngleWithItsWholeTurns) {
     const Row row = reading.take(context).at(0);
     for (int k = 0; k < turns<dim>; ++k) EXPECT_NEAR(row[dim + k], angle * axis[k], 1e-9) << "angle " << angle;
   };
-  for (int step = 0; step <= 60; ++step) read_at(0.3 * step);
-  for (int step = 60; step >= 40; --step) read_at(0.3 * step);
+  for (int n = 0; n <= 60; ++n) read_at(0.3 * n);
+  for (int n = 60; n >= 40; --n) read_at(0.3 * n);
   const std::vector<double> totals = reading.totals();
   EXPECT_NEAR(totals[2 * dim], 0.0, 1e-12);
   EXPECT_NEAR(totals[2 * dim + 1], 18.0 * axis[0], 1e-9);
