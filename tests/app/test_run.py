@@ -338,7 +338,7 @@ class Messages(ProgramTest):
         *progress, depth, pressure, energy, last = result.stderr.splitlines()
         self.assertEqual(last, "done: results in run")
         self.assertRegex(depth, r"^depth: 0\.\d+ m \(mean of the second half, still falling\), highest 0\.\d+ m \(at [\d.]+ s\)$")
-        self.assertRegex(pressure, r"^wall_pressure: \d+ Pa \(mean of the second half\), largest \d+ Pa.*, impulse [\d.]+ Pa s \(at ")
+        self.assertRegex(pressure, r"^wall_pressure: \d+ Pa \(mean of the second half, still rising\), largest \d+ Pa.*, impulse [\d.]+ Pa s \(at ")
         self.assertRegex(energy, r"^energy: \d+ J per m \(at 0\.1\d* s\)$")
         self.assertEqual(self.summary("run")["results"]["depth"]["words"], depth.removeprefix("depth: "))
         self.assertRegex(progress[0], r"^ +\d+\.\d %  t = 0\.0\d+ s  ETA ")

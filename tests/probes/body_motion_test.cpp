@@ -22,6 +22,7 @@ TYPED_TEST(RollingBody, HasAnAngleWithItsWholeTurns) {
   body.mass = 1.0;
   body.centre.assign(dim, 0.5);
   body.inertia.assign(turns<dim>, 1.0);
+  body.velocity.assign(dim, 0.0);
   tank.spec.bodies = {body};
   ProbeTable probe;
   probe.type = ProbeType::motion;
