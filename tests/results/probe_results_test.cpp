@@ -145,7 +145,8 @@ TEST_F(Results, AreToldInWords) {
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]",
             "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,0,0\n1.5,99,50\n2,9000,6050\n3,7000,7050\n4,900,7950\n", 4.0, 3),
-      "950.0 Pa (mean of the second half, still falling), largest 12000 Pa (at 2 s, mean over 0.5 s), risen in 0.5000 s (from a tenth "
+      "950.0 Pa (mean of the second half, still falling), largest 12000 Pa (at 2 s, mean over 0.5 s), risen in 0.5000 "
+      "s (from a tenth "
       "of it), "
       "impulse 7950 Pa s (at 4 s)");
   EXPECT_EQ(
