@@ -189,6 +189,7 @@ void FloatingBodies<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*s
 
 template <int Dim>
 bool FloatingBodies<Dim>::is_at_end_of_period(const Flow<Dim>& flow, std::size_t b) const {
+  if (std::ranges::none_of(flow.setup.domain, [](const auto& range) { return range.has_value(); })) return false;
   const double support = kernel_radius(flow.setup.scale.kernel);
   Box<Dim> box;
   for (const Vec<Dim>& point : contact.points[b]) box.extend(flow.state.motion.bodies.each[b].placement(point));
