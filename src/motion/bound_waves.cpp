@@ -15,9 +15,9 @@ namespace {
 /// Change of one of two equal frequencies, whose difference has the limit of close ones.
 constexpr double min_difference = 1e-4;
 
-/// The horizontal velocity of the sum (`sign` 1) or difference (-1) of two waves at the still water's level, in
-/// phase with the sum or difference of their angles: the solution of second_order.h
-/// for two waves that travel. The wave number of a difference is that of `one` less that of `other`.
+/// The horizontal velocity of the sum (`sign` 1) or difference (-1) of two waves at the still water's level, in phase
+/// with the sum or difference of their angles: the solution of second_order.h for two waves that travel. The wave
+/// number of a difference is that of `one` less that of `other`.
 double pair_velocity(const TravellingWave& one, const TravellingWave& other, double sign, double gravity,
                      double depth) {
   const double k = one.wave_number;
