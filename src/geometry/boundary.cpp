@@ -47,17 +47,17 @@ double distance_along_axes(const WallFace<Dim>& face, const Vec<Dim>& x) {
 template <int Dim>
 class WallSearch {
  public:
-  /// The search passes over the walls `without`.
+  /// `counts` says of each wall whether it takes part; empty: all do.
   WallSearch(const Boundary<Dim>& boundary, const Vec<Dim>& x, double search_distance,
-             std::span<const int> without = {})
-      : boundary_(boundary), x_(x), best_{{}, search_distance}, without_(without) {}
+             std::span<const std::uint8_t> counts = {})
+      : boundary_(boundary), x_(x), best_{{}, search_distance}, counts_(counts) {}
 
   const NearestWall<Dim>& nearest() const { return best_.wall; }
   bool is_on_rim() const { return best_.is_on_rim; }
 
   void visit_face(int f) {
     const WallFace<Dim>& face = boundary_.faces[f];
-    if (is_left_out(face.wall)) return;
+    if (!takes(face.wall)) return;
     const double tolerance = 1e-9 * (face.corners[1] - face.corners[0]).norm();
     const double height = face.height(x_);
     // Cheap lower bounds of the distance exclude most faces.
@@ -77,8 +77,9 @@ class WallSearch {
     }
   }
 
+ private:
   void visit_mesh(const WallMesh& mesh) {
-    if (is_left_out(mesh.wall)) return;
+    if (!takes(mesh.wall)) return;
     const Vec<Dim> moved = boundary_.displacement_of(mesh);
     SurfacePlace place = mesh.surface->nearest(x_ - moved, best_.distance);
     if (place.triangle < 0) return;
@@ -93,8 +94,7 @@ class WallSearch {
     best_ = {{face, place.point + moved, place.signed_distance}, distance, plane_distance, place.is_on_rim};
   }
 
- private:
-  bool is_left_out(int wall) const { return !without_.empty() && std::ranges::find(without_, wall) != without_.end(); }
+  bool takes(int wall) const { return counts_.empty() || counts_[static_cast<std::size_t>(wall)] != 0; }
 
   static bool is_at_ended_edge(const WallMesh& mesh, const SurfacePlace& place) {
     return !mesh.ended_edges.empty() &&
@@ -104,8 +104,16 @@ class WallSearch {
   const Boundary<Dim>& boundary_;
   const Vec<Dim>& x_;
   WallInSight<Dim> best_;  ///< no face and the search distance until a wall is found
-  std::span<const int> without_;
+  std::span<const std::uint8_t> counts_;
 };
+
+/// The search among all faces and meshes, without the grid of faces.
+template <int Dim>
+WallSearch<Dim> search_all(const Boundary<Dim>& boundary, WallSearch<Dim> search) {
+  boundary.visit_plain_faces([&](int f) { search.visit_face(f); });
+  search.visit_meshes();
+  return search;
+}
 
 /// Walls touch that are nearer than this fraction of the distances in question.
 constexpr double touch = 1e-4;
@@ -145,19 +153,21 @@ NearestWall<Dim> behind_crossing(const Boundary<Dim>& boundary, const Vec<Dim>& 
   if constexpr (Dim == 3) {
     if (boundary.meshes.empty() || nearest.face < 0 || nearest.signed_distance < 0.0) return nearest;
     const int first = boundary.faces[nearest.face].wall;
-    std::vector<int> nearer{first};
-    while (nearer.size() < boundary.walls.size()) {
-      const WallSearch<Dim> found = search({boundary, x, search_distance, nearer});
+    std::vector<int> between;  // walls that are nearer than the next, but the first
+    std::vector<std::uint8_t> is_left(boundary.walls.size(), 1);
+    is_left[static_cast<std::size_t>(first)] = 0;
+    while (between.size() + 1 < boundary.walls.size()) {
+      const WallSearch<Dim> found = search({boundary, x, search_distance, is_left});
       const NearestWall<Dim>& next = found.nearest();
       if (next.face < 0) break;
       const int wall = boundary.faces[next.face].wall;
       const bool is_behind = next.signed_distance < 0.0 && !found.is_on_rim();
       if (is_behind && cross_near(boundary, first, wall, x, -next.signed_distance) &&
-          std::none_of(nearer.begin() + 1, nearer.end(),
-                       [&](int other) { return is_between(boundary, other, x, next.point); })) {
+          std::ranges::none_of(between, [&](int other) { return is_between(boundary, other, x, next.point); })) {
         return next;
       }
-      nearer.push_back(wall);
+      between.push_back(wall);
+      is_left[static_cast<std::size_t>(wall)] = 0;
     }
   }
   return nearest;
@@ -245,19 +255,15 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
     search.visit_meshes();
     return search;
   };
-  const auto search_all = [&](WallSearch<Dim> search) {
-    visit_plain_faces([&](int f) { search.visit_face(f); });
-    search.visit_meshes();
-    return search;
-  };
   if (filed_distance > 0.0) {  // first, because most points are near a wall
     const double distance = std::min(search_distance, filed_distance);
     const NearestWall<Dim> wall = search_filed({*this, x, distance}).nearest();
     if (wall.face >= 0) return behind_crossing(*this, x, distance, wall, search_filed);
     if (search_distance <= filed_distance) return wall;
-    return search_all({*this, x, search_distance}).nearest();
+    return search_all<Dim>(*this, {*this, x, search_distance}).nearest();
   }
-  return behind_crossing(*this, x, search_distance, search_all({*this, x, search_distance}).nearest(), search_all);
+  return behind_crossing(*this, x, search_distance, search_all<Dim>(*this, {*this, x, search_distance}).nearest(),
+                         [&](const WallSearch<Dim>& search) { return search_all(*this, search); });
 }
 
 template <int Dim>
@@ -285,17 +291,7 @@ bool Boundary<Dim>::is_free_end(int face, const Vec<Dim>& x) const {
 template <int Dim>
 NearestWall<Dim> nearest_among(const Boundary<Dim>& boundary, std::span<const std::uint8_t> is_part, const Vec<Dim>& x,
                                double search_distance) {
-  const auto takes = [&](int wall) { return is_part[static_cast<std::size_t>(wall)] != 0; };
-  WallSearch<Dim> search(boundary, x, search_distance);
-  boundary.visit_plain_faces([&](int f) {
-    if (takes(boundary.faces[f].wall)) search.visit_face(f);
-  });
-  if constexpr (Dim == 3) {
-    for (const WallMesh& mesh : boundary.meshes) {
-      if (takes(mesh.wall)) search.visit_mesh(mesh);
-    }
-  }
-  return search.nearest();
+  return search_all<Dim>(boundary, {boundary, x, search_distance, is_part}).nearest();
 }
 
 TAILWATER_IN_2D_AND_3D(nearest_among);
