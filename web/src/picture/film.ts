@@ -1,4 +1,5 @@
-// A film of the picture: the moments of a span of time, drawn one after the other and recorded as WebM.
+// A film of the picture: the moments of a span of time, drawn one after the other and encoded as WebM.
+import { ArrayBufferTarget, Muxer } from "webm-muxer";
 import type { App } from "../app.ts";
 import { compose } from "./still.ts";
 import { saveText } from "./save.ts";
@@ -13,60 +14,52 @@ export interface FilmPlan {
 
 export const pictures = (plan: FilmPlan) => Math.max(2, Math.round(((plan.to - plan.from) / plan.speed) * plan.rate) + 1);
 
-/** The first kind of film that this browser can record; "" if none. */
-export function filmType(): string {
-  const kinds = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
-  return typeof MediaRecorder === "undefined" ? "" : (kinds.find((kind) => MediaRecorder.isTypeSupported(kind)) ?? "");
+/** Whether this browser can encode films. */
+export const isFilmPossible = () => typeof VideoEncoder !== "undefined";
+
+/** The first kind of film that this browser can encode at this size: its name in WebM and what the encoder asks for. */
+async function encoding(size: { width: number; height: number }): Promise<[name: string, VideoEncoderConfig]> {
+  for (const [name, codec] of [["V_VP9", "vp09.00.51.08"], ["V_VP8", "vp8"]] as const) {
+    const config = { ...size, codec, bitrate: 8e6 };
+    if ((await VideoEncoder.isConfigSupported(config)).supported) return [name, config];
+  }
+  throw new Error("This browser cannot encode films of this size; remedy: a smaller window, or Chromium, Chrome, Edge or Firefox.");
 }
 
-/** Records the film; `tell` hears how far it is and may end it by returning false. */
+/** Makes the film; `tell` hears how far it is and may end it by returning false. Each picture has its own time in the film,
+ * however long a busy machine took to draw it. */
 export async function record(app: App, plan: FilmPlan, tell: (share: number) => boolean): Promise<Blob | null> {
   const canvas = document.createElement("canvas");
   compose(app, canvas);
-  const stream = canvas.captureStream(0); // pictures on request: at a fixed rate a busy machine took none at times
-  const track = stream.getVideoTracks()[0] as CanvasCaptureMediaStreamTrack;
-  const recorder = new MediaRecorder(stream, { mimeType: filmType(), videoBitsPerSecond: 8e6 });
-  const chunks: Blob[] = [];
-  recorder.ondataavailable = (event) => chunks.push(event.data);
-  const ended = new Promise<void>((resolve) => (recorder.onstop = () => resolve()));
-  const taken = watch(stream);
+  const { width, height } = canvas;
+  const [codec, config] = await encoding({ width, height });
+  const muxer = new Muxer({ target: new ArrayBufferTarget(), video: { codec, width, height, frameRate: plan.rate } });
+  let fault: Error | undefined;
+  const encoder = new VideoEncoder({ output: (chunk, about) => muxer.addVideoChunk(chunk, about), error: (error) => (fault = error) });
+  encoder.configure(config);
   const n = pictures(plan);
   const before = app.player.time;
   let whole = true;
   app.recording = true;
-  await shown(app, plan.from);
-  compose(app, canvas);
-  recorder.start();
-  for (let i = 0; i < n && whole; ++i) {
-    recorder.pause(); // only pictures that are ready go into the film
-    await shown(app, plan.from + ((plan.to - plan.from) * i) / (n - 1));
-    recorder.resume();
-    compose(app, canvas);
-    const isTaken = taken();
-    track.requestFrame();
-    await Promise.all([isTaken, new Promise((resolve) => setTimeout(resolve, 1000 / plan.rate))]);
-    whole = tell((i + 1) / n);
+  try {
+    for (let i = 0; i < n && whole; ++i) {
+      await shown(app, plan.from + ((plan.to - plan.from) * i) / (n - 1));
+      compose(app, canvas);
+      const picture = new VideoFrame(canvas, { timestamp: (1e6 * i) / plan.rate, duration: 1e6 / plan.rate });
+      encoder.encode(picture, { keyFrame: i % (2 * plan.rate) === 0 }); // a player can go to each second second
+      picture.close();
+      while (encoder.encodeQueueSize > 8 && !fault) await new Promise((resolve) => encoder.addEventListener("dequeue", resolve, { once: true }));
+      if (fault) throw fault;
+      whole = tell((i + 1) / n);
+    }
+    await encoder.flush();
+  } finally {
+    if (encoder.state !== "closed") encoder.close();
+    app.recording = false;
+    app.player.seek(before);
   }
-  recorder.stop();
-  await ended;
-  stream.getTracks().forEach((track) => track.stop());
-  app.recording = false;
-  app.player.seek(before);
-  return whole ? new Blob(chunks, { type: recorder.mimeType }) : null;
-}
-
-/** A function whose promise resolves when the stream has taken its next picture: on a busy machine tens of milliseconds
- * after the request, when a paused recorder would miss it. */
-function watch(stream: MediaStream): () => Promise<void> {
-  const video = document.createElement("video");
-  video.muted = true;
-  video.srcObject = stream;
-  void video.play().catch(() => {});
-  return () =>
-    new Promise((resolve) => {
-      video.requestVideoFrameCallback(() => resolve());
-      setTimeout(resolve, 1000); // a picture that never comes must not hold the film up
-    });
+  muxer.finalize();
+  return whole ? new Blob([muxer.target.buffer], { type: "video/webm" }) : null;
 }
 
 /** Shows a moment and waits until its own frames are on the screen. */
@@ -83,5 +76,5 @@ function shown(app: App, time: number): Promise<void> {
 }
 
 export function saveFilm(app: App, film: Blob): void {
-  saveText(`${app.shown()[0]?.name ?? "tailwater"}.${film.type.includes("mp4") ? "mp4" : "webm"}`, film.type, film);
+  saveText(`${app.shown()[0]?.name ?? "tailwater"}.webm`, film.type, film);
 }

@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { App } from "../app.ts";
 import { Dialog } from "../dialog.tsx";
 import { number } from "../units.ts";
-import { filmType, pictures, record, saveFilm } from "./film.ts";
+import { isFilmPossible, pictures, record, saveFilm } from "./film.ts";
 
 export function FilmDialog({ app }: { app: App }) {
   const [start, end] = app.player.range;
@@ -39,8 +39,8 @@ export function FilmDialog({ app }: { app: App }) {
   );
   return (
     <Dialog title="A film of this view" kind="film" close={() => app.look.change({ dialog: "" })}>
-      {filmType() === "" ? (
-        <p>This browser cannot record films; remedy: Chromium, Chrome, Edge or Firefox.</p>
+      {!isFilmPossible() ? (
+        <p>This browser cannot encode films; remedy: Chromium, Chrome, Edge or Firefox of 2024 or later.</p>
       ) : (
         <>
           {field("From, s", from, setFrom)}
