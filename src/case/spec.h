@@ -647,6 +647,7 @@ struct RefinementTable {
   std::vector<Coordinates> points;
   std::vector<std::string> walls;
   double distance = 0.0;
+  VectorField displacement;
   int level = 1;
 
   bool operator==(const RefinementTable&) const = default;
@@ -667,6 +668,9 @@ struct RefinementTable {
     v.number("distance", self.distance, "m", Range::above(0.0),
              "Distance from the walls, or depth below the highest water at the start, up to which the spacing is the "
              "finest; beyond, it grows over 4 dx per level");
+    v.field("displacement", self.displacement, Variables::time, "m",
+            "Displacement of the zone from its drawn place, for a zone that follows a bore or a wave (default: none); "
+            "expressions may use the time t");
     v.integer("level", self.level, "", Range::between(1, 4), "The spacing inside is particles.spacing / 2^level");
   }
 };

@@ -1,6 +1,7 @@
 #include "refinement/spacing_field.h"
 
 #include "base/box.h"
+#include "base/fp_traps.h"
 #include "case/formulation.h"
 #include "checks/checks.h"
 #include "checks/swept_box.h"
@@ -100,22 +101,24 @@ Findings check_depth(const CaseSpec& spec, const Box<Dim>& all, const typename S
       {"make the polygon wider, let it reach beyond the outermost walls, or use a lower level"})};
 }
 
+/// A zone that moves beside others.
+Findings check_alone(const CaseSpec& spec, const CaseLabel& owner) {
+  if (spec.refinement.size() == 1) return {};
+  return {Finding::error("moving-zone-not-alone", {"{} moves: a zone that moves must be the only one", owner},
+                         {"remove the other zones, or give a fixed box that contains its path"})};
+}
+
 /// A zone that is carried by walls, where it cannot be.
 template <int Dim>
 Findings check_carried(const CaseSpec& spec, const Boundary<Dim>& boundary, int carrier, const RefinementTable& table,
                        const CaseLabel& owner) {
-  Findings findings;
+  Findings findings = check_alone(spec, owner);
   const CaseLabel by = wall_label(boundary, carrier);
   for (const WallProperties& wall : boundary.walls) {
     if (wall.body == boundary.walls[carrier].body || std::ranges::count(table.walls, wall.name) == 0) continue;
     findings.push_back(Finding::error("zone-walls-move-apart",
                                       {"{} moves with {}, and '{}' does not move with that wall", owner, by, wall.name},
                                       {"name walls of one body only, or give shape = \"box\""}));
-  }
-  if (spec.refinement.size() > 1) {
-    findings.push_back(Finding::error("moving-zone-not-alone",
-                                      {"{} moves with {}: a zone that moves must be the only one", owner, by},
-                                      {"remove the other zones, or give a fixed box that contains its path"}));
   }
   bool repeats = false;
   for (int axis = 0; axis < Dim; ++axis) repeats = repeats || !periodic_range(spec.domain, axis).empty();
@@ -154,26 +157,42 @@ Findings check_width(const CaseSpec& spec, const Box<Dim>& all, const typename S
   return {};
 }
 
+/// Where a zone that moves is, from where it is drawn, at instants of the run.
+template <int Dim>
+std::vector<AffineMap<Dim>> path_of_zone(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                         const SpacingField<Dim>& field) {
+  if (field.carrier() >= 0) {
+    std::vector<AffineMap<Dim>> path = path_of_wall(spec, boundary, field.carrier());
+    if (spec.walls[field.carrier()].drive.by == Drive::By::body) path.resize(1);
+    return path;
+  }
+  constexpr int looks = 100;
+  std::vector<AffineMap<Dim>> path;
+  for (int k = 0; k <= looks; ++k) path.emplace_back().constant = field.displacement(spec.time.end * k / looks);
+  return path;
+}
+
 /// Whether a zone and its border meet a box at some place of the zone's path.
 template <int Dim>
-bool comes_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone,
+bool comes_near(const CaseSpec& spec, const SpacingField<Dim>& field, const typename SpacingField<Dim>::Zone& zone,
                 const std::vector<AffineMap<Dim>>& path, const Box<Dim>& box) {
   const double margin = clearance * spec.particles.spacing;
   bool is_near = false;
   visit_places<Dim>(spec, box, [&](const Vec<Dim>& x) {
-    for (const AffineMap<Dim>& map : path) is_near = is_near || zone.depth->depth(map.inverse(x)) > -margin;
+    for (const AffineMap<Dim>& map : path) is_near = is_near || field.depth_in(zone, map.inverse(x)) > -margin;
   });
   return is_near;
 }
 
 /// Whether a zone and its border meet a box.
 template <int Dim>
-bool is_near(const CaseSpec& spec, const typename SpacingField<Dim>::Zone& zone, const Box<Dim>& box) {
+bool is_near(const CaseSpec& spec, const SpacingField<Dim>& field, const typename SpacingField<Dim>::Zone& zone,
+             const Box<Dim>& box) {
   const double margin = clearance * spec.particles.spacing;
   Box<Dim> wider = box;
   wider.widen(margin);
   if (zone.depth == nullptr || !zone.box.intersects(wider)) return zone.box.intersects(wider);
-  return comes_near<Dim>(spec, zone, {AffineMap<Dim>()}, box);
+  return comes_near<Dim>(spec, field, zone, {AffineMap<Dim>()}, box);
 }
 
 /// Distance [m] from the faces of a zone at which water has its finest spacing in all of a support.
@@ -201,17 +220,17 @@ Findings check_way(const CaseSpec& spec, const Boundary<Dim>& boundary, const Sp
                    const CaseLabel& owner) {
   Findings findings;
   const auto& zone = field.zones().front();
-  std::vector<AffineMap<Dim>> path = path_of_wall(spec, boundary, field.carrier());
-  if (spec.walls[field.carrier()].drive.by == Drive::By::body) path.resize(1);
+  const std::vector<AffineMap<Dim>> path = path_of_zone(spec, boundary, field);
+  const int body = field.carrier() < 0 ? resting_body : boundary.walls[field.carrier()].body;
   const auto refuse_near = [&](const Box<Dim>& box, const CaseLabel& what) {
-    if (!comes_near<Dim>(spec, zone, path, box)) return;
+    if (!comes_near<Dim>(spec, field, zone, path, box)) return;
     findings.push_back(Finding::error("moving-zone-near-part",
                                       {"{} moves and comes within {:g} spacings of {}", owner, clearance, what},
-                                      {"reduce its distance, or give a box that contains both"}));
+                                      {"keep it farther from there, or give a box at rest that contains both"}));
   };
   for (std::size_t w = 0; w < boundary.walls.size(); ++w) {
     const int wall = static_cast<int>(w);
-    if (!boundary.walls[w].moves() || boundary.walls[w].body == boundary.walls[field.carrier()].body) continue;
+    if (!boundary.walls[w].moves() || boundary.walls[w].body == body) continue;
     refuse_near(swept_box(spec, boundary, wall), wall_label(boundary, wall));
   }
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) refuse_near(box_around(end.as_faces()), end.label());
@@ -220,7 +239,7 @@ Findings check_way(const CaseSpec& spec, const Boundary<Dim>& boundary, const Sp
 
 /// Walls that move and open ends beside a zone.
 template <int Dim>
-Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
+Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary, const SpacingField<Dim>& field,
                           const typename SpacingField<Dim>::Zone& zone, const CaseLabel& owner) {
   Findings findings;
   const std::string within = fmt::format(" within {:g} spacings", clearance);
@@ -229,7 +248,7 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
     const int wall = static_cast<int>(w);
     if (!boundary.walls[wall].moves()) continue;
     const Box<Dim> swept = swept_box(spec, boundary, wall);
-    if (!is_near<Dim>(spec, zone, swept) || is_inside<Dim>(spec, zone, swept)) continue;
+    if (!is_near<Dim>(spec, field, zone, swept) || is_inside<Dim>(spec, zone, swept)) continue;
     if (body_of_wall[wall] >= 0) {
       findings.push_back(refused(
           owner, "bodies" + within + " of its border",
@@ -247,12 +266,40 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary,
   }
   for (const Opening<Dim>& end : make_open_ends<Dim>(spec)) {
     const Box<Dim> box = box_around(end.as_faces());
-    if (!is_near<Dim>(spec, zone, box) || is_inside<Dim>(spec, zone, box)) continue;
+    if (!is_near<Dim>(spec, field, zone, box) || is_inside<Dim>(spec, zone, box)) continue;
     findings.push_back(refused(owner, "inlets and outlets" + within + " of its border",
                                {"end the zone farther from {}, or let it reach at least {:.4g} m beyond it",
                                 end.label(), margin_inside<Dim>(spec, zone)}));
   }
   return findings;
+}
+
+/// A zone with a displacement of its own.
+template <int Dim>
+Findings check_displaced(const CaseSpec& spec, const Boundary<Dim>& boundary, const SpacingField<Dim>& field,
+                         const CaseLabel& owner) {
+  const SuspendFpTraps suspended;  // a displacement may not be finite
+  Findings findings = check_alone(spec, owner);
+  if (!findings.empty()) return findings;
+  const std::vector<AffineMap<Dim>> path = path_of_zone(spec, boundary, field);
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (path[k].constant.allFinite()) continue;
+    return {Finding::error("value-not-finite-in-time",
+                           {"{} has no finite value at t = {:.6g} s", owner.with_key("displacement"),
+                            spec.time.end * static_cast<double>(k) / static_cast<double>(path.size() - 1)},
+                           {"give an expression that has one during the whole run"})};
+  }
+  return check_way(spec, boundary, field, owner);
+}
+
+/// Whether a zone is in a box at some time.
+template <int Dim>
+bool comes_into(const Box<Dim>& box, const CaseSpec& spec, const Boundary<Dim>& boundary,
+                const SpacingField<Dim>& field, const typename SpacingField<Dim>::Zone& zone) {
+  if (!field.moves() || field.carrier() >= 0) return box.intersects(zone.box);
+  return std::ranges::any_of(path_of_zone(spec, boundary, field), [&](const AffineMap<Dim>& map) {
+    return box.intersects(Box<Dim>(zone.box.min() + map.constant, zone.box.max() + map.constant));
+  });
 }
 
 }  // namespace
@@ -267,7 +314,7 @@ Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, cons
     const CaseLabel owner("refinement", table.name);
     const auto& zone = field.zones()[n];
     append(findings, check_features(spec, owner));
-    if (!box.intersects(zone.box)) {
+    if (!comes_into(box, spec, drawn, field, zone)) {
       findings.push_back(Finding::error("zone-outside-case",
                                         {"{} is outside of the case, whose walls and water lie between {} and {}: it "
                                          "would refine nothing",
@@ -284,7 +331,8 @@ Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, cons
     append(findings, check_period<Dim>(spec, zone, owner));
     if (zone.depth == nullptr) append(findings, check_width<Dim>(spec, box, zone, owner));
     if (table.shape == ZoneShape::polygon) append(findings, check_depth<Dim>(spec, box, zone, owner));
-    append(findings, check_neighbours(spec, drawn, zone, owner));
+    append(findings, field.moves() ? check_displaced(spec, drawn, field, owner)
+                                   : check_neighbours(spec, drawn, field, zone, owner));
   }
   return findings;
 }

@@ -7,6 +7,7 @@
 #include "flow/stages.h"
 #include "motion/wall_motion.h"
 #include "neighbours/pair_lanes.h"
+#include "operators/graded_sums.h"
 
 namespace tailwater {
 namespace {
@@ -32,7 +33,15 @@ double largest_speed_over_spacing(const Flow<Dim>& flow) {
   }));
 }
 
-/// The largest distance [m] of a corner of a wall from its present position, within the next `dt` [s].
+/// Whether walls or zones of refinement move.
+template <int Dim>
+bool something_moves(const Flow<Dim>& flow) {
+  const Setup<Dim>& setup = flow.setup;
+  return !setup.wall_motion->moving().empty() || (setup.graded != nullptr && setup.graded->field().moves());
+}
+
+/// The largest distance [m] of a corner of a wall, or of a zone of refinement, from its present position, within the
+/// next `dt` [s].
 template <int Dim>
 double largest_displacement_within(const Flow<Dim>& flow, double dt) {
   const double time = flow.state.time;
@@ -41,6 +50,9 @@ double largest_displacement_within(const Flow<Dim>& flow, double dt) {
   for (int k = 1; k <= looks; ++k) {
     const double to = k == looks ? time + dt : time + k * dt / looks;
     farthest = std::max(farthest, flow.setup.wall_motion->largest_displacement(time, to, flow.state.motion));
+    if (flow.setup.graded == nullptr) continue;
+    const SpacingField<Dim>& field = flow.setup.graded->field();
+    farthest = std::max(farthest, (field.displacement(to) - field.displacement(time)).norm());
   }
   return farthest;
 }
@@ -97,10 +109,10 @@ double next_time_step(const Flow<Dim>& flow) {
   const Setup<Dim>& setup = flow.setup;
   const StepLimits limits = step_limits(flow);
   double dt = std::min(step_of_water(flow, limits), limits.step);
-  if (setup.wall_motion->moving().empty()) return dt;
+  if (!something_moves(flow)) return dt;
   if (setup.time_step_rule.reference_speed == 0.0) dt = std::min(dt, time_between_looks);
-  // Walls obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their speed,
-  // because a gate may start within the step.
+  // Walls and zones obey the same limit as the water: alpha dx in a step. The limit is on their displacement, not their
+  // speed, because a gate may start within the step.
   const double largest = setup.time_step_rule.courant * setup.time_step_rule.spacing;
   for (double displacement = 0.0; (displacement = largest_displacement_within(flow, dt)) > largest;) {
     dt *= std::max(0.1, 0.99 * largest / displacement);

@@ -39,8 +39,26 @@ WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const std::vector<Vec<D
   return drive_to(flow, from, std::move(velocity), dt);
 }
 
+namespace {
+
+/// Moves the zones of refinement to where they are at a time.
+template <int Dim>
+void place_zones(const Flow<Dim>& flow, double time) {
+  if (flow.setup.graded == nullptr || !flow.setup.graded->field().moves()) return;
+  const SpacingField<Dim>& field = flow.setup.graded->field();
+  if (field.carrier() < 0) field.carry(Mat<Dim>::Identity(), field.displacement(time));
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
+    if (moving.wall != field.carrier()) continue;
+    const AffineMap<Dim> carried = moving.at(time, flow.state.motion);
+    field.carry(carried.linear, carried.constant);
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 void place_walls(Flow<Dim>& flow, double time) {
+  place_zones(flow, time);
   const WallMotion<Dim>& motion = *flow.setup.wall_motion;
   if (motion.moving().empty()) return;
   motion.place(time, flow.state.motion, flow.walls.boundary, flow.walls.particles);
@@ -51,13 +69,6 @@ void place_walls(Flow<Dim>& flow, double time) {
     if (!flow.walls.boundary.walls[flow.walls.particles.wall[row]].moves()) return;
     particles.position[i] = flow.neighbourhood->wrapped(flow.walls.particles.position[row]);
   });
-  if (flow.setup.graded == nullptr) return;
-  const SpacingField<Dim>& field = flow.setup.graded->field();
-  for (const auto& moving : motion.moving()) {
-    if (moving.wall != field.carrier()) continue;
-    const AffineMap<Dim> carried = moving.at(time, flow.state.motion);
-    field.carry(carried.linear, carried.constant);
-  }
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/box.h"
+#include "case/named_numbers.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "refinement/zone_depth.h"
@@ -64,21 +65,32 @@ template <int Dim>
 SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double dx = spec.particles.spacing;
-  Box<Dim> bounds = box_around(boundary.faces);
+  Box<Dim> outermost = box_around(boundary.faces);
   periodic_.min().setZero();
   periodic_.max().setZero();
-  if (bounds.isEmpty()) bounds = {Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity)};
+  if (outermost.isEmpty()) outermost = {Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity)};
   for (int axis = 0; axis < Dim; ++axis) {
     const std::vector<double>& range = periodic_range(spec.domain, axis);
     if (range.empty()) continue;
-    periodic_.min()[axis] = bounds.min()[axis] = range[0];
-    periodic_.max()[axis] = bounds.max()[axis] = range[1];
+    periodic_.min()[axis] = outermost.min()[axis] = range[0];
+    periodic_.max()[axis] = outermost.max()[axis] = range[1];
   }
   for (const RefinementTable& table : spec.refinement) {
     Zone zone{{}, table.level, border_per_level * table.level * dx, nullptr};
     for (std::size_t w = 0; table.shape == ZoneShape::walls && carrier_ < 0 && w < boundary.walls.size(); ++w) {
       const WallProperties& wall = boundary.walls[w];
       if (wall.moves() && std::ranges::count(table.walls, wall.name) > 0) carrier_ = static_cast<int>(w);
+    }
+    Box<Dim> bounds = outermost;
+    if (!table.displacement.empty()) {
+      require_dimension<Dim>(table.displacement.size(), CaseLabel("refinement", table.name).with_key("displacement"));
+    }
+    for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
+      displacement_.resize(Dim);
+      displacement_[axis] = TimeFunction(table.displacement[axis], named_numbers(spec));
+      if (table.displacement[axis] == Varying(0.0) || periodic_.sizes()[axis] > 0.0) continue;
+      bounds.min()[axis] = -infinity;
+      bounds.max()[axis] = infinity;
     }
     if (table.shape == ZoneShape::polygon || table.shape == ZoneShape::walls) {
       zone.depth = std::make_shared<ZoneDepth<Dim>>(table, boundary, bounds, periodic_.sizes(), zone.border, dx);
@@ -95,7 +107,8 @@ SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& bound
     }
     zones_.push_back(zone);
   }
-  if (carrier_ >= 0) motion_ = std::make_shared<Motion>();
+  if (carrier_ >= 0 || !displacement_.empty()) motion_ = std::make_shared<Motion>();
+  if (!displacement_.empty()) carry(Mat<Dim>::Identity(), displacement(0.0));
   are_prisms_ = Dim == 3 && std::ranges::all_of(spec.refinement, [](const RefinementTable& table) {
                   return table.shape == ZoneShape::polygon;
                 });
@@ -104,6 +117,13 @@ SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& bound
 template <int Dim>
 void SpacingField<Dim>::carry(const Mat<Dim>& turn, const Vec<Dim>& shift) const {
   *motion_ = {turn, shift};
+}
+
+template <int Dim>
+Vec<Dim> SpacingField<Dim>::displacement(double time) const {
+  Vec<Dim> moved = Vec<Dim>::Zero();
+  for (std::size_t axis = 0; axis < displacement_.size(); ++axis) moved[axis] = displacement_[axis].at(time);
+  return moved;
 }
 
 template <int Dim>

@@ -8,7 +8,8 @@
 // several volumes that stand side by side have nearly the same support, and pairs are symmetric
 // (docs/theory/refinement.md).
 //
-// A zone around walls that move is carried by them: h(x, t) is the h of the place from which their motion has taken x.
+// A zone around walls that move is carried by them, and others may have a displacement of their own: h(x, t) is the h
+// of the place from which the motion has taken x.
 #pragma once
 
 #include <memory>
@@ -16,6 +17,7 @@
 
 #include "base/box.h"
 #include "base/vec.h"
+#include "case/time_function.h"
 
 namespace tailwater {
 
@@ -34,8 +36,9 @@ class SpacingField {
  public:
   /// 1 everywhere.
   SpacingField() = default;
-  /// Faces of zones that reach to the outermost walls or beyond bound nothing. Throws CaseError for a zone below the
-  /// initial surface if there is no water at the start.
+  /// Faces of zones that reach to the outermost walls or beyond bound nothing, unless the zones leave these walls.
+  /// Throws CaseError for a zone below the initial surface if there is no water at the start, and for a displacement of
+  /// another dimension.
   SpacingField(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
   /// A zone, of which a face that bounds nothing is infinitely far away.
@@ -48,10 +51,13 @@ class SpacingField {
 
   const std::vector<Zone>& zones() const { return zones_; }
   bool is_uniform() const { return zones_.empty(); }
-  /// Index into Boundary::walls of a wall that carries the zones; -1: they rest.
+  bool moves() const { return motion_ != nullptr; }
+  /// Index into Boundary::walls of a wall that carries the zones; -1: there is none.
   int carrier() const { return carrier_; }
   /// Moves the zones of this field, and of all copies of it, from where they are drawn by x -> turn x + shift.
   void carry(const Mat<Dim>& turn, const Vec<Dim>& shift) const;
+  /// m; the displacement of the zones of their own at a time [s]. It may be infinite or not a number.
+  Vec<Dim> displacement(double time) const;
   /// The place from which the motion of the zones has taken x.
   Vec<Dim> drawn(const Vec<Dim>& x) const {
     return motion_ == nullptr ? x : Vec<Dim>(motion_->turn.transpose() * (x - motion_->shift));
@@ -93,10 +99,11 @@ class SpacingField {
 
   std::vector<Zone> zones_;
   int carrier_ = -1;
-  std::shared_ptr<Motion> motion_;  ///< of this field and its copies; null if the zones rest
-  bool has_depths_ = false;         ///< whether a zone is not a box
-  bool are_prisms_ = false;         ///< 3D; whether all zones have the same depth above each other
-  Box<Dim> periodic_;               ///< m; along directions that are not periodic it has no extent
+  std::vector<TimeFunction> displacement_;  ///< m; a component per axis; empty without a displacement of their own
+  std::shared_ptr<Motion> motion_;          ///< of this field and its copies; null if the zones rest
+  bool has_depths_ = false;                 ///< whether a zone is not a box
+  bool are_prisms_ = false;                 ///< 3D; whether all zones have the same depth above each other
+  Box<Dim> periodic_;                       ///< m; along directions that are not periodic it has no extent
 };
 
 /// Particles in the part of a zone that is in `box` and not behind walls, without other zones, when it is full of water

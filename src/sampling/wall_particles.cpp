@@ -210,8 +210,7 @@ WallParticles<Dim> sample_on_lattice(const Boundary<Dim>& boundary, const WallLa
 template <int Dim>
 int level_at(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, const NearestWall<Dim>& wall,
              const Vec<Dim>& x) {
-  const bool is_passed =
-      field.carrier() >= 0 && wall.face >= 0 && !boundary.walls[boundary.faces[wall.face].wall].moves();
+  const bool is_passed = field.moves() && wall.face >= 0 && !boundary.walls[boundary.faces[wall.face].wall].moves();
   const double spacing = is_passed ? field.finest() : field.at(wall.face < 0 ? x : wall.point);
   return static_cast<int>(std::lround(-std::log2(spacing)));
 }
@@ -281,7 +280,7 @@ void append_level(const LevelsOfCells<Dim>& levels, int level, const WallLayers&
   for (LatticeAxis& axis : finer) axis = axis.divided(per_edge);
   // Supports are larger near a coarser level, so one more layer is needed. Beside zones that move, supports may be
   // those of the spacing of the case.
-  const int count = levels.field.carrier() < 0 ? layers.count + 1 : layers.count * per_edge;
+  const int count = levels.field.moves() ? layers.count * per_edge : layers.count + 1;
   const WallParticles<Dim> fine =
       sample_on_lattice<Dim>(levels.boundary, {layers.spacing / per_edge, count, false, layers.share}, finer);
   for (std::size_t row = 0; row < fine.size(); ++row) {

@@ -111,6 +111,41 @@ TEST(RefinementTest, VolumesFollowTheFieldAndIdsAreUnique) {
   EXPECT_GT(fine, inside * 9 / 10);
 }
 
+TEST(RefinementTest, AZoneThatMovesWithTheStreamDividesNoWater) {
+  CaseSpec spec = stream();
+  spec.walls[0].friction = 0.0;
+  spec.refinement[0].displacement = {"1.0*t", 0.0};
+  Flow<2> flow = make_flow<2>(spec);
+  tailwater::start(flow);
+  const Totals old = totals_of(flow);
+  advance_steps(flow, 100);
+  EXPECT_GT(flow.state.time, 0.3);
+  // At rest the zone divides and unites several hundreds of particles in this time.
+  EXPECT_LT(flow.part<Refinement<2>>().splits() + flow.part<Refinement<2>>().merges(), 20);
+  EXPECT_NEAR(totals_of(flow).energy, old.energy, 1e-2 * old.energy);
+}
+
+TEST(RefinementTest, AZoneMovesThroughStillWaterByItsDisplacement) {
+  CaseSpec spec = stream();
+  spec.fluid[0].velocity = {};
+  spec.refinement[0].displacement = {"-0.8*t", 0.0};
+  Flow<2> flow = make_flow<2>(spec);
+  tailwater::start(flow);
+  while (flow.state.time < 1.0) advance_steps(flow, 1);
+  const Particles<2>& particles = flow.state.particles;
+  std::size_t inside = 0;
+  std::size_t fine = 0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const double behind = particles.position[i][0] < 0.8 ? particles.position[i][0] + 1.6 : particles.position[i][0];
+    // The finest part of the zone, now from 1.4 m to 1.8 m, over the end of the period.
+    if (!particles.is_fluid(i) || behind < 1.4 || behind > 1.8) continue;
+    ++inside;
+    if (particles.volume[i] < 0.35 * dx * dx) ++fine;
+  }
+  EXPECT_GT(inside, 100u);
+  EXPECT_GT(fine, inside * 9 / 10);
+}
+
 TEST(RefinementTest, AStreamThroughAZoneKeepsItsVelocity) {
   CaseSpec spec = stream();
   spec.walls[0].friction = 0.0;
