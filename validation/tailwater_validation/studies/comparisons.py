@@ -182,7 +182,7 @@ def starts(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
     return zhou_comparison(
-        "starts", "Starts: how far chance goes", "The same case from the regular lattice and from particles displaced at random. The "
+        "starts", "Scatter between initial states", "The same case from the regular lattice and from particles displaced at random. The "
         "scatter is the uncertainty of any single run of this case.",
         {"regular": zhou_run(plan, dx),
          **{f"displaced by {jitter:g} dx": zhou_run(plan, dx, variant=f"jitter{jitter:g}",

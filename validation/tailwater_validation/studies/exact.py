@@ -201,7 +201,7 @@ def water_wedge(plan):
 def wedge_entry(plan):
     runs = wedge_runs(plan, "wedge_entry", plan.at((4,), (4, 8), (4, 8, 16)))
     return flow_study(
-        "wedge-entry", "Wedge that enters water", "wedge-entry",
+        "wedge-entry", "Water entry of a wedge", "wedge-entry",
         "A wedge whose faces rise at 30 degrees enters water at rest at an even speed, without gravity. Mean force while it goes from "
         "D/2 to D against the similarity solution of Zhao & Faltinsen (1993).",
         "The solution is for boundless water; this water is 28 D wide and 14 D deep with free sides, and the force falls by 2.4 % when that "

@@ -115,10 +115,10 @@ def of_sensor(run, sensor, height):
         measure(Metric(f"arrival {sensor}", f"arrival at {sensor}, z = {height:g} m, later than measured", "s",
                        f"laboratory: {arrival(measured):.3f}", -ARRIVAL_BAR, ARRIVAL_BAR),
                 lambda: arrival(computed(run, sensor)) - arrival(measured)),
-        measure(Metric(f"largest {sensor}", f"largest mean over {MEAN_OVER:g} s at {sensor}, more than measured",
+        measure(Metric(f"largest {sensor}", f"largest mean over {MEAN_OVER:g} s at {sensor}, excess over the measured value",
                        "%",
                        f"laboratory: {largest(impulses(measured)):.0f} Pa", -PEAK_BAR, PEAK_BAR), partial(excess, largest, run, sensor)),
-        measure(Metric(f"impulse {sensor}", f"impulse at {sensor}, t = {IMPACT[0]:g}..{IMPACT[1]:g} s, more than measured", "%",
+        measure(Metric(f"impulse {sensor}", f"impulse at {sensor}, t = {IMPACT[0]:g}..{IMPACT[1]:g} s, excess over the measured value", "%",
                        f"laboratory: {of_impact(impulses(measured)):.0f} Pa s", -IMPULSE_BAR, IMPULSE_BAR),
                 partial(excess, of_impact, run, sensor)),
     ]

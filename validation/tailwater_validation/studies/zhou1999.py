@@ -199,7 +199,7 @@ def detached_at(T, run):
 
 def soundness_checks(run):
     return [
-        Check(Metric("zhou1999.detached", "particles apart from the body of water at T = 5", "", "the paper's claim: none"),
+        Check(Metric("zhou1999.detached", "particles detached from the body of water at T = 5", "", "the paper's claim: none"),
               (run,), partial(detached_at, 5.0)),
         Check(Metric("zhou1999.energy_rise", "largest rise of the total energy", "of the start", "physics: none",
                      high=RISE_TARGET), (run,), partial(summary, "energy", "largest_rise_over_start")),
