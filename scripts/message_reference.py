@@ -34,7 +34,7 @@ writes this page from the source.
 GROUPS = {
     "The case file": {"case/case_toml": "any", "case/overrides": "any", "case/reader": "any", "case/table_reader": "any",
                       "case/foundations": "`[parameters]`", "case/key_rules": "any", "case/table_rules": "any",
-                      "case/linked_rules": "`[[inlet]]`, `[[outlet]]`, files", "case/driven_rules": "what moves, zones",
+                      "case/linked_rules": "`[[inlet]]`, `[[outlet]]`, files", "case/driven_rules": "motions, bodies, zones",
                       "case/across_tables": "several", "case/measurements": "`[[measurement]]`",
                       "geometry/from_spec": "any", "app/check_json": "any"},
     "Walls": {"geometry/make_boundary": "`[[wall]]`", "geometry/wall_patches": "`[[wall]]`",

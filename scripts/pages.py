@@ -333,14 +333,25 @@ def reader_faults(name, text):
         yield 3, 'the first line below the title does not say for whom the page is; begin it with "For users", ...'
 
 
+def row_key(line):
+    """Its numbers, if it has four cells with numbers after the first cell, which names them and may be worded otherwise;
+    else the row itself, if it is long. None for other lines."""
+    if not line.startswith("| ") or "---" in line:
+        return None
+    numbers = [cell for cell in (cell.strip(" *$") for cell in line.strip("|").split("|")[1:]) if re.search(r"\d", cell)]
+    return tuple(numbers) if len(numbers) >= 4 else line if len(line) > LONG_ROW else None
+
+
 def repeated_rows(pages):
     """(page, line, message) of rows of tables that stand on two pages, those that a program writes left out."""
     seen = {}
     for name, text in pages.items():
-        written = re.sub(r"<!-- evidence:.*?<!-- evidence: end -->", lambda part: "\n" * part[0].count("\n"), text, flags=re.DOTALL)
+        written = re.sub(r"<!-- (evidence|validation):.*?<!-- \1: end -->", lambda part: "\n" * part[0].count("\n"), text,
+                         flags=re.DOTALL)
         for number, line in enumerate(written.splitlines(), 1):
-            if line.startswith("| ") and len(line) > LONG_ROW and "---" not in line and seen.setdefault(line, name) != name:
-                yield name, number, f"the row stands on {seen[line]} too; say it once and link to it"
+            key = row_key(line)
+            if key is not None and seen.setdefault(key, name) != name:
+                yield name, number, f"the row stands on {seen[key]} too; say it once and link to it"
 
 
 def page_faults(name, text):

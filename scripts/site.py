@@ -4,7 +4,7 @@
 Usage: scripts/site.py [DIR]    DIR: where to put it (default: out/site)
 Needs `scripts/install.sh site`. Exit code 1 if mkdocs warns or a link is dead: every link of every page must lead to a
 page, to a place on it, or to a file that is there, and no page may load anything from the net. The search must find every
-key, probe type and column of the reference, and the id of every message.
+key, probe type and column of the reference, every key of summary.json, and the id of every message.
 """
 import html.parser
 import json
@@ -126,11 +126,12 @@ def dead_links(site):
 
 
 def names_of_reference():
-    """Keys and tables of the case file, types of probes, their columns and results, ids of messages, as the reference
-    lists them."""
-    text = "".join((ROOT / f"docs/reference/{name}.md").read_text(encoding="utf-8") 
-                   for name in ("case-file", "probes", "messages"))
-    return {*re.findall(r"^\| `([\w-]+)` \|", text, re.MULTILINE), *re.findall(r"^##+ \[*([\w-]+)\]*$", text, re.MULTILINE)}
+    """Keys and tables of the case file, types of probes, their columns and results, ids of messages, keys of
+    summary.json and columns of steps.csv, as the reference lists them: in the first cells of tables, and in headings."""
+    text = "".join((ROOT / f"docs/reference/{name}.md").read_text(encoding="utf-8")
+                   for name in ("case-file", "study-keys", "probes", "messages", "summary"))
+    cells = " ".join(re.findall(r"^\| (`[^|]*) \|", text, re.MULTILINE))
+    return {*re.findall(r"`([\w.-]+)`", cells), *re.findall(r"^##+ \[*([\w-]+)\]*$", text, re.MULTILINE)}
 
 
 def names_not_found(site):

@@ -92,7 +92,7 @@ void require_printable(int argc, char** argv) {
     if (is_printable(argv[k])) continue;
     throw InputError(
         "word {} of the command line, \"{}\", has control characters or bytes that are not UTF-8; remedy: write it, or "
-        "name the file, in letters that can be seen",
+        "name the file, in printable characters",
         k, shortened(printable(argv[k]), 200));
   }
 }

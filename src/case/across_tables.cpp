@@ -222,7 +222,7 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
     const std::optional<double> given = root["physics"][key].value<double>();
     if (!given || *given == of_liquid) return;
     problems.wrong("liquid-has-own-value", CaseLabel("physics").with_key(key), *root["physics"][key].node(),
-                   fmt::format("liquid \"{}\" has its own; remove this key", liquid.name));
+                   fmt::format("liquid \"{}\" has its own value; remove this key", liquid.name));
   };
   check_number("density", liquid.density);
   check_number("viscosity", kinematic_viscosity(liquid));

@@ -1,4 +1,5 @@
-// Rules of what moves: gates, wave makers, bodies and their moorings; and of zones of damping and of finer particles.
+// Rules for moving parts: gates, wave makers, bodies and their moorings; and for zones of damping and of finer
+// particles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ void check_waves(const WaveKeys& waves, double depth, std::string_view place, Ta
   }
   if (is_periodic && waves.waves != WaveKind::regular && waves.ramp == 0.0 && reader.given("ramp") != nullptr &&
       !reader.is_wrong("ramp")) {
-    reader.wrong("wave-ramp-missing", "ramp", "{} waves do not begin at rest; give a time above 0 s",
+    reader.wrong("wave-ramp-missing", "ramp", "{} waves need a ramp to begin from rest; give a time above 0 s",
                  waves.waves == WaveKind::focused ? "focused" : "irregular");
   }
   if (waves.waves == WaveKind::focused && !reader.is_wrong("focus") &&
@@ -101,9 +102,9 @@ void check(const BodyTable& body, TableReader& reader) {
   for (const std::string& degree : body.free) {
     const bool is_turn = degree.starts_with("rotation");
     if (degree.find('z') != std::string::npos ? is_flat : is_turn && (degree == "rotation") != is_flat) {
-      reader.wrong("body-freedom-unknown", "free",
-                   "\"{}\" is none of the degrees of freedom in {} dimensions; choose from {}", degree,
-                   reader.dimension(), is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z");
+      reader.wrong("body-freedom-unknown", "free", "\"{}\" is not a degree of freedom in {} dimensions; choose from {}",
+                   degree, reader.dimension(),
+                   is_flat ? "x, y, rotation" : "x, y, z, rotation_x, rotation_y, rotation_z");
       return;
     }
   }
@@ -143,7 +144,7 @@ void check(const MooringTable& mooring, TableReader& reader) {
   }
   if (mooring.length == 0.0 && !mooring.at.empty() && mooring.at == mooring.anchor && !reader.is_wrong("anchor")) {
     reader.wrong("mooring-without-length", "anchor",
-                 "is where the line is fastened to the body, so it has no direction; give another place");
+                 "is the same point as at, so the line has no direction; give another point");
   }
 }
 

@@ -38,7 +38,7 @@ void check_corner_count(const std::vector<Coordinates>& points, std::size_t leas
                         std::string_view key) {
   const toml::node* node = reader.given(key);
   if (node != nullptr && !reader.is_wrong(key) && points.size() < least) {
-    reader.wrong("too-few-points", key, "{} points are too few for this shape; give at least {}", points.size(), least);
+    reader.wrong("too-few-points", key, "too few points for this shape ({}); give at least {}", points.size(), least);
   }
 }
 

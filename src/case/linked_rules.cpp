@@ -152,7 +152,7 @@ void read_linked_files(InletTable& inlet, TableReader& reader) {
   }
   if (inlet.profile && !discharge.anywhere() && !velocity.anywhere()) {
     reader.wrong("inlet-profile-without-flow", "profile",
-                 "needs a discharge or a velocity; an inlet with a level alone takes the velocity from the flow");
+                 "has no effect at an inlet with a level alone; give a discharge or a velocity, or remove it");
   }
 }
 

@@ -60,7 +60,7 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
   if (columns.empty()) {
     reporter.wrong("measurement-of-probe-type", "probe",
                    fmt::format("a {} probe{} cannot be compared with measured values; give a probe of another "
-                               "type, as \"depth\" or \"velocity\"",
+                               "type, such as \"depth\" or \"velocity\"",
                                name_of(probe->type), spec.general.dimension == 3 ? " in 3D" : ""));
     return;
   }

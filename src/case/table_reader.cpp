@@ -24,8 +24,7 @@ bool is_too_small(double value, const Range& range) {
   return range.low == 0.0 && value > 0.0 && value < smallest_number;
 }
 
-constexpr const char* unseen =
-    "has a control character or an end of a line; write letters that can be seen, on one line";
+constexpr const char* unseen = "has a control character or an end of a line; use printable characters on one line";
 
 /// For a key in the wrong table: the tables that contain it.
 std::string home_of(std::string_view key) {

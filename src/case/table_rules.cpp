@@ -247,7 +247,8 @@ void check_section(const Section& section, TableReader& reader) {
     }
   }
   if (given.size() > 1 && !reader.is_wrong(given[1])) {
-    reader.wrong("section-given-twice", given[1], "is a second section beside {}; remove one of the two", given[0]);
+    reader.wrong("section-given-twice", given[1],
+                 "describes the section a second time, beside {}; remove one of the two", given[0]);
   }
   const bool has_ends = given.empty() || given[0] == "from";
   if (has_ends && section.from.empty() && !reader.is_wrong("from")) {
@@ -262,7 +263,7 @@ void check_section(const Section& section, TableReader& reader) {
     reader.missing("section-radius-missing", "radius", "give the radius of the disc around centre");
   }
   if (section.radius > 0.0 && section.centre.empty() && !reader.is_wrong("radius")) {
-    reader.wrong("section-centre-missing", "radius", "is that of a disc; give its centre as well");
+    reader.wrong("section-centre-missing", "radius", "is the radius of a disc, whose centre is missing; give centre");
   }
 }
 
@@ -271,15 +272,16 @@ void check_section(const Section& section, TableReader& reader) {
 void check(const InletTable& inlet, TableReader& reader) {
   check_section(inlet, reader);
   if (inlet.reserve > 0.0 && inlet.water_from.empty() && !reader.is_wrong("reserve")) {
-    reader.wrong("reserve-without-circuit", "reserve",
-                 "is the water that waits to circulate; give water_from, the outlet whose water enters, or remove it");
+    reader.wrong(
+        "reserve-without-circuit", "reserve",
+        "has no effect without water_from; give water_from, the name of the outlet whose water enters, or remove it");
   }
 }
 
 void check(const OutletTable& outlet, TableReader& reader) {
   check_section(outlet, reader);
   if (outlet.beyond == Beyond::air && may_bring_water(outlet) && !reader.is_wrong("beyond")) {
-    reader.wrong("level-beyond-air", "beyond", "is air, in which no level stands; remove it, or the level");
+    reader.wrong("level-beyond-air", "beyond", "is air, where a level has no effect; remove this key or level");
   }
 }
 

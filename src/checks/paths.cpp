@@ -246,12 +246,12 @@ class PathWalk {
       if (!enclosed->walls[f] || !drawn_.walls[wall].moves()) continue;
       Vec<Dim> middle = Vec<Dim>::Zero();
       for (const Vec<Dim>& corner : faces_[f].corners) middle += corner / Dim;
-      findings_.push_back(
-          Finding::error("wall-crushes-water",
-                         {"{} crushes the water at t = {:.6g}, when it is at {}: the walls leave {:.3g} m^{} to {:.3g} "
-                          "m^{} of water that cannot get out",
-                          label(wall), Amount{time, "s"}, place(middle), enclosed->volume, Dim, room_->water(), Dim},
-                         {"end its path before, or leave the water a way out"}));
+      findings_.push_back(Finding::error(
+          "wall-crushes-water",
+          {"{} crushes the water at t = {:.6g}, when it is at {}: the walls leave a space of {:.3g} m^{} "
+           "for {:.3g} m^{} of water that cannot leave",
+           label(wall), Amount{time, "s"}, place(middle), enclosed->volume, Dim, room_->water(), Dim},
+          {"end its path before, or leave the water a way out"}));
       return;
     }
   }

@@ -124,7 +124,7 @@ Findings check_carried(const CaseSpec& spec, const Boundary<Dim>& boundary, int 
   for (int axis = 0; axis < Dim; ++axis) repeats = repeats || !periodic_range(spec.domain, axis).empty();
   if (repeats) {
     findings.push_back(Finding::error("moving-zone-in-periodic-domain",
-                                      {"{} moves with {} in a domain that repeats", owner, by},
+                                      {"{} moves with {}, which is not possible in a periodic domain", owner, by},
                                       {"give shape = \"box\" with a box that contains its path"}));
   }
   if (const double least = clearance * spec.particles.spacing * std::exp2(-table.level); table.distance < least) {

@@ -121,7 +121,7 @@ Findings check_current(const CaseSpec& spec, const DampingTable& zone) {
       const double beyond = box_around(out.as_faces()).center()[axis] - middle;
       if (in.kind != OpeningKind::inlet || out.kind != OpeningKind::outlet || before * beyond >= 0.0) continue;
       return {Finding::warning("damping-brakes-flow",
-                               {"{} stands between {} and {}, and brakes the water to rest",
+                               {"{} lies between {} and {}, and brings the flow between them to rest",
                                 CaseLabel("damping", zone.name), in.label(), out.label()},
                                {"give transport, the discharge over the depth, positive in the direction of towards"})};
     }

@@ -152,7 +152,7 @@ const std::vector<BadInput> table{
          "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
          "\"outside\"\n[[body]]\nwalls = [\"hull\"]\nmass = 1\ncentre = [2.5, 0.5]\nfree = [\"rotation_x\"]\n",
      "16:8",
-     {"body[0].free", "\"rotation_x\" is none of the degrees of freedom in 2 dimensions", "x, y, rotation"}},
+     {"body[0].free", "\"rotation_x\" is not a degree of freedom in 2 dimensions", "x, y, rotation"}},
     {"body_in_the_other_scheme",
      required_keys + water +
          "[[wall]]\nname = \"hull\"\nshape = \"box\"\nmin = [2, 0]\nmax = [3, 1]\nfluid_side = "
@@ -238,7 +238,7 @@ const std::vector<BadInput> table{
          "[[wave_maker]]\nfrom = [0, 0]\nto = [0, 2]\ndepth = 1\nwaves = \"jonswap\"\nheight = 0.1\nperiod = 1\nramp = "
          "0\n",
      "13:8",
-     {"wave_maker[0].ramp", "do not begin at rest"}},
+     {"wave_maker[0].ramp", "need a ramp to begin from rest"}},
     {"damping_inside_out",
      required_keys + water + "[[damping]]\nmin = [1, 0]\nmax = [0, 1]\nstrength = 1\n",
      "8:7",
@@ -540,7 +540,7 @@ const std::vector<BadInput> table{
     {"inlet_profile_without_velocity",
      required_keys + water + "[[inlet]]\nfrom = [0, 0]\nto = [0, 1]\nlevel = 0.5\nprofile = \"s\"\n",
      "10:11",
-     {"inlet[0].profile", "needs a discharge or a velocity"}},
+     {"inlet[0].profile", "has no effect at an inlet with a level alone"}},
     {"inlet_with_water_from_an_unknown_outlet",
      required_keys + water + "[[inlet]]\nfrom = [0, 0]\nto = [0, 1]\ndischarge = 0.1\nwater_from = \"end\"\n" +
          "[[outlet]]\nname = \"ende\"\nfrom = [1, 0]\nto = [1, 1]\n",
@@ -580,7 +580,7 @@ const std::vector<BadInput> table{
     {"polygon_of_two_points",
      required_keys + "[[fluid]]\nshape = \"polygon\"\npoints = [[0, 0], [1, 0]]\n",
      "5:10",
-     {"2 points are too few", "at least 3"}},
+     {"too few points for this shape (2)", "at least 3"}},
     {"polygon_in_3d",
      three + "[[fluid]]\nshape = \"polygon\"\npoints = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\n",
      "5:9",
@@ -635,7 +635,7 @@ const std::vector<BadInput> table{
     {"wall_plate_of_one_point",
      required_keys + water + "[[wall]]\nshape = \"plate\"\npoints = [[0, 0]]\n",
      "8:10",
-     {"1 points are too few", "at least 2"}},
+     {"too few points for this shape (1)", "at least 2"}},
     {"wall_friction_without_use",
      required_keys + water + "[[wall]]\npoints = [[0, 0], [1, 0]]\nfriction = 0.5\n",
      "8:12",

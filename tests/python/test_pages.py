@@ -131,6 +131,11 @@ class Pages(PackageTest):
         found = list(pages.repeated_rows({"a": "# A\n" + row, "b": row, "c": f"<!-- evidence: x -->\n{row}<!-- evidence: end -->\n"}))
         self.assertEqual([(name, line) for name, line, _ in found], [("b", 1)])
 
+    def test_numbers_that_stand_twice_under_other_words_are_found(self):
+        rows = "| share | 0.5 | 0.75 | 1.0 | **1.5** |\n", "| part that is missing | 0.5 | 0.75 | 1.0 | 1.5 |\n"
+        found = list(pages.repeated_rows({"a": "# A\n" + rows[0], "b": rows[1]}))
+        self.assertEqual([(name, line) for name, line, _ in found], [("b", 1)])
+
     def test_documents_have_no_fault(self):
         self.assertEqual(pages.main([]), 0)
 

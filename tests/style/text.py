@@ -46,6 +46,12 @@ def may_name_commits(file, root):
     return path.is_relative_to("docs/notebook") or str(path) in NAMES_COMMITS
 
 
+def is_present(file, root):
+    """A document of the present version: a dated page, and the changelog, may name a source that is gone."""
+    path = file.relative_to(root)
+    return path.suffix == ".md" and path.name != "CHANGELOG.md" and not path.name.startswith("2026-")
+
+
 def citations(root):
     names = {file.name for file in files(root)} | WRITTEN
     for file in files(root):
@@ -57,6 +63,9 @@ def citations(root):
             for name in re.findall(r"[\w-]+\.md\b", line):
                 if name not in names:
                     yield file, number, f"cites {name}, which is not in the tree; say here what it says"
+            for source in re.findall(r"`[\w/]*?([\w-]+\.(?:cpp|h))`", line) if is_present(file, root) else []:
+                if source not in names:
+                    yield file, number, f"names the source {source}, which is not in the tree"
 
 
 def loops(root):

@@ -8,7 +8,7 @@ NAMES = {name: getattr(math, name) for name in ("pi", "sqrt", "sin", "cos", "tan
 
 
 def number(value, names):
-    """A value of a case: a number, or an expression of named numbers. None for what cannot be evaluated."""
+    """A value of a case: a number, or an expression of named numbers. None if it cannot be evaluated."""
     if isinstance(value, (int, float)):
         return float(value)
     try:
@@ -18,7 +18,7 @@ def number(value, names):
 
 
 def read_case(path, settings):
-    """The case with its settings (`key=value`), as tomllib reads it, as far as they are of parameters or scalar keys."""
+    """The case as tomllib reads it, with its settings (`key=value`) for parameters and scalar keys."""
     case = tomllib.loads(path.read_text(encoding="utf-8"))
     for setting in settings:
         key, _, value = setting.partition("=")
@@ -33,7 +33,7 @@ def read_case(path, settings):
 
 
 def named_numbers(case, spacing):
-    """Parameters in the order of their needs, gravity, and the spacing."""
+    """Parameters, each after those that it uses, gravity, and the spacing."""
     gravity = case.get("physics", {}).get("gravity", [0, -9.81])
     names = NAMES | {"dx": spacing}
     if all(isinstance(one, (int, float)) for one in gravity):

@@ -9,9 +9,9 @@ from .runs import finished
 
 @dataclass(frozen=True)
 class Check:
-    """One number: `compute` takes the results of `runs` and returns the value, or several fields of the metric. With
-    `also_failed` it takes the runs themselves and the folder of the whole instead, including failed runs. `variant`
-    names the compared variant in a comparison."""
+    """One number. `compute` takes the results of `runs` and returns the value, or several fields of the metric. With
+    `also_failed` it takes the runs themselves, failed ones included, and the folder of all runs instead. `variant`
+    names the variant of a comparison."""
 
     metric: Metric
     runs: tuple
@@ -29,5 +29,5 @@ class Check:
 
 
 def runs_of(parts):
-    """The runs of checks or of groups of them, without repetition, in order."""
+    """The runs of checks, or of groups of checks, in order and without repetition."""
     return list(dict.fromkeys(run for part in parts for run in part.runs))

@@ -1,4 +1,4 @@
-"""Options, error messages and order of work that all commands share which make and score runs."""
+"""Options, error messages and order of work, common to all commands that make and score runs."""
 
 import difflib
 import signal
@@ -22,7 +22,7 @@ class OutParser(Parser):
 
 
 class RunsParser(OutParser):
-    """Options of commands whose runs are made once, several at a time, and kept."""
+    """Options of commands that make each run once, several at a time, and keep it."""
 
     def __init__(self, prog, what, out, jobs, jobs_text=None):
         super().__init__(prog, what, out)
@@ -33,8 +33,8 @@ class RunsParser(OutParser):
 
 
 def choose(every, names, kind, option=""):
-    """The named groups of {name: group}, in their order; all if none is named. Throws DataError for a name that no
-    group has."""
+    """The named groups of {name: group} in the order of that dict; all groups if no name is given. Throws DataError
+    for an unknown name."""
     for name in names:
         if name not in every:
             near = difflib.get_close_matches(name, every, 1)
@@ -59,9 +59,9 @@ def interrupt(*_):
 
 
 def execute(options, choose_groups, score):
-    """Makes the runs of the groups that `choose_groups()` returns, then prints what `score(groups, program, options)`
-    returns. The exit code: 0 whatever the results are; 2 for bad input, also if the program refuses every run; 4 if a
-    file cannot be written; 130 if interrupted."""
+    """Makes the runs of the groups that `choose_groups()` returns, then prints the text that `score(groups, program,
+    options)` returns. The exit code is 0 whatever the results are, 2 for bad input, also if the program rejects
+    every run, 4 if a file cannot be written, and 130 if interrupted."""
     signal.signal(signal.SIGTERM, interrupt)
     try:
         for name, value, meaning in (("--jobs", options.jobs, "runs at a time"), ("-n", options.ranks, "ranks")):

@@ -1,5 +1,4 @@
-"""The numbers that compare curves over time. Times and values carry the unit that their owner gave them; every function
-here keeps it."""
+"""Numbers that compare curves over time. Times and values keep the units of the given curves."""
 
 import numpy as np
 
@@ -28,8 +27,8 @@ def rms_difference(a, b, start, end, step):
 
 
 def best_shift(measured, computed, start, end, step, limit, trials=121):
-    """(delay, rms): how much later (at most `limit` either way) the measured curve fits best, and how well then. The
-    window stays on the measured curve, which may end where the window does."""
+    """(delay, rms): the delay of the measured curve, at most `limit` either way, with the smallest rms difference,
+    and that rms. The window stays on the measured curve, which may end at the end of the window."""
     delays = np.linspace(-limit, limit, trials)
     scores = [rms_difference(measured, computed.shifted(-delay), start, end, step) for delay in delays]
     best = int(np.argmin(scores))
@@ -37,8 +36,8 @@ def best_shift(measured, computed, start, end, step, limit, trials=121):
 
 
 def compare(measured, computed, window, step, limit):
-    """{value, shifted_value, shift}, as a Metric has them: the RMS difference over the window (times of the measured curve)
-    as published, and with the shift within the data's own uncertainty of time that fits best."""
+    """{value, shifted_value, shift} for a Metric: the RMS difference over the window (times of the measured curve)
+    without a shift, and that with the best shift within the uncertainty of the measured time."""
     shift, shifted = best_shift(measured, computed, *window, step, limit)
     return {"value": rms_difference(measured, computed, *window, step), "shifted_value": shifted, "shift": shift}
 
@@ -50,7 +49,7 @@ def arrival_time(pressure, threshold, not_before=-np.inf):
 
 
 def passage_time(curve, level):
-    """When the curve first rises through `level`, linear between samples."""
+    """Time at which the curve first rises through `level`, linear between samples."""
     above = curve.value >= level
     if not above.any() or above[0]:
         raise DataError(f"the curve does not rise through {level:.3g}")
@@ -78,7 +77,7 @@ def running_median(curve, width):
 
 
 def noise(curve, start, end, width):
-    """RMS over the samples from `start` to `end` of the distance to the running median of `width`."""
+    """RMS difference between the samples from `start` to `end` and their running median of `width`."""
     if curve.time[0] > start or curve.time[-1] < end:
         raise DataError(f"the curve does not cover the window {start:.3g}..{end:.3g}")
     margin = curve.window(start - width, end + width)

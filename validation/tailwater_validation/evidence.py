@@ -41,7 +41,7 @@ def read_targets(path=TARGETS):
 
 
 def target_of(record):
-    """Bounds, quantity and reference of a metric's record or of an entry of the targets."""
+    """Bounds, quantity and reference of a metric's record, or of an entry of the file of targets."""
     return {"low": record.get("low"), "high": record.get("high"), "quantity": record.get("what", record.get("quantity")),
             "against": record["reference"] if "reference" in record else record["against"]}
 
@@ -95,7 +95,7 @@ def result_of_metric(metric):
 
 
 def row_of(study, metric, runs, cases, targets):
-    """Row of a stored result. A number without a target has the reason why it lost its target, if it had one."""
+    """Row of a stored result. A number that has lost its target has the reason."""
     entries = targets.get(metric["name"], [])
     ended = bool(entries) and entries[-1].get("ended", False)
     found = resolution([runs[name] for name in metric["runs"] if name in runs], cases)
@@ -111,7 +111,7 @@ def row_of(study, metric, runs, cases, targets):
 
 
 def spacing_text(found):
-    """Spacing, and whether there are several: without three of them there is no interval."""
+    """The spacing, and whether there are several spacings: an interval needs at least three."""
     if found["spacing_m"] is None:
         return ""
     rows = f" (depth/{found['rows_over_depth']:.3g})" if found["rows_over_depth"] else ""
@@ -128,7 +128,7 @@ def row_without_result(key, entry, study):
 
 
 def flow_of(study, rows):
-    """Features of a validated flow, by which a report finds the flow most like its case."""
+    """Features of a validated flow, with which a report finds the flow most like its own case."""
     run = study.shown or next((run for run in study.runs if not isinstance(run, TestRun)), None)
     if run is None or not rows:
         return None

@@ -23,7 +23,7 @@ BOTTOM_LAYER = 4  # dx
 
 
 def fields(run, frame, *names):
-    """Fields of a frame, as float64. Throws DataError for one that was not written."""
+    """Fields of a frame, as float64. Throws DataError for a field that is not in the file."""
     for name in names:
         if name not in frame.fields:
             raise DataError(f"{run.path}: the field files hold no {name}; add it to output.fields")
@@ -250,9 +250,9 @@ def couette_profile(y, time, gap, viscosity, speed):
 
 
 def channel_flow(run, profile, scale):
-    """profile_error: largest over all frames of the rms error of the speed along the plates, over `scale`, the rms speed
-    of the steady flow; profile(y, time) is the exact one. steady_error: the same of the last frame only. across: largest
-    rms speed across the channel, likewise."""
+    """profile_error: the largest value over all frames of the rms error of the speed along the plates, over `scale`,
+    the rms speed of the steady flow; profile(y, time) is the exact one. steady_error: the same error in the last
+    frame. across: largest rms speed across the channel, over `scale`."""
     errors, across = [], []
     for frame in frames(run)[1:]:
         velocity, = fields(run, frame, "velocity")
@@ -346,8 +346,9 @@ def jet(run):
 
 
 def slot_contraction(share):
-    """Width of the jet far from a slot over that of the slot, which is `share` of the channel before it and at right angles
-    to it (von Mises R. (1917), Berechnung von Ausfluss- und Ueberfallzahlen, Z. VDI 61); pi/(pi + 2) of a wide channel."""
+    """Width of the jet far from a slot over the width of the slot. The slot is the fraction `share` of the width of
+    a channel that meets it at right angles (von Mises R. (1917), Berechnung von Ausfluss- und Ueberfallzahlen, Z.
+    VDI 61). For a wide channel it is pi/(pi + 2)."""
     def excess(contraction):
         k = contraction * share  # speed in the channel over that of the jet
         return contraction * (1 + 2 / math.pi * (1 / k - k) * math.atan(k)) - 1

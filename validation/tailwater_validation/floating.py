@@ -108,7 +108,7 @@ def crossings(time, value):
 
 
 def period(time, value):
-    """From SWINGS half periods after the first crossing."""
+    """Period from SWINGS half periods after the first crossing."""
     found = crossings(time, value)
     if found.size < SWINGS + 1:
         raise DataError(f"passes its mean {found.size} times, fewer than the {SWINGS + 1} that a period is taken from")
@@ -116,7 +116,7 @@ def period(time, value):
 
 
 def theory(tank, rolls, end):
-    """(period, fraction of the motion that is in the strongest mode), extrapolated to cells without size."""
+    """(period, fraction of the motion in the strongest mode), extrapolated to cells of size zero."""
     time = np.linspace(0, end, 20001)
     found = [Oscillator(tank, rolls, cells) for cells in CELLS]
     periods = [period(time, oscillator.motion(time)) for oscillator in found]
@@ -130,7 +130,8 @@ def tank_of(run):
 
 
 def floating_box(run):
-    """period_error: of SWINGS/2 periods, relative. draught_error_dx: of the mean place in the second half (heave)."""
+    """period_error: relative error of the period over SWINGS/2 periods. draught_error_dx: error of the mean position
+    in the second half (heave)."""
     tank, body = tank_of(run), run.case["body"][0]
     rolls = body["free"] == ["rotation"]
     end = run.case["time"]["end"]

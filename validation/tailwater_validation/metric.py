@@ -8,11 +8,12 @@ from tailwater.errors import DataError
 
 @dataclass(frozen=True)
 class Metric:
-    """One number of a comparison. `value` is None where it could not be had; `note` then says why. RMS differences from
-    laboratory curves also have the value at the best shift in time of the measured curve, and that shift. `paper` is
-    the value that the case's paper reports for its own code, `peers` are values of other codes: (name, lowest,
-    highest). An error that was taken at several spacings has its observed `order`, of three or more also an
-    `uncertainty`, either way. `met_because` says why a value outside of its target meets it all the same."""
+    """One number of a comparison. `value` is None if it could not be computed; `note` then contains the reason. RMS
+    differences from laboratory curves also have the value with the best shift in time of the measured curve, and
+    that shift. `paper` is the value that the case's paper reports for its own code, `peers` are values of other
+    codes: (name, lowest, highest). An error from several spacings has its observed `order`, and from three or more
+    also an `uncertainty`, in both directions. `met_because` is the reason why a value outside of its target counts
+    as met."""
 
     name: str
     what: str
@@ -49,7 +50,8 @@ RESULTS = ("met", "missed", "not resolved")
 
 
 def result_of(value, low, high, uncertainty=None):
-    """"met" or "missed", if the interval is inside or outside the target; "not resolved" if it reaches over a bound."""
+    """"met" or "missed" if the interval is inside or outside the target; "not resolved" if it contains a bound of
+    the target."""
     if value is None or not math.isfinite(value):
         return "missed"
     least, most = -math.inf if low is None else low, math.inf if high is None else high
@@ -74,8 +76,8 @@ def bar(low, high):
 
 
 def measure(metric, compute):
-    """The metric with the value that `compute()` returns, or with several fields, if that is a dict of them; with the reason
-    instead where it cannot be had."""
+    """The metric with the value, or the dict of several fields, that `compute()` returns; with the reason instead if
+    the value cannot be computed."""
     try:
         found = compute()
     except DataError as error:

@@ -1,10 +1,8 @@
-"""Water in a basin whose ends are open, by the shallow-water equations, and the errors of runs of cases/openings against it.
+"""Water in a basin with open ends, by the shallow-water equations, as the reference for runs of cases/openings. Each
+end prescribes one quantity of its flow, like an opening of Tailwater: a level, with the total head of the water outside
+for inflow, or a discharge. A wall is a discharge of 0.
 
-Both ends prescribe one quantity of the flow through them, as an opening of Tailwater does: a level that is held, with
-the total head of the water outside where water comes in, or a discharge. A wall is a discharge of 0.
-
-Lengths over a depth H, speeds over sqrt(g H), times over sqrt(H/g). The outward direction of an end is positive.
-"""
+Lengths over a depth H, speeds over sqrt(g H), times over sqrt(H/g). The outward direction of an end is positive."""
 
 import math
 from collections.abc import Callable
@@ -25,9 +23,9 @@ class Level:
     at: Callable
 
     def state(self, depth, speed, time):
-        """(depth, outward speed) at the end of water that has these inside. The outgoing characteristic u + 2c comes from
-        inside. Where water leaves, it has the level, unless it falls freely: then it is critical. Where water comes in, it has
-        the total head of the water outside, and is critical at most."""
+        """(depth, outward speed) at the end for water inside with the given depth and speed. The outgoing
+        characteristic u + 2c comes from inside. Outflow has the level, or is critical if it falls freely. Inflow has
+        the total head of the water outside, and is at most critical."""
         c = math.sqrt(depth)
         head, outgoing = max(self.at(time), 0.0), speed + 2 * c
         if speed > c and depth * speed**2 + 0.5 * depth**2 > 0.5 * head**2:  # no jump comes in from outside
@@ -69,7 +67,7 @@ def end_states(ends, depth, speed, time):
 
 
 def advance(depth, speed, dt, dx, states_at_ends):
-    """(depth, speed) a step later: MUSCL-Hancock, of the first order in the cells at the ends."""
+    """(depth, speed) a step later: MUSCL-Hancock, of first order in the cells at the ends."""
     (hl, ul), (hr, ur) = half_step(depth, speed, dt / dx)
     first, last = states_at_ends
     flux = np.column_stack([fluxes(*first), hll((hr[:-1], ur[:-1]), (hl[1:], ul[1:])), fluxes(*last)])
@@ -79,8 +77,8 @@ def advance(depth, speed, dt, dx, states_at_ends):
 
 
 def basin(length, depth, speed, ends, times, places, cells=CELLS):
-    """(depths, discharges), each times x places, of a basin that starts with an even depth and speed; `ends` are left and
-    right, a Level or a Discharge each."""
+    """(depths, discharges), each times x places, of a basin that starts with a uniform depth and speed; `ends` are
+    left and right, each a Level or a Discharge."""
     dx = length / cells
     x = (np.arange(cells) + 0.5) * dx
     depth, speed = np.full(cells, float(depth)), np.full(cells, float(speed))

@@ -1,8 +1,6 @@
-"""Plots of the report as data, which the page of `tailwater view` draws: panels of curves, as JSON has them.
-
-A curve is of a kind: "run" (a line in a colour of its own), "exact" (what theory says), "measured" (points), "aside" (in
-grey), "spacings" (a line through points) or "particles" (points, each of a particle).
-"""
+"""Plots of the report as data for the page of `tailwater view`: panels of curves, in the form of JSON. A curve has a
+kind: "run" (a line in its own colour), "exact" (theory), "measured" (points), "aside" (in grey), "spacings" (a line
+through points) or "particles" (a point for each particle)."""
 
 import math
 
@@ -21,7 +19,7 @@ def rounded(values):
 
 
 def thinned(x, y):
-    """No fewer points than are seen, and no peak lost."""
+    """The curve with as many points as can be seen, peaks included."""
     if len(x) <= 2 * BINS:
         return x, y
     parts = [part for part in np.array_split(np.arange(len(x)), BINS) if np.isfinite(y[part]).any()]
@@ -37,12 +35,12 @@ def curve(label, x, y, kind="run"):
 
 
 def over_time(label, curve_of_run, kind="run"):
-    """A Curve of module curves."""
+    """The points of a Curve of module curves."""
     return curve(label, curve_of_run.time, curve_of_run.value, kind)
 
 
 def panel(title, x, y, curves, logarithmic=False, limits=None):
-    """`x` and `y` name the axes; `limits` of y that are shown, all by default."""
+    """A panel. `x` and `y` name the axes; `limits` is the visible range of y, by default all of it."""
     return {"title": title, "x": x, "y": y, "logarithmic": logarithmic, "limits": limits, "curves": list(curves)}
 
 
@@ -51,8 +49,8 @@ def run_label(run):
 
 
 def labels(runs, names=None):
-    """A label for each run that differs from all others: from `names` {folder's name: label} if given, else spacing and
-    integrator, or the folder's name where those do not."""
+    """A label for each run that differs from all others: from `names` {folder's name: label} if given, otherwise
+    spacing and integrator, or the folder's name if these do not differ."""
     if names:
         return [names[run.path.name] for run in runs]
     short = [run_label(run) for run in runs]
@@ -74,8 +72,8 @@ WATER_INSIDE = {"water inside, of the start":
 
 
 def histories(runs, names=None):
-    """Energies, the volume's error by the density and, if water leaves, the volume inside, over time, of several runs;
-    `names` as in `labels`."""
+    """Histories of several runs: energies, the volume error from the density and, if water leaves, the volume
+    inside; `names` as in `labels`."""
     told = [(label, run, read_table(run.path / "steps.csv")) for run, label in zip(runs, labels(runs, names))]
     leaves = any(steps["volume_out_m3"].any() for _, _, steps in told)
     return [panel(title, "t (s)", "", [curve(label, steps["time_s"], history(run, steps)) for label, run, steps in told])

@@ -1,4 +1,4 @@
-"""Particles of a run: how they hang together."""
+"""Connectivity of the particles of a run."""
 
 from collections import Counter
 
@@ -6,8 +6,8 @@ import numpy as np
 
 
 def detached(position, reach):
-    """How many particles (2D) no chain of others joins with the largest body of water: of cells `reach` wide, neighbours
-    join."""
+    """Number of particles (2D) that are not connected to the largest body of water. Particles are connected if they
+    are in the same cell or in neighbouring cells of width `reach`."""
     count = Counter(map(tuple, np.floor(position[:, :2] / reach).astype(int)))
     cells = set(count)
     bodies = []

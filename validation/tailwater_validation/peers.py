@@ -1,5 +1,5 @@
-"""Figures of other codes, from files with settings and commands: beside.json, which `benchmarks/beside.py --json` has
-written, and files of `benchmarks/work_precision.py --json`."""
+"""Figures of other codes, from files with settings and commands: beside.json, written by `benchmarks/beside.py
+--json`, and files of `benchmarks/work_precision.py --json`."""
 
 import json
 from pathlib import Path
@@ -37,7 +37,7 @@ def figures_of_peers(path=FILE):
 
 
 def work_table(case="zhou", path=None):
-    """The runs of a file of work_precision.py as a table in Markdown, by code, below a line that says where they are from."""
+    """The runs of a file of work_precision.py as a Markdown table by code, below a line with their origin."""
     told = json.loads((path or WORK[case]).read_text(encoding="utf-8"))
     errors = ERRORS[case]
     lines = [f"`benchmarks/work_precision.py{'' if case == 'zhou' else f' --case {case}'}`, {told['date']}, {told['processor']}.", "",
@@ -55,7 +55,7 @@ def work_table(case="zhou", path=None):
 
 
 def beside_table(case, path=FILE):
-    """The runs of a case of beside.py as a table in Markdown, below a line that says where they are from."""
+    """The runs of a case of beside.py as a Markdown table, below a line with their origin."""
     told = json.loads(path.read_text(encoding="utf-8"))
     codes = codes_of(case, path)
     ours = next(code["cpu_s_per_simulated_s"] for code in codes if code["code"] == OURS)

@@ -16,7 +16,7 @@ STEP = 0.04  # sqrt(h/g)
 
 
 class Channel:
-    """Fourier modes of the channel, the wall being in its middle."""
+    """Fourier modes of the channel, with the wall in its middle."""
 
     def __init__(self):
         self.x = (np.arange(NODES) / NODES - 0.5) * 2 * HALF
@@ -34,11 +34,11 @@ class Channel:
         return self.values(1j * self.k * self.modes(values))
 
     def vertical(self, modes, order):
-        """The `order`-th derivative upwards, at the still level, of the potential that has there these modes."""
+        """The `order`-th upward derivative, at the still level, of the potential with these modes there."""
         return self.values(modes * self.k**order * (np.tanh(self.k) if order % 2 else 1.0))
 
     def potentials(self, elevation, surface):
-        """Modes at the still level of the orders of the potential that is `surface` at the elevation."""
+        """Modes at the still level, by order, of the potential that equals `surface` at the elevation."""
         orders = [self.modes(surface)]
         for m in range(1, ORDER):
             total, power = np.zeros(NODES), 1.0
@@ -93,8 +93,8 @@ def start(channel, e, distance):
 
 @dataclass(frozen=True)
 class WallHistory:
-    """Over `time` (0 when the water stands highest): run-up above the still level, force on the wall and pressures at
-    the heights asked for, both above those of the still water."""
+    """History at the wall over `time` (0 at the highest water): run-up above the still level, and force on the wall
+    and pressures at the requested heights, both less those of the still water."""
 
     time: np.ndarray
     run_up: np.ndarray
@@ -103,7 +103,7 @@ class WallHistory:
 
 
 def at_wall(e, heights=(0.0,), distance=12.0):
-    """The history at a wall that a solitary wave of height e (at most 0.3) meets."""
+    """The history at a wall for a solitary wave of height e (at most 0.3)."""
     channel = Channel()
     state = start(channel, e, distance)
     middle, count = NODES // 2, int(2 * distance / np.sqrt(1 + e) / STEP)

@@ -17,7 +17,7 @@ ROUND_OFF = 1e-6  # s, of times written as text
 
 @dataclass(frozen=True)
 class Profile:
-    """Over the places x (m): the height of the bed, the depth of the water that is joined with it, and the height of the
+    """Over the places x (m): the height of the bed, the depth of the water connected with it, and the height of the
     highest water above it (m)."""
 
     time: float
@@ -28,7 +28,7 @@ class Profile:
 
     @property
     def level(self):
-        """Surface of the water joined with the bed; the bed where it is dry."""
+        """Level of the water connected with the bed; the height of the bed where it is dry."""
         return self.bed + self.connected
 
     @property
@@ -36,7 +36,7 @@ class Profile:
         return self.bed + self.highest
 
     def area(self, start, end):
-        """Water between two places that is joined with the bed, m^2."""
+        """Area of the water between two places that is connected with the bed, m^2."""
         places, depths = cut(self.x, self.connected, start, end)
         return float(np.sum(np.diff(places) * (depths[1:] + depths[:-1]) / 2))
 
@@ -54,14 +54,14 @@ def table_of(path, _changed):
 
 
 def profile_table(run, probe):
-    """Columns of a profile probe's CSV, by name; kept, since one file holds the profiles of all times."""
+    """Columns of a profile probe's CSV file by name. The table is kept, because one file holds the profiles of all
+    times."""
     path = run.path / "probes" / f"{probe}.csv"
     return table_of(path, path.stat().st_mtime_ns if path.exists() else 0)
 
 
 def profile_at(run, probe, time):
-    """The profile that a probe of a run took at `time` (s): at the first step at or after it. Throws DataError if there is
-    none."""
+    """The profile that a probe recorded at the first step at or after `time` (s). Throws DataError if there is none."""
     table = profile_table(run, probe)
     taken = np.unique(table["time_s"])
     latest = time + run.summary.get("steps", {}).get("dt_largest_s", LATEST)
@@ -75,8 +75,8 @@ def profile_at(run, probe, time):
 
 
 def differences_at(x, y, x_computed, y_computed):
-    """Computed minus measured heights at the measured places x (m); the computed x increase. Throws DataError if the computed
-    curve does not reach so far."""
+    """Computed minus measured heights at the measured places x (m); the computed x increase. Throws DataError if the
+    computed curve does not cover them."""
     reached = (x >= x_computed[0]) & (x <= x_computed[-1])
     if reached.mean() < LEAST_COVERAGE:
         raise DataError(f"the computed profile spans {x_computed[0]:.3g}..{x_computed[-1]:.3g} m of the measured "

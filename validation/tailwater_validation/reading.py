@@ -1,4 +1,4 @@
-"""Numbers that several commands read from the folders of runs, by name."""
+"""Numbers that several commands read from the folders of runs."""
 
 from functools import lru_cache
 
@@ -17,12 +17,12 @@ def flow_numbers(flow, path):
 
 @lru_cache(maxsize=None)
 def scores(metrics, path):
-    """{name: Metric} that a laboratory's `metrics` find in the folder of a run."""
+    """{name: Metric} from a laboratory's `metrics` for the folder of a run."""
     return {metric.name: metric for metric in metrics(Run(path))}
 
 
 def signed(flow, name, run):
-    """An error against theory: too large is above 0."""
+    """The error against theory with its sign: positive if the value is too large."""
     return flow_numbers(flow, run.path)[name]
 
 
@@ -45,7 +45,7 @@ def summary(block, name, run):
 
 
 def interventions(run, *kinds):
-    """Clamps, limiters and fallbacks of these kinds, or of all, per particle and step."""
+    """Number of clamps, limiters and fallbacks of these kinds, or of all kinds, per particle and step."""
     counts = {kind: count for kind, count in run.summary["interventions"].items() if isinstance(count, int)}
     return (sum(counts[kind] for kind in kinds or counts)
             / (run.fluid_particles * run.summary["steps"]["count"]))

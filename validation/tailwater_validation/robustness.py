@@ -46,8 +46,8 @@ class Bench(Plan):
         return self.level == "full"
 
     def zhou(self, dx, T, start="regular", integrator="explicit", variant="", settings=()):
-        """Zhou's dam break to T = t sqrt(g/H); costs 11 CPU s to T = 8 at dx = 0.02. Its walls are free here: what energy
-        is lost, the scheme loses."""
+        """Zhou's dam break to T = t sqrt(g/H); costs 11 CPU s to T = 8 at dx = 0.02. Its walls have no friction
+        here, so that all loss of energy is due to the scheme."""
         name = f"zhou_dx{dx:g}_T{T:g}_{start}_{integrator}" + (f"_{variant}" if variant else "")
         return self.run(name, "zhou1999/case.toml",
                         (f"particles.spacing={dx:g}", f"time.end={T:g}*sqrt(H/g)", f"scheme.integrator={integrator}",
@@ -188,7 +188,7 @@ READINGS = {"z = 0.06 m": "P060", "z = 0.115 m": "P115", "z = 0.12 m": "P120", "
 
 
 def laboratory_rms(probe, run):
-    """RMS difference from the laboratory at the best shift, T = 2.4..7."""
+    """RMS difference from the laboratory data for T = 2.4..7, with the best shift in time."""
     return zhou1999.rms(run, probe, field="shifted_value")
 
 
@@ -216,10 +216,10 @@ def laboratory_gate(bench):
 
 @dataclass(frozen=True)
 class ExactFlow:
-    """A flow with a known solution, at the spacings of the quick tier and one more of the full tier. Every quantity is
-    shown at each spacing; those in `bars` must be below their target from the second spacing on, and the order of
-    `ordered` must be LEAST_ORDER, unless the coarsest set is right already (OrderOfError). The run at the coarsest
-    spacing costs `seconds`, the others grow with the power `growth`."""
+    """A flow with a known solution, at the spacings of the tier quick and one more of the tier full. Every quantity
+    is listed at each spacing. Those in `bars` must meet their target from the second spacing on. The order of
+    `ordered` must be at least LEAST_ORDER, unless the coarsest run is accurate already (OrderOfError). The run at
+    the coarsest spacing costs `seconds`; the cost of the others grows with the power `growth`."""
 
     case: str
     spacings: tuple
@@ -253,12 +253,12 @@ EXACT_FLOWS = {
 
 @dataclass(frozen=True)
 class OrderOfError(Check):
-    """The observed order of an error; `error` reads it from one run, the coarsest comes first. `bar` is the target of
-    the error on the finer sets, if it has one.
+    """The observed order of an error; `error` computes it from one run, and the coarsest run comes first. `bar` is the
+    target of the error for the finer runs, if there is one.
 
-    A method that just meets `bar` at the order asked for is off by 2^LEAST_ORDER times as much at twice the spacing. One
-    that is within `bar` on the coarsest set already is better there by all of that, and has so much less to gain: it meets
-    the order's target too, as long as its error does not grow from the coarsest set to the finest."""
+    A method that just meets `bar` with the required order has 2^LEAST_ORDER times that error at twice the spacing. A
+    method that meets `bar` on the coarsest run is better there by this factor and has less to gain. It meets the
+    target of the order too, if its error does not grow from the coarsest run to the finest."""
 
     error: Callable | None = None
     bar: float | None = None
@@ -319,7 +319,7 @@ EQUAL_COST_SPACING = 0.015
 
 
 def wins(ours, other):
-    """In how many of noise, volume and energy `ours` is better."""
+    """Number of quantities (noise, volume, energy) in which `ours` is better."""
     return (int(wall_noise(ours) < wall_noise(other))
             + int(summary("volume", "density_error_rms", ours) < summary("volume", "density_error_rms", other))
             + int(energy_at(4, ours) > energy_at(4, other)))
@@ -350,7 +350,7 @@ def equal_cost_gate(bench):
 
 
 def gates(bench):
-    """All gates in the order of the table, by name."""
+    """All acceptance tests by name, in the order of the table."""
     found = [
         tank_gate(bench, "tank", "tank 1 m x 0.5 m at rest, jitter 0.2, 10 s", "tank/case.toml", 0.02, 10, 18,
                   is_implicit_quick=True),

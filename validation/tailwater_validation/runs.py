@@ -1,8 +1,6 @@
-"""Runs made by the program under test: several at a time, in order of a list, and none twice.
-
-Every run is an ordinary folder, OUT/runs/NAME, with one file more, made.json: its case, settings and program, and its
-end. A run whose made.json has the same case, settings and program is not made again.
-"""
+"""Runs by the program under test: several at a time, in the order of a list, and none twice.
+Every run is an ordinary folder, OUT/runs/NAME, with an additional file made.json: its case, settings, program and
+outcome. A run whose made.json has the same case, settings and program is not repeated."""
 
 import hashlib
 import json
@@ -33,8 +31,8 @@ def digest(path):
 
 @dataclass(frozen=True)
 class Run:
-    """A case with settings (key=value); `seconds` is about its cost on one core. The name is that of its folder
-    and belongs to one case and one set of settings."""
+    """A case with settings (key=value); `seconds` is its approximate cost on one core. The name is that of its
+    folder and belongs to one case with one set of settings."""
 
     name: str
     case: Path
@@ -56,7 +54,7 @@ class Run:
 
 @dataclass(frozen=True)
 class TestRun:
-    """The GoogleTest program of a module of the build, for the numbers that the tests matching `tests` record."""
+    """The GoogleTest program of a module of the build, for the numbers recorded by the tests that match `tests`."""
 
     name: str
     module: str
@@ -75,7 +73,7 @@ class TestRun:
                 f"--gtest_output=json:{folder / 'tests.json'}"]
 
     def open(self, folder):
-        """{name: number} of all that the tests recorded (RecordProperty), which are texts that hold a number."""
+        """{name: number} of all numbers that the tests recorded (RecordProperty), as texts."""
         suites = json.loads((folder / "tests.json").read_text(encoding="utf-8"))["testsuites"]
         entries = [entry for suite in suites for test in suite["testsuite"] for entry in test.items()]
         return {name: float(value) for name, value in entries
@@ -83,7 +81,7 @@ class TestRun:
 
 
 class Program:
-    """The program under test, on so many ranks. Throws DataError if it cannot be started."""
+    """The program under test, on a number of ranks. Throws DataError if it cannot be started."""
 
     def __init__(self, path, ranks=1):
         self.path, self.ranks = Path(path).absolute(), ranks
@@ -98,14 +96,14 @@ class Program:
 
     @property
     def identity(self):
-        """The commit; of a program with changes that have none, its content."""
+        """The commit of the program; for a program with uncommitted changes, its content."""
         if not self.commit.endswith("-dirty") and self.commit != "unknown":
             return self.commit
         return digest(self.path)
 
 
 def outcome(folder):
-    """{recipe, exit_code, message} of a run that has ended; {} if there is none."""
+    """{recipe, exit_code, message} of a run that has ended; {} if it has not been made."""
     try:
         return json.loads((folder / "made.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -113,8 +111,8 @@ def outcome(folder):
 
 
 def finished(run, out):
-    """Result of a run that reached its end: a RunFolder, or the numbers of tests. Throws DataError with the program's
-    own message for any other."""
+    """Result of a run that reached its end: a RunFolder, or the numbers of tests. Throws DataError with the
+    program's message for any other run."""
     folder = out / "runs" / run.name
     made = outcome(folder)
     if not made:
@@ -125,7 +123,7 @@ def finished(run, out):
 
 
 def settings_of(run):
-    """As words of a command line."""
+    """Settings as command-line words."""
     return [word for setting in run.settings for word in ("--set", setting)]
 
 
@@ -138,7 +136,7 @@ def require_accepted(run, program, out):
 
 
 def message_of(folder, errors):
-    """Why a run failed, in one line: from its summary, or the program's message."""
+    """The cause of a failed run, in one line: from its summary, or the program's message."""
     try:
         told = json.loads((folder / "summary.json").read_text(encoding="utf-8")).get("message", "")
     except (OSError, ValueError):
@@ -153,7 +151,8 @@ def duration(seconds):
 
 
 def end_of(process, run):
-    """Why it was stopped: a run that takes far longer than estimated ends in order."""
+    """The reason why a run was stopped: a run that takes far longer than estimated is stopped with its files
+    complete."""
     patience = max(LEAST_PATIENCE, PATIENCE * run.seconds)
     try:
         process.wait(patience)
@@ -165,7 +164,8 @@ def end_of(process, run):
 
 
 def make_one(run, program, out, under_way, stopping):
-    """Writes made.json; returns the seconds it took and how it ended, in words. The process is in `under_way` meanwhile."""
+    """Makes a run and writes made.json; returns its time (s) and its outcome in words. Meanwhile its process is in
+    `under_way`."""
     folder, start = out / "runs" / run.name, time.monotonic()
     made = folder / "made.json"
     folder.mkdir(parents=True, exist_ok=True)
@@ -191,9 +191,9 @@ def make_one(run, program, out, under_way, stopping):
 
 
 def make(runs, program, out, jobs):
-    """Makes the runs that are not there yet, `jobs` at a time, and reports on standard error which have ended and when
-    the rest should. A run that fails is left as it is. On KeyboardInterrupt the runs under way are stopped, to be made
-    again next time, and it is raised again."""
+    """Makes the missing runs, `jobs` at a time, and reports on standard error which runs have ended and when the
+    rest should end. A run that fails is left as it is. KeyboardInterrupt stops the current runs, which are made
+    again next time, and is raised again."""
     waiting = [run for run in runs if outcome(out / "runs" / run.name).get("recipe") != run.recipe(program)]
     if len(waiting) < len(runs):
         print(f"{len(runs) - len(waiting)} of {len(runs)} runs are there already", file=sys.stderr)

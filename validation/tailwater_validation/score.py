@@ -17,7 +17,7 @@ from .studies import LABORATORIES
 
 
 def numbers(laboratory, run):
-    """{name: number, or why there is none} of a laboratory's module."""
+    """{name: number, or the reason why there is none} of a laboratory's module."""
     return {metric.name: metric.note if metric.value is None else metric.value for metric in laboratory.metrics(run)}
 
 

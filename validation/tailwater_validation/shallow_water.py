@@ -30,9 +30,9 @@ def ritter(similarity):
 
 
 def stoker_state(ahead, uneven=0.0):
-    """(depth, speed of the water, speed of the bore) between rarefaction and bore, over h0 and sqrt(g h0), for a depth
-    `ahead` (over h0, below 1): the bore keeps mass and momentum whatever dissipates its energy. `uneven` is the momentum
-    flux behind it, over g h0^2, beyond that of even flow. By bisection."""
+    """(depth, speed of the water, speed of the bore) between rarefaction and bore, over h0 and sqrt(g h0), for a
+    depth `ahead` (over h0, below 1). The bore conserves mass and momentum and dissipates energy. `uneven` is the
+    excess of the momentum flux behind the bore over that of uniform flow, over g h0^2. By bisection."""
     low, high = ahead, 1.0
     for _ in range(60):
         depth = 0.5 * (low + high)
@@ -56,28 +56,30 @@ def stoker(similarity, ahead):
 
 
 class RoughBed:
-    """A bed of the roughness k_s (h0) under layers that grow: water begins with a layer k_s thick and takes it along."""
+    """A bed of roughness k_s (over h0) below growing layers: water starts with a layer of thickness k_s, which moves
+    with it."""
 
     def __init__(self, roughness):
         self.roughness, self.y0 = roughness, roughness / 30
 
     def friction_velocity(self, depth, speed, layer):
-        """u_tau of water that follows the logarithmic law of a rough bed up to `layer` and moves evenly above it; `speed`
-        is its mean over the depth."""
+        """u_tau of water that follows the logarithmic law of a rough bed up to `layer` and has a uniform velocity
+        above it; `speed` is the mean over the depth."""
         layer = np.clip(layer, self.roughness, np.maximum(depth, self.roughness))
         logarithm = np.log1p(layer / self.y0)
         share = np.minimum(layer / np.maximum(depth, DRY), 1.0)
         return KARMAN * np.abs(speed) / (logarithm - share * (1 - self.y0 / layer * logarithm))
 
     def slow(self, depth, speed, layer, dt):
-        """(speed, layer) after dt. A layer grows by kappa u_tau; then its missing momentum is that lost to the bed."""
+        """(speed, layer) after dt. A layer grows by kappa u_tau; its missing momentum is then the momentum lost to
+        the bed."""
         u_tau = self.friction_velocity(depth, speed, layer)
         rate = u_tau**2 / np.maximum(np.abs(speed) * depth, DRY)
         return speed / (1 + dt * rate), np.minimum(layer + dt * KARMAN * u_tau, np.maximum(depth, self.roughness))
 
 
 class EvenBed:
-    """u_tau^2 = coefficient u^2 everywhere; layers mean nothing."""
+    """A bed with u_tau^2 = coefficient u^2 everywhere; layers have no effect."""
 
     roughness = 0.0
 
@@ -115,7 +117,7 @@ def limited(values):
 
 
 def half_step(depth, speed, ratio):
-    """States (depth, speed) on the left and on the right side of each cell half a step later, `ratio` = dt/dx: the
+    """States (depth, speed) on the left and the right side of each cell half a step later, with `ratio` = dt/dx: the
     MUSCL-Hancock method, in depth and discharge."""
     slope = limited(np.array([depth, speed]))
     sides = [np.maximum(np.array([depth, speed]) + sign * slope, [[0.0], [-np.inf]]) for sign in (-1, 1)]
@@ -128,8 +130,8 @@ def half_step(depth, speed, ratio):
 
 
 def dam_break(ahead, bed, times, back, front, cells=2000):
-    """[(x, depth, speed)] at rising `times`: water of depth 1 over -back < x < 0, of depth `ahead` over 0 < x < front,
-    both at rest at 0, over the `bed`. Nothing may reach the ends."""
+    """[(x, depth, speed)] at increasing `times`: water of depth 1 over -back < x < 0 and of depth `ahead` over 0 < x
+    < front, at rest at time 0, over the `bed`. The waves must not reach the ends."""
     x = (np.arange(cells) + 0.5) * (back + front) / cells - back
     dx = x[1] - x[0]
     depth, speed = np.where(x < 0, 1.0, ahead), np.zeros(cells)
@@ -173,13 +175,13 @@ def late_profiles(run):
 
 
 def slope(times, values):
-    """Least squares."""
+    """Slope by least squares."""
     return float(np.polyfit(times, values, 1)[0])
 
 
 def water_passed(run):
-    """(T, water over h0^2 that has passed x = 0 since the start) of a run's frames. Particles are counted: depths of a profile
-    hold the air under a bore's roller, and miss the water that it throws."""
+    """(T, water over h0^2 that has passed x = 0 since the start) from a run's frames. Particles are counted, because
+    the depths of a profile include the air below the roller of a bore, and miss its spray."""
     depth, dx, scale = run.parameters["h0"], run.spacing, time_unit(run)
     frames = [read_frame(*entry) for entry in list_frames(run.path)]
     # Each is a cell that is dx wide.
@@ -188,7 +190,8 @@ def water_passed(run):
 
 
 def late_discharge(run, since=LATE):
-    """Through x = 0, over sqrt(g) h0^1.5, from T = `since` on. Throws DataError for fewer than three frames."""
+    """Discharge through x = 0, over sqrt(g) h0^1.5, from T = `since` on. Throws DataError for fewer than three
+    frames."""
     T, passed = water_passed(run)
     late = T > since - 0.01
     if late.sum() < 3:
@@ -206,21 +209,23 @@ def last_place(x, depth, level):
 
 
 def place_of_bore(x, depth, still, start):
-    """Place of a bore onto water of the depth `still`, behind which the depth is even from x = `start` on: twice as far
-    from there as the middle of the water that it has brought. The splashes of its roller hardly move that."""
+    """Position of a bore onto water of the depth `still`, behind which the depth is uniform from x = `start` on. It
+    is twice as far from there as the centre of the water that the bore has brought, which spray of the roller hardly
+    moves."""
     above = np.where(x > start, depth - still, 0.0)
     return start + 2 * float((x - start) @ above) / float(above.sum())
 
 
 def volume_ahead(x, depth, still):
-    """Water of theory that has passed x = 0, over h0^2; `still` was there already. x are middles of equal pieces."""
+    """Water that has passed x = 0 in theory, over h0^2, without the depth `still` that was there before. x are the
+    middles of equal pieces."""
     return float(np.sum((depth - still)[x > 0]) * (x[1] - x[0]))
 
 
 def shallow_dam_break(run, exact, discharge, front, speed):
-    """Numbers that both dam breaks have; `speed` is that of the place front(x, depth). A real dam break needs the time
-    sqrt(h0/g) to become shallow: it lags behind by a length that stays, so speeds and the discharge are slopes over T,
-    and the profile is the last one's."""
+    """Numbers common to both dam breaks; `speed` is that of the place front(x, depth). A real dam break becomes
+    shallow only after the time sqrt(h0/g) and then lags behind theory by a constant length. Speeds and the discharge
+    are therefore slopes over T, and the profile is the last one."""
     profiles = late_profiles(run)
     if len(profiles) < 3:
         raise DataError(f"{run.path}: has {len(profiles)} profiles from T = {LATE:g} on, too few for a slope")
@@ -276,9 +281,9 @@ def uneven_momentum(run, start, end):
 
 
 def bore_speed_error(run):
-    """Error of Stoker's bore: its speed over that of mass and momentum for the velocities that are behind it, less 1.
-    The water between that of the reservoir and the bore has been through the roller, which leaves it uneven; the half
-    that the bore has left behind longest is read."""
+    """Error of Stoker's bore: its speed over that from mass and momentum for the velocities behind it, less 1. The
+    water between the reservoir's water and the bore has passed the roller, which makes its velocity uneven; the
+    older half of this water is used."""
     still = run.parameters["h1"] / run.parameters["h0"]
     _, speed, bore = stoker_state(still)
     _, _, with_profile = stoker_state(still, uneven_momentum(run, speed, 0.5 * (speed + bore)))
@@ -295,7 +300,7 @@ def front_of(x, depth):
 
 @lru_cache(maxsize=None)
 def rough_theory(ahead, roughness, times, back, front):
-    """States of a dam break over a bed of this roughness, and over a free one where there is water ahead."""
+    """States of a dam break over a bed with this roughness, and over a frictionless bed if there is water ahead."""
     return (dam_break(ahead, RoughBed(roughness), times, back, front),
             dam_break(ahead, EvenBed(0.0), times, back, front) if ahead > 0 else None)
 
@@ -310,7 +315,7 @@ def rough_states(run, times):
 
 
 def front_history(run):
-    """[(T, computed front, that of theory)] at the profiles of a run over a rough dry bed."""
+    """[(T, computed front, front in theory)] at the profiles of a run over a rough dry bed."""
     depth, scale = run.parameters["h0"], time_unit(run)
     times = [T for T, _, _ in late_profiles(run)]
     front = run.curve("front", "front_m")
@@ -320,9 +325,9 @@ def front_history(run):
 
 
 def rough_dry_bed(run):
-    """Errors of the tip that friction holds back. front_error: of its place at the last profile, relative. speed_error:
-    of its mean speed over the last third, relative. profile_error: rms over h0 of the water ahead of the gate at the
-    last profile."""
+    """Errors of the tip that friction slows. front_error: of its position at the last profile, relative.
+    speed_error: of its mean speed over the last third, relative. profile_error: rms over h0 for the water ahead of
+    the gate at the last profile."""
     history = front_history(run)
     T, found, exact = history[-1]
     late = [entry for entry in history if entry[0] > 2 / 3 * T]
@@ -337,8 +342,8 @@ def rough_dry_bed(run):
 
 
 def held_back(rough, free):
-    """[(T, computed, that of theory)]: water (h0^2) that has not passed the gate because of the friction of a wet bed, by
-    runs that differ only in that. The lag of the start, which theory has not, is the same in both."""
+    """[(T, computed, in theory)]: water (h0^2) that has not passed the gate because of the friction of a wet bed,
+    from two runs that differ only in friction. The lag of the start, which theory does not have, cancels."""
     still = rough.parameters["h1"] / rough.parameters["h0"]
     (times, passed), (free_times, free_passed) = water_passed(rough), water_passed(free)
     late = np.minimum(times[times > LATE - 0.01], free_times[-1])  # their last frames are a step apart
@@ -349,7 +354,7 @@ def held_back(rough, free):
 
 
 def held_back_error(rough, free):
-    """Error of the water that the bed's friction has held back by the last frame, relative."""
+    """Relative error of the water that the bed's friction has held back by the last frame."""
     _, found, exact = held_back(rough, free)[-1]
     return found / exact - 1
 

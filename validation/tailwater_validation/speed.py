@@ -70,7 +70,7 @@ class Bench:
 
     @contextlib.contextmanager
     def measuring(self, name, what):
-        """Reports the measurement; a failure is a number without a value, and the rest of the block is left out."""
+        """Reports the measurement. A failure becomes a number without a value, and the rest of the block is skipped."""
         self.say(what)
         try:
             yield
@@ -117,8 +117,8 @@ class Bench:
                       for _ in range(self.level.repeats)], key)
 
     def growth(self):
-        """First steps at several numbers of particles. The memory of the program itself is taken out by the difference
-        of the smallest and the largest."""
+        """First steps at several numbers of particles. The difference between the smallest and the largest excludes
+        the memory of the program itself."""
         for dimension, sizes in self.level.growth.items():
             costs = []
             for particles in sizes:
@@ -140,7 +140,7 @@ class Bench:
                          MEMORY_BARS[dimension])
 
     def deep(self):
-        """Equally many particles, of water of several depths: the pressure solve feels the depth."""
+        """Equal numbers of particles in water of several depths, on which the cost of the pressure solve depends."""
         for rows in self.level.deep:
             name, what = f"deep.{rows}", f"3D dam break, {rows} rows deep"
             with self.measuring(name, what):
@@ -149,7 +149,7 @@ class Bench:
                 self.add(f"{name}.iterations", what, "iterations per step", cost.iterations)
 
     def ranks(self):
-        """One rank and two in turn."""
+        """One rank and two ranks in turn."""
         for dimension, particles in self.level.ranks.items():
             name, what = f"ranks.{dimension}D.{particles:g}", f"{dimension}D, {particles:g} particles, two ranks"
             with self.measuring(name, what):
@@ -161,7 +161,7 @@ class Bench:
                 self.add(f"{name}.memory", f"{what}: peak memory over that of one rank", "ratio", two.memory / one.memory)
 
     def profile(self):
-        """Profile of the first steps, start of the run included."""
+        """Profile of the first steps, including the start of the run."""
         for dimension, sizes in self.level.modules.items():
             name, what = f"profile.{dimension}D", f"{dimension}D, {sizes[0]:g} particles, where the time goes"
             with self.measuring(name, what):
@@ -175,8 +175,7 @@ def modules_program(program):
 
 
 def choose_parts(options):
-    """The parts to measure, in order; those of `--part`, else all that need no tool beside the program. Throws
-    DataError."""
+    """The parts to measure, in order: those of `--part`, otherwise all that need no further tool. Throws DataError."""
     for name in options.parts:
         if name not in PARTS:
             raise DataError(f"--part {name}: there is no such part; parts: {', '.join(PARTS)}")
@@ -194,8 +193,7 @@ def choose_parts(options):
 
 
 def provenance(runner):
-    """Version, compiler and machine of the program, by a run of no length; it refuses wrong settings before all
-    else."""
+    """Version, compiler and machine of the program, from a run of no duration, which rejects wrong settings first."""
     summary = runner.run(ZHOU, ("particles.spacing=0.06", "time.end=1e-6"))
     return {key: summary[key] for key in ("version", "commit", "compiler", "options", "libraries", "machine")}
 

@@ -18,8 +18,8 @@ BYTES = {"all": "all that a flow holds between steps", "pairs": "pairs", "pair_v
 
 
 def times(result):
-    """{benchmark: (CPU s, counters)}, of repetitions the shortest. `result` is Google Benchmark's JSON; times are those
-    that the benchmarks took themselves."""
+    """{benchmark: (CPU s, counters)}, the shortest of the repetitions. `result` is Google Benchmark's JSON; the
+    times are measured by the benchmarks themselves."""
     found = {}
     units = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
     for entry in result["benchmarks"]:

@@ -1,4 +1,4 @@
-"""Where the time of a run goes, by perf's samples: functions of the program by name, and libraries as a whole."""
+"""Distribution of a run's time, from perf's samples: functions of the program by name, and libraries as a whole."""
 
 import re
 import shutil

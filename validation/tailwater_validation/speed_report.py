@@ -1,4 +1,4 @@
-"""Results of the speed benchmark, as speed.json, speed.csv and speed.md, and beside earlier results."""
+"""Results of the speed benchmark as speed.json, speed.csv and speed.md, and their comparison with earlier results."""
 
 import csv
 import io
@@ -51,7 +51,7 @@ def write(result, folder):
 
 
 def read(path):
-    """A speed.json of before. Throws DataError."""
+    """The content of an earlier speed.json. Throws DataError."""
     try:
         result = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -67,7 +67,8 @@ def read(path):
 
 
 def comparison(old, new):
-    """A table of all numbers that both have, with the ratio of the new to the old one, and all other differences."""
+    """A table of all numbers in both results, with the ratio of the new to the old one, and of all other
+    differences."""
     before = {number["name"]: number["value"] for number in old["numbers"]}
     lines = []
     for number in new["numbers"]:

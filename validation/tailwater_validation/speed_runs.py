@@ -1,4 +1,4 @@
-"""Runs of the speed benchmark: cost of a case, and of one of its steps, read from the summaries of runs."""
+"""Runs of the speed benchmark: cost of a case and of one of its steps, from the summaries of runs."""
 
 import json
 import math
@@ -20,7 +20,7 @@ UNCOUNTED_STEPS = 5  # at the start of a run, which builds lists and patterns an
 
 @dataclass(frozen=True)
 class Water:
-    """A column that collapses: `key` is the setting that is its particle spacing."""
+    """A collapsing column: `key` is the setting of its particle spacing."""
 
     case: Path
     key: str
@@ -36,11 +36,11 @@ class Water:
         return (*self.settings, f"{self.key}={spacing:g}")
 
     def first_step(self, spacing):
-        """s; the length of the first steps."""
+        """Length of the first steps, s."""
         return COURANT * spacing / math.sqrt(2 * GRAVITY * self.depth)
 
     def first_steps(self, particles, steps):
-        """Settings of a run of about so many steps from a jittered start."""
+        """Settings of a run of about this number of steps from a jittered start."""
         spacing = self.spacing(particles)
         end = (steps - 0.5) * self.first_step(spacing)
         return (*self.at(spacing), "particles.jitter=0.1", f"time.end={end:.6g}",
@@ -48,7 +48,8 @@ class Water:
 
 
 def box_of_rows(rows_deep):
-    """60 000 particles of a 3D dam break, so many rows deep: a short and narrow tank if that is many."""
+    """60 000 particles of a 3D dam break with this number of rows over the depth: the deeper, the shorter and
+    narrower the tank."""
     d = 0.01
     long, wide = {25: (60, 40), 100: (30, 20)}[rows_deep]
     shape = {"length": 2 * long, "width": wide, "height": rows_deep + 20, "column": long, "depth": rows_deep,
@@ -102,7 +103,7 @@ class StepCost:
 
 
 def difference(short, long):
-    """Cost of a step, from two runs that differ in their ends: start and end of the runs cancel."""
+    """Cost of a step, from two runs of different duration, so that the costs of start and end cancel."""
     steps = long["steps"]["count"] - short["steps"]["count"]
     if steps <= 0:
         raise DataError(f"the longer run has {long['steps']['count']} steps, the shorter {short['steps']['count']}")
@@ -121,12 +122,12 @@ def step_cost(runner, water, particles, steps, ranks=1):
 
 
 def least(costs, key):
-    """The one of several measurements that other programs disturbed least."""
+    """The measurement that other programs disturbed least."""
     return min(costs, key=lambda cost: getattr(cost, key))
 
 
 def exponent(sizes, costs):
-    """p of cost ~ size^p, by least squares of the logarithms. Throws DataError where there is none."""
+    """p in cost ~ size^p, by least squares of the logarithms. Throws DataError if it cannot be determined."""
     if len(set(sizes)) < 2:
         raise DataError("an exponent needs two sizes")
     if min(costs) <= 0:  # differences of times of short runs on a busy machine

@@ -1,4 +1,4 @@
-"""A study: its runs, the numbers that are read from them, their references, and its drawings."""
+"""A study: its runs, the numbers computed from them, their references, and its drawings."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ KINDS = (LABORATORY, EXACT, COMPARISON)
 
 @dataclass(frozen=True)
 class Plot:
-    """`draw` takes what those of `runs` left that reached their end, and returns panels (module panels)."""
+    """`draw` takes the results of those `runs` that reached their end, and returns panels (module panels)."""
 
     caption: str
     runs: tuple
@@ -29,10 +29,10 @@ class Plot:
 
 @dataclass(frozen=True)
 class Study:
-    """`about` names the compared values, `uncertainty` how well the reference is known. The water of `shown` is in the
-    report, which points to it at `moments` (s); T = t over `time_scale` (s), if there is one. Without `has_histories`
-    the energies mean nothing, such as those of a flow that a body force drives around. `names` {run's name: label} are
-    labels of plots."""
+    """`about` describes the compared values, `uncertainty` that of the reference. The report shows the water of the
+    run `shown`, with buttons for `moments` (s); T = t over `time_scale` (s), if there is one. `has_histories` is
+    false where energies have no meaning, as in a flow driven by a body force. `names` {run's name: label} are labels
+    in plots."""
 
     name: str
     title: str
@@ -58,7 +58,7 @@ class Study:
 
 @dataclass(frozen=True)
 class Plan:
-    """How the runs of the studies are made: the level, and the scheme under test ("" is the program's default)."""
+    """Settings for all runs of the studies: the tier, and the scheme under test ("" is the program's default)."""
 
     level: str = "quick"
     scheme: str = ""
@@ -85,9 +85,9 @@ class Plan:
 
 @dataclass(frozen=True)
 class OrderCheck(Check):
-    """An error on the last of the runs, and its observed order over all of them if there are several; `compute` takes
-    one run. Of three runs or more also its uncertainty (docs/theory/uncertainty.md), from what `interval_of` reads of
-    each run: the error with its sign."""
+    """An error of the last run, and its observed order over all runs if there are several; `compute` takes one run.
+    From three runs on it also has an uncertainty (docs/theory/uncertainty.md), from the error with its sign, which
+    `interval_of` computes for each run."""
 
     interval_of: Callable | None = None
 
@@ -107,8 +107,9 @@ class OrderCheck(Check):
 
 @dataclass(frozen=True)
 class AllChecks:
-    """All numbers that `metrics` finds in one run, [Metric], and whose names `keep` accepts; `paper` has the values
-    that the paper reports for its own code, by name. Of a run that did not reach its end: that it did not."""
+    """All numbers, [Metric], that `metrics` computes for one run and whose names `keep` accepts; `paper` has the
+    values that the paper reports for its own code, by name. A run that did not reach its end has one number, which
+    records this."""
 
     name: str
     metrics: Callable

@@ -28,7 +28,7 @@ from .text_table import text_table
 
 
 def finite(value):
-    """None for what JSON has no word for."""
+    """The value, or None for a value that JSON cannot represent."""
     return value if value is not None and math.isfinite(value) else None
 
 
@@ -42,7 +42,7 @@ def metric_record(check, metric):
 
 
 def run_record(run, out):
-    """Settings, size and cost of a run; only why it failed, if it did; of tests, that they passed."""
+    """Settings, size and cost of a run; for a failed run only the cause; for tests, that they passed."""
     try:
         left = finished(run, out)
     except DataError as error:
@@ -93,7 +93,7 @@ def processor():
 
 
 def finished_of(runs, out):
-    """Folders of those runs that are cases and reached their end."""
+    """Folders of the runs that belong to cases and reached their end."""
     found = []
     for run in runs:
         try:
@@ -104,7 +104,7 @@ def finished_of(runs, out):
 
 
 def figure(caption, runs, out, draw):
-    """The panels that `draw` makes of those of the runs that reached their end, or why there is nothing."""
+    """The panels that `draw` makes of the runs that reached their end, or the reason why there are none."""
     left = finished_of(runs, out)
     try:
         return {"caption": caption, **({"panels": draw(*left)} if left else {"missing": "no run reached its end"})}
@@ -123,7 +123,7 @@ def figures(study, out):
 
 
 def moments(study):
-    """Moments of the shown run, with words for buttons."""
+    """Instants of the shown run, with labels for buttons."""
     return [{"time": time, "label": f"t = {time:.3g} s" + (f", T = {time / study.time_scale:.3g}" if study.time_scale else "")}
             for time in study.moments]
 
@@ -156,7 +156,7 @@ def overview(result):
 
 
 def score(chosen, program, options):
-    """Writes validation.json and the report; returns what to print."""
+    """Writes validation.json and the report; returns the text to print."""
     result, out = collect(chosen, program, options), options.out
     for name, content, indent in (("validation", result, 1), ("report", report(result, chosen, out), None)):
         text = json.dumps(content, indent=indent) + "\n"

@@ -62,7 +62,7 @@ def line(start, end, pieces):
 
 
 def smoothed(values):
-    """By the five-point formula of Longuet-Higgins & Cokelet (1976), which takes away a sawtooth."""
+    """Smoothed by the five-point formula of Longuet-Higgins & Cokelet (1976), which removes a sawtooth."""
     out = values.copy()
     out[2:-2] = (-values[:-4] + 4 * values[1:-3] + 10 * values[2:-2] + 4 * values[3:-1] - values[4:]) / 16
     out[1] = (values[0] + 2 * values[1] + values[2]) / 4
@@ -70,7 +70,7 @@ def smoothed(values):
 
 
 def cubic(at, arc, values):
-    """Monotone Hermite interpolation along a curve (Fritsch & Carlson 1980). Linear pieces would wear off the jet, and
+    """Monotone Hermite interpolation along a curve (Fritsch & Carlson 1980). Linear pieces would erode the jet, and
     other cubics overshoot at its root."""
     rise = np.diff(values) / np.diff(arc)
     before, after = rise[:-1], rise[1:]
@@ -113,7 +113,7 @@ class Wedge:
         self.normal = np.linalg.solve(single, double @ self.phi + 0.5 * self.phi)
 
     def velocity(self):
-        """At the middles of the surface's elements, after solve()."""
+        """Velocity at the middles of the surface's elements, after solve()."""
         step = np.diff(self.ends, axis=0)
         length = np.hypot(*step.T)
         t = step / length[:, None]
@@ -147,7 +147,7 @@ class Wedge:
         return ds
 
     def wall_pressure(self, x):
-        """At places along the wall, after solve(): p = 1/2 - phi_t - u^2/2 with phi_t = phi - x phi_x."""
+        """Pressure at places along the wall, after solve(): p = 1/2 - phi_t - u^2/2 with phi_t = phi - x phi_x."""
         h = 1e-4
 
         def potential(at):

@@ -49,7 +49,7 @@ def wave_flume(run):
 
 
 def jonswap(frequency):
-    """The JONSWAP spectrum over the frequency of the peak, with the energy 1 between the frequencies that the maker makes."""
+    """The JONSWAP spectrum over the peak frequency, with energy 1 between the frequencies of the maker."""
     def shape(f):
         return f**-5.0 * np.exp(-1.25 * f**-4.0) * PEAK_ENHANCEMENT ** np.exp(-0.5 * ((f - 1) / np.where(f <= 1, 0.07, 0.09)) ** 2)
 
@@ -66,7 +66,7 @@ def spectrum_numbers(frequency, density):
 
 
 def random_number(seed, item, which):
-    """The random number of src/base/random.h: the waves of a maker follow from its seed."""
+    """The random number of src/base/random.h, which gives the waves of a maker from its seed."""
     all_bits = 2**64 - 1
     z = (seed * 0x9E3779B97F4A7C15 & all_bits) ^ (item * 3 + which)
     for _ in range(2):
@@ -78,7 +78,7 @@ def random_number(seed, item, which):
 
 
 def sea(seed, height, period, depth, gravity):
-    """(amplitude, angular frequency, wave number, phase) of each sine that a maker of irregular waves makes
+    """(amplitude, angular frequency, wave number, phase) of each sine of a maker of irregular waves
     (docs/theory/waves.md)."""
     width = (MAKER[1] - MAKER[0]) / COMPONENTS
     n = range(COMPONENTS)

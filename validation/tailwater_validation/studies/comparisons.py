@@ -52,7 +52,7 @@ def ratio(read, run, other):
 
 
 def comparison(name, title, about, variants, quantities, more_plots=(), claims=()):
-    """A study of {variant: run}: each quantity of each variant. `more_plots` are (caption, draw), where `draw` takes the
+    """A study of {variant: run}: each quantity of each variant. `more_plots` are (caption, draw); `draw` takes the
     folders of the runs and their `names`."""
     runs = tuple(variants.values())
     names = {run.name: variant for variant, run in variants.items()}
@@ -93,7 +93,7 @@ ACCELERATED_GATE = ('gate=[{name="gate", from=["lock", 0], to=["lock", "h0+6*dx"
 
 
 def wet_bed(plan):
-    """The pair on the paper's case for it, and the influence of the gate."""
+    """Both schemes on the paper's case of a wet bed, and the influence of the gate."""
     plan = replace(plan, scheme="")
     count = plan.at(7, 13, 21)
     run = partial(case_run, plan, "janosi2004", "d", count, 50)
@@ -122,7 +122,7 @@ def schemes(plan):
 
 
 def sill_time_step(plan):
-    """The paper's time-step study, on its case; surfaces are compared with those of the smallest step."""
+    """The paper's study of the time step on its own case; surfaces are compared with those for the smallest step."""
     plan = replace(plan, scheme="")
     count = plan.at(8, 11, 16)
     run = partial(case_run, plan, "soares_frazao2002", "h0", count, 40, "explicit")
@@ -182,7 +182,7 @@ def starts(plan):
     plan = replace(plan, scheme="")
     dx = spacing(plan)
     return zhou_comparison(
-        "starts", "Starts: how far chance goes", "The same case from the regular lattice and from particles displaced at random. The "
+        "starts", "Scatter between initial states", "The same case from the regular lattice and from particles displaced at random. The "
         "scatter is the uncertainty of any single run of this case.",
         {"regular": zhou_run(plan, dx),
          **{f"displaced by {jitter:g} dx": zhou_run(plan, dx, variant=f"jitter{jitter:g}",

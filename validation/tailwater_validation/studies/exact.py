@@ -33,7 +33,7 @@ def runs_by_rows(plan, case, length, seconds, rows):
 
 
 def flow_study(name, title, flow, about, uncertainty, runs, quantities, moments, more_plots=(), has_histories=True):
-    """A study of one flow at several spacings, the finest last, of which the errors are shown."""
+    """A study of one flow at several spacings, the finest last; its errors are plotted."""
     return Study(name, title, EXACT, about, uncertainty, error_checks(name, flow, runs, quantities),
                  (Plot("Errors by spacing, with observed orders.", runs, partial(draw_errors, flow, quantities)),
                   *more_plots), shown=runs[-1], moments=moments, has_histories=has_histories)
@@ -99,7 +99,7 @@ def tank(plan):
 
 
 def draw_channel(exact_of, *runs):
-    """Speeds of the particles across the channel at several times, over the series."""
+    """Speeds of the particles across the channel at several times, with the exact series."""
     def of(run):
         profile, _ = exact_of(run)
         y = np.linspace(0, run.parameters["L"], 200)
@@ -180,7 +180,7 @@ def slot(plan):
 
 
 def wedge_runs(plan, name, counts):
-    """Runs of a wedge with so many particles over its way D."""
+    """Runs of a wedge with these numbers of particles over its path D."""
     return tuple(plan.run(f"{name}_D{n}", f"verification/{name}.toml", (f"particles.spacing=D/{n}",), 2 * (n / 4) ** 3.3)
                  for n in counts)
 
@@ -201,7 +201,7 @@ def water_wedge(plan):
 def wedge_entry(plan):
     runs = wedge_runs(plan, "wedge_entry", plan.at((4,), (4, 8), (4, 8, 16)))
     return flow_study(
-        "wedge-entry", "Wedge that enters water", "wedge-entry",
+        "wedge-entry", "Water entry of a wedge", "wedge-entry",
         "A wedge whose faces rise at 30 degrees enters water at rest at an even speed, without gravity. Mean force while it goes from "
         "D/2 to D against the similarity solution of Zhao & Faltinsen (1993).",
         "The solution is for boundless water; this water is 28 D wide and 14 D deep with free sides, and the force falls by 2.4 % when that "

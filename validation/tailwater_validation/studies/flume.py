@@ -80,21 +80,21 @@ def hydraulic_jump(plan):
         plan, "hydraulic-jump", "Hydraulic jump: Belanger's conjugate depths",
         "Supercritical water, Froude number 2.5, meets a tailwater of its conjugate depth, without friction: depth behind the jump "
         "for the depth and the speed before it, both seen from the jump, which may wander.",
-        "Belanger's formula follows from mass and momentum alone, however the energy is lost, but for even flow behind the jump. "
+        "Belanger's formula follows from mass and momentum alone, however the energy is lost, but for uniform flow behind the jump. "
         "Without friction the jet along the bed is still there at the gauge, and momentum with the velocities that were read asks for "
         "a depth 4 to 5 % less: that has the target.",
         "behind", ("h1", (4,), (4, 6, 9)), 45.0,
-        (("momentum_error", "depth behind the jump, with the uneven velocity there, relative error", "", "momentum", 0.02),
-         ("conjugate_error", "the same, for even flow", "", "Belanger", None),
-         ("momentum_coefficient", "momentum of the flow behind the jump over that of even flow", "", "1", None),
+        (("momentum_error", "depth behind the jump, with the computed velocity profile there, relative error", "", "momentum", 0.02),
+         ("conjugate_error", "the same, for uniform flow", "", "Belanger", None),
+         ("momentum_coefficient", "momentum of the flow behind the jump over that of uniform flow", "", "1", None),
          ("wander_m_s", "speed at which the jump wanders", "m/s", "at rest", None)))
 
 
 def channel(plan):
     return flume_study(
-        plan, "channel", "Even flow through a channel with open ends",
+        plan, "channel", "Uniform flow through a channel with open ends",
         "0.11 m^2/s through 3 m of water 0.2 m deep without friction, inlet with a discharge, outlet with a tailwater, 10 s.",
-        "The flow is even: nothing should change.",
+        "The flow is uniform: nothing should change.",
         "depth_upstream", ("H", (8,), (8, 12, 18)), 16.0,
         (("discharge_error", "discharge in the middle, relative error", "", "inlet", 0.005),
          ("level_error_dx", "depth at two gauges, largest error", "dx", "tailwater", 0.25)))
@@ -122,10 +122,10 @@ def circulation(plan):
                   ("discharge_drift", "discharge of the last quarter over that of the one before, less 1", "", "none", None),
                   ("level_drift_dx", "change of the depth between the same quarters", "dx", "none", None))
     return Study(
-        "circulation", "Even flow that circulates", EXACT,
+        "circulation", "Uniform flow that circulates", EXACT,
         f"0.11 m^2/s through a channel {length.removesuffix('*H')} depths long with 5 particles over its depth, for {end} s: "
         "what leaves at the tailwater enters again.",
-        "The flow is even: nothing should change.",
+        "The flow is uniform: nothing should change.",
         tuple(Check(Metric(f"circulation.{key}", words, unit, against, high=high), (run,), partial(exact, "circulation", key))
               for key, words, unit, against, high in quantities),
         (Plot("Depth at the upstream gauge over time.", (run,), partial(draw_gauge, "depth_upstream")),), shown=run)
@@ -139,7 +139,7 @@ def solitary_wave(plan):
                   ("force_error", "largest wave force on the wall, relative error", "potential flow", 0.05),
                   ("force_rms", "force on the wall over the largest, rms error while the wave is there", "potential flow", 0.03),
                   ("pressure_error", "largest wave pressure on the wall, relative error", "potential flow", 0.05),
-                  ("height_lost", "share of its height that the wave loses in 10 depths", "none", None))
+                  ("height_lost", "fraction of its height that the wave loses in 10 depths", "none", None))
     return Study(
         "solitary-wave", "Solitary wave in a channel and at a wall", EXACT,
         "A wave 0.2 of the depth high runs along a channel, past three gauges, and up the wall at its end.",
@@ -158,7 +158,7 @@ def run_up(plan):
         "The law is asymptotic for waves that do not break; laboratories scatter by some 10 % about it.",
         "gauge", ("h", (8,), (10, 20)), 5.0,
         (("run_up_error", "run-up, relative error", "", "Synolakis (1987)", 0.05),
-         ("height_error", "height of the wave at the gauge over what was asked for, less 1", "", "maker", None)), LABORATORY)
+         ("height_error", "height of the wave at the gauge over the prescribed height, less 1", "", "maker", None)), LABORATORY)
 
 
 def wave_flume(plan):
@@ -166,7 +166,7 @@ def wave_flume(plan):
     short = ("parameters.far=2.5*L", "parameters.length=5*L", "time.end=10*T")
     rows, settings, seconds = plan.at((3, short, 17.0), (4, (), 300.0), (8, (), 2500.0))
     run = plan.run(f"wave_flume_H{rows}", "wave_flume/case.toml", (f"particles.spacing=H/{rows}", *settings), seconds)
-    quantities = (("height_error", "height near the maker over what was asked for, less 1", "maker's transfer function", None, None),
+    quantities = (("height_error", "height near the maker over the prescribed height, less 1", "maker's transfer function", None, None),
                   ("height_left", "fraction of the wave height left after ten wavelengths", "all of it", 0.97, None),
                   ("reflection", "height reflected by the absorber over the incident height", "none", None, 0.05))
     return Study(
@@ -188,8 +188,8 @@ def irregular_waves(plan):
                   ("period_error", "period of the peak, relative error", made, 0.02),
                   ("parts_error", "energy below, at and above the peak, largest relative error", made, None),
                   ("reflection", "height reflected by the absorber over the incident height", "none", None),
-                  ("height_of_draw", "height of the sines made in this record over the spectrum's, less 1", "JONSWAP spectrum", None),
-                  ("height_scatter", "standard deviation of that in records as long", "", None))
+                  ("height_of_draw", "height of the generated sines in this record over the spectrum's, less 1", "JONSWAP spectrum", None),
+                  ("height_scatter", "standard deviation of this in records of the same length", "", None))
     return Study(
         "irregular-waves", "Irregular waves: the JONSWAP spectrum", EXACT,
         f"A piston makes irregular waves over 0.2 m of water, {rows} particles of depth: what runs away from it between 0.5 and 1.8 "

@@ -60,11 +60,11 @@ def metrics(run):
         return found if shift is None else found | {"shift": shift, "shifted_value": rms(distances(run, instant, shift=shift))}
 
     return [one for instant in INSTANTS for one in (
-        measure(Metric(f"rms {instant:g}", f"RMS distance of the surface, t = {instant:g} s", "mm", "far water at 38 mm",
+        measure(Metric(f"rms {instant:g}", f"RMS distance of the surface, t = {instant:g} s", "mm", "undisturbed water at 38 mm",
                        high=DISTANCE_TARGET if instant >= TARGET_FROM else None, shift_unit="s"), partial(distance, instant)),
-        measure(Metric(f"largest {instant:g}", "largest distance", "mm", "far water at 38 mm"),
+        measure(Metric(f"largest {instant:g}", "largest distance", "mm", "undisturbed water at 38 mm"),
                 lambda: float(np.abs(distances(run, instant)).max())),
-        measure(Metric(f"rms highest {instant:g}", "RMS of the highest water", "mm", "far water at 38 mm"),
+        measure(Metric(f"rms highest {instant:g}", "RMS of the highest water", "mm", "undisturbed water at 38 mm"),
                 lambda: rms(distances(run, instant, computed="highest_level"))))]
 
 
@@ -73,7 +73,7 @@ def draw(run):
         profile = profile_at(run, "surface", instant)
         shown = profile.x < 1.1
         return panels.panel(f"Surface at t = {instant:g} s", "x (m)", "y (m)", (
-            panels.curve("laboratory, far water at 38 mm", *laboratory(run, instant), "measured"),
+            panels.curve("laboratory, undisturbed water at 38 mm", *laboratory(run, instant), "measured"),
             panels.curve("computed", profile.x[shown], profile.level[shown]),
             panels.curve("highest water", profile.x[shown], profile.highest_level[shown], "aside")))
 

@@ -55,7 +55,7 @@ def mean_error(run, gauge, end, column="connected_m"):
 
 
 def arrival(curve):
-    """s. Throws DataError if the pressure never exceeds the threshold."""
+    """Time of arrival, s. Throws DataError if the pressure never exceeds the threshold."""
     time = arrival_time(curve, THRESHOLD, NOT_BEFORE)
     if time is None:
         raise DataError(f"the pressure never exceeds {THRESHOLD:g} Pa")
@@ -63,43 +63,43 @@ def arrival(curve):
 
 
 def impulses(curve):
-    """Impulse of a measured pressure, Pa s since its first sample; that of a run is a column of its own."""
+    """Impulse of a measured pressure, Pa s, since its first sample; a run has a column with its impulse."""
     steps = 0.5 * (curve.value[1:] + curve.value[:-1]) * np.diff(curve.time)
     return Curve(curve.time, np.concatenate([[0.0], np.cumsum(steps)]))
 
 
 def gains(impulse, start, end):
-    """Pa s from each start to its end. Throws DataError if the curve does not cover IMPACT."""
+    """Increase of an impulse from each start to its end, Pa s. Throws DataError if the curve does not cover IMPACT."""
     if impulse.time[0] > IMPACT[0] or impulse.time[-1] < IMPACT[1]:
         raise DataError(f"the curve does not cover {IMPACT[0]:g}..{IMPACT[1]:g} s")
     return np.interp(end, impulse.time, impulse.value) - np.interp(start, impulse.time, impulse.value)
 
 
 def largest(impulse):
-    """Largest of all means over MEAN_OVER, Pa. It begins or ends at a sample, since impulses are linear between
-    them."""
+    """Largest of all means over MEAN_OVER, Pa. Such a mean begins or ends at a sample, because impulses are linear
+    between samples."""
     starts = np.clip(np.concatenate([impulse.time, impulse.time - MEAN_OVER]), IMPACT[0], IMPACT[1] - MEAN_OVER)
     return float(gains(impulse, starts, starts + MEAN_OVER).max()) / MEAN_OVER
 
 
 def of_impact(impulse):
-    """Pa s."""
+    """Impulse of the impact, Pa s."""
     return float(gains(impulse, *IMPACT))
 
 
 def excess(read, run, sensor):
-    """By how much the reading of the computed impulse exceeds that of the measured one, percent."""
+    """Excess of a number of the computed impulse over that of the measured one, percent."""
     return 100 * (read(run.curve(sensor, "impulse_Pa_s")) / read(impulses(laboratory(run, sensor))) - 1)
 
 
 def end_of(run):
-    """The time to which a run is compared, s; also for a run that was stopped."""
+    """End of the comparison, s; also for a run that was stopped."""
     asked = run.case["time"]["end"]
     return min(END, asked, run.summary.get("time_s", {}).get("reached", asked))
 
 
 def of_heights(run):
-    """A run that ends before END has no target."""
+    """Metrics of the heights. A run that ends before END has no target."""
     end = end_of(run)
     is_whole = end == END
     columns = (("", "without spray", "connected_m"), (" highest", "highest water", "highest_m"))
@@ -115,17 +115,18 @@ def of_sensor(run, sensor, height):
         measure(Metric(f"arrival {sensor}", f"arrival at {sensor}, z = {height:g} m, later than measured", "s",
                        f"laboratory: {arrival(measured):.3f}", -ARRIVAL_BAR, ARRIVAL_BAR),
                 lambda: arrival(computed(run, sensor)) - arrival(measured)),
-        measure(Metric(f"largest {sensor}", f"largest mean over {MEAN_OVER:g} s at {sensor}, more than measured",
+        measure(Metric(f"largest {sensor}", f"largest mean over {MEAN_OVER:g} s at {sensor}, excess over the measured value",
                        "%",
                        f"laboratory: {largest(impulses(measured)):.0f} Pa", -PEAK_BAR, PEAK_BAR), partial(excess, largest, run, sensor)),
-        measure(Metric(f"impulse {sensor}", f"impulse at {sensor}, t = {IMPACT[0]:g}..{IMPACT[1]:g} s, more than measured", "%",
+        measure(Metric(f"impulse {sensor}", f"impulse at {sensor}, t = {IMPACT[0]:g}..{IMPACT[1]:g} s, excess over the measured value", "%",
                        f"laboratory: {of_impact(impulses(measured)):.0f} Pa s", -IMPULSE_BAR, IMPULSE_BAR),
                 partial(excess, of_impact, run, sensor)),
     ]
 
 
 def height_of_passage(position, velocity, gravity):
-    """At which (m) particles outside the tank passed the plane of a wall, from where they are now in free fall."""
+    """Height (m) at which particles outside the tank passed the plane of a wall, from their present positions in
+    free fall."""
     sides, speed = position[:, :2], velocity[:, :2]
     beyond = np.where(sides < 0, sides, np.maximum(sides - TANK[:2], 0))
     since = np.divide(beyond, speed, out=np.zeros_like(beyond), where=beyond != 0).max(axis=1)
@@ -133,8 +134,8 @@ def height_of_passage(position, velocity, gravity):
 
 
 def lost_through_walls(run):
-    """Particles that are gone or outside at the end, less those that were seen to leave over the tank's rim, as water does in
-    the laboratory. In zones of refinement particles also go because they merge."""
+    """Particles that are missing or outside at the end, less those that were observed to leave over the tank's rim,
+    as water does in the laboratory. In zones of refinement particles also vanish because they merge."""
     if summary("volume", "outside_the_walls_end", run) == 0:
         return 0
     merge = bool(run.case.get("refinement"))
@@ -194,7 +195,7 @@ def zone_run(plan):
 
 
 def zone_checks(plan):
-    """The zone is to give the impulses of the uniform fine run, which the tier fine has."""
+    """Checks that the zone gives the impulses of the uniform fine run, which is part of the tier fine."""
     if plan.level != "fine":
         return ()
     return (AllChecks(f"{NAME}.zone", metrics, (zone_run(plan),), keep=lambda name: name[:7] in ("arrival", "impulse"),

@@ -24,13 +24,14 @@ def measured_tables(run, probe):
 
 
 def measured_curves(run, probe, column="value"):
-    """{name of the file: Curve over s} of a quantity, which the file calls as the probe or as `column`. Throws DataError."""
+    """{name of the file: Curve over s} of a quantity, named in the file like the probe or like `column`. Throws
+    DataError."""
     return {name: Curve.from_samples(table["t" if "t" in table else "time"], table[probe if probe in table else column], name)
             for name, table in measured_tables(run, probe).items()}
 
 
 def case_run(plan, name, length, count, seconds, integrator=None, variant="", settings=()):
-    """A run with `count` particles over the case's own length; `seconds` is its cost with ten of them."""
+    """A run with `count` particles over the case's characteristic length; `seconds` is its cost with ten of them."""
     return plan.run("_".join(filter(None, (f"{name}_{length}-{count}", variant))), f"{name}/case.toml",
                     (f"particles.spacing={length}/{count}", *settings), seconds * (count / 10) ** 3.1,
                     plan.integrators[-1] if integrator is None else integrator)
@@ -48,8 +49,8 @@ def everything(_):
 
 def laboratory_study(name, title, metrics, draw, about, uncertainty, runs, converging=(), ylabel="", paper=(),
                      keep=everything, more_checks=(), more_plots=(), **more):
-    """A study of what `metrics(run)`, [Metric], finds in the last of `runs`; `draw(run)` has its curves beside the
-    laboratory's, as panels."""
+    """A study of the [Metric] that `metrics(run)` computes for the last of `runs`; `draw(run)` returns panels with
+    its curves beside those of the laboratory."""
     plots = [Plot(f"Computed ({runs[-1].name}) and measured.", runs[-1:], draw)]
     if converging:
         plots.append(Plot("Differences from the laboratory by spacing; they end at the uncertainty of the data.", runs,

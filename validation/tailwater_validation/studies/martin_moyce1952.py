@@ -34,7 +34,8 @@ def n2_of(run):
 
 
 def fronts(run):
-    """{label: measured front x/a over T} of the published series, the table first, the others by who read them."""
+    """{label: measured front x/a over T} of the published series: the table first, then the others, named after the
+    person who digitised them."""
     curves = measured_curves(run, "front")
     labels = ["table", *(name.rpartition("_")[2] for name in list(curves)[1:])]
     return {label: scaled(run, curve) for label, curve in zip(labels, curves.values())}
@@ -75,7 +76,7 @@ def speed(curve, between=SPEED_BETWEEN):
 
 
 def speeds(run):
-    """"table 1.30; ..." of the published series that go so far."""
+    """"table 1.30; ..." for the published series that cover these places."""
     told = []
     for label, curve in fronts(run).items():
         try:
@@ -86,15 +87,15 @@ def speeds(run):
 
 
 def beside(name, what, unit, label, measured, computed, high=None):
-    """The distance of a computed curve, which `computed()` makes, from a measured one over all its times."""
+    """The difference between a computed curve, from `computed()`, and a measured one over all its times."""
     start, end = measured.time[0], measured.time[-1]
     return measure(Metric(name, what.format(start, end), unit, label, high=high),
                    lambda: compare(measured, computed(), (start, end), GRID, TIME_UNCERTAINTY))
 
 
 def of_laboratory(run):
-    """The run's numbers beside the laboratory's, as [Metric]. The target is for the table of the column that is
-    computed; the other series say how well it is known."""
+    """The run's numbers compared with the laboratory's, as [Metric]. The target is for the table of the computed
+    column; the other series show the uncertainty of the table."""
     return [
         *(beside(f"rms front {label}", "RMS of the front, T {:.2g}..{:.2g}", "a", label, curve, partial(front, run),
                  FRONT_TARGET if label == "table" else None) for label, curve in fronts(run).items()),
@@ -105,7 +106,8 @@ def of_laboratory(run):
 
 
 def metrics(run):
-    """All numbers of a run, as [Metric]; and how far the other published series are from the table where they overlap."""
+    """All numbers of a run, as [Metric], and the difference between the other published series and the table where
+    they overlap."""
     (_, table), *others = fronts(run).items()
     found = of_laboratory(run)
     for label, other in others:

@@ -11,14 +11,14 @@ from ..study import EXACT, Plot, Study
 # case: (words, seconds of CPU, quantities)
 DEPTH = ("depth_error_dx", "depth at the gauge, largest error beyond 2 % of the period", "dx", 1.0)
 FLOWS = {
-    "rising_sea": ("a river runs into a sea that rises", 1.0, (DEPTH,)),
+    "rising_sea": ("a river flows into a rising sea", 1.0, (DEPTH,)),
     "draining_tank": ("a tank drains to a level outside, swings below it and refills", 5.0, (DEPTH,)),
     "tide": ("a basin beside a sea with tides near resonance", 4.0, (DEPTH,)),
     "ending_discharge": ("the discharge of a channel ends, the tailwater keeps its level", 5.0, (DEPTH,)),
     "changing_level": ("the level outside a short basin rises within 3 s", 1.0, (DEPTH,)),
     "reservoir": ("a reservoir feeds a channel with a free brink", 5.0,
                   (("discharge_error", "discharge over critical flow, relative error", "", 0.01),)),
-    "sudden_head": ("a head stands at once beside shallow still water", 3.0,
+    "sudden_head": ("a head is applied suddenly to shallow still water", 3.0,
                     (("discharge_error", "discharge behind the bore, relative error", "", 0.03),
                      ("depth_error", "depth behind the bore, relative error", "", 0.03))),
     "river": ("a river on a surveyed bed in 3D, with a rating curve", 60.0,
@@ -37,7 +37,7 @@ def openings(plan):
     checks = [Check(Metric(f"openings.{name}.{key}", f"{words}: {what}", unit, "shallow water", high=high), (runs[name],),
                     partial(exact, name.replace("_", "-"), key))
               for name, (words, _, quantities) in flows.items() for key, what, unit, high in quantities]
-    checks += [Check(Metric(f"openings.{name}.density_error_rms", f"{words}: rms density error, openings included", "", "even water", high=0.02),
+    checks += [Check(Metric(f"openings.{name}.density_error_rms", f"{words}: rms density error, openings included", "", "uniform density", high=0.02),
                      (runs[name],), partial(exact, name.replace("_", "-"), "density_error_rms"))
                for name, (words, _, _) in flows.items()]
     return Study(

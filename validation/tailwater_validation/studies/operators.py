@@ -20,8 +20,8 @@ OPERATORS = {
     "morris_jitter0.3_support3": ("Laplacian of Morris, set displaced by 0.3 dx (theory: -1)", None),
 }
 POISSON = {
-    "poisson_straight_regular": ("pressure straight at the wall, regular set", 1.5),
-    "poisson_straight_jitter0.3": ("pressure straight at the wall, set displaced by 0.3 dx", 0.8),
+    "poisson_straight_regular": ("pressure linear at the wall, regular set", 1.5),
+    "poisson_straight_jitter0.3": ("pressure linear at the wall, set displaced by 0.3 dx", 0.8),
     "poisson_curved_regular": ("pressure curved at the wall, regular set", 0.8),
     "poisson_curved_jitter0.3": ("pressure curved at the wall, set displaced by 0.3 dx", 0.8),
 }

@@ -70,13 +70,13 @@ def read_points(run, kind):
 
 
 def gauge_level(run, gauge, X):
-    """Computed level over h0 at a gauge, over T."""
+    """Computed level over h0 at a gauge, as a curve over T."""
     depth = run.curve(gauge, "connected_m").scaled(1 / TIME_SCALE, 1 / DEPTH)
     return Curve(depth.time, depth.value + bed(X))
 
 
 def level(run, point):
-    """Computed level over h0 at a point's place and instant."""
+    """Computed level over h0 at the place and time of a point."""
     if not point.gauge:
         profile = profile_at(run, "surface", point.T * TIME_SCALE)
         return float(np.interp(GATE + point.X * DEPTH, profile.x, profile.level)) / DEPTH
@@ -87,7 +87,8 @@ def level(run, point):
 
 
 def error(run, point, reading="level"):
-    """Distance from the measured height, in % of it; it is read as "level" or as "depth" above the hump."""
+    """Difference from the measured height, in % of it; the measured height is read as "level" or as "depth" above
+    the hump."""
     computed = level(run, point) - (bed(point.X) if reading == "depth" else 0.0)
     return 100 * abs(computed - point.measured) / point.measured
 
@@ -146,7 +147,7 @@ def draw(run):
 
 
 def water_error(run):
-    """Particles of the start that are neither inside nor have left."""
+    """Number of initial particles that are neither inside nor have left."""
     start, inside, out = (summary("water_balance", where, run)["particles"] for where in ("start", "inside", "out"))
     return start - inside - out
 

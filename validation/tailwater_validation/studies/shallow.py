@@ -1,4 +1,4 @@
-"""Dam breaks in a long channel, free of friction or rough, against shallow-water theory."""
+"""Dam breaks in a long channel, without friction or with a rough bed, against shallow-water theory."""
 
 import math
 from functools import partial
@@ -65,7 +65,7 @@ def ritter(plan):
 
 
 def stoker(plan):
-    """For twice the time of Ritter's: the bore needs it to part from the rarefaction."""
+    """Stoker's dam break, for twice the duration of Ritter's, so that the bore separates from the rarefaction."""
     runs = tuple(rough_run(plan, "wet_bed", "stoker", dx, None) for dx in spacings(plan))
     return dam_break(
         "stoker", "Dam break onto still water: Stoker (1957)",
@@ -81,7 +81,7 @@ ROUGH_T = 12  # t sqrt(g/h0) at the end
 
 
 def rough_run(plan, name, bed, dx, roughness):
-    """The dam break over a rough bed, or a free one (None), for twice the time."""
+    """The dam break over a rough bed, or without friction (None), for twice the duration."""
     times = ", ".join(f'"{T:g}*sqrt(h0/g)"' for T in (*range(3, ROUGH_T), ROUGH_T - 0.1))
     rough = ("wall.channel.slip=no-slip", f"wall.channel.roughness={roughness}") if roughness else ()
     probe = {"ritter": 2, "stoker": 1}[bed]

@@ -31,7 +31,7 @@ RISE_AT_END = POOL + 0.1 * DEPTH  # m
 
 
 def passage(run, gauge, depth, after=0.0):
-    """When the water at a gauge rises through a depth (m), s."""
+    """Time at which the water at a gauge rises through a depth (m), s."""
     curve = run.curve(gauge, "connected_m")
     return passage_time(curve.window(after, curve.time[-1]), depth)
 
@@ -42,8 +42,8 @@ def behind(run, instant):
 
 
 def excess_volume(run, instant):
-    """Area below the surface over that of the particles, less 1. Between the middles of the first and last piece and the walls
-    the surface is taken as level."""
+    """Area below the surface over that of the particles, less 1. Between the walls and the middles of the first and
+    last piece the surface is taken as level."""
     return profile_at(run, "surface", instant).area(0, LENGTH) / (run.fluid_particles * run.spacing**2) - 1
 
 
@@ -61,7 +61,7 @@ def metrics(run):
 
 
 def surface_distance(instant, run, reference):
-    """RMS vertical distance (mm) of the surfaces of two runs."""
+    """RMS vertical difference (mm) between the surfaces of two runs."""
     one, other = (profile_at(which, "surface", instant) for which in (run, reference))
     places = np.linspace(other.x[0], other.x[-1], int(np.ceil(np.ptp(other.x) / run.spacing)) + 1)
     return 1000 * rms(differences_at(places, np.interp(places, other.x, other.level), one.x, one.level))
@@ -74,7 +74,7 @@ def draw(run):
 
 
 def draw_surface_distances(*runs):
-    """Distance of each run but the last from the last, by spacing. Throws DataError if there is only one."""
+    """Difference between the last run and each other run, by spacing. Throws DataError if there is only one run."""
     if len(runs) < 2:
         raise DataError("only one run reached its end")
     return panels.convergence({f"t = {instant:g} s": {run.spacing: surface_distance(instant, run, runs[-1]) for run in runs[:-1]}

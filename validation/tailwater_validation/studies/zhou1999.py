@@ -51,26 +51,26 @@ NOISE_AT = "P160"  # where others' noise was read
 
 
 def laboratory(run, quantity):
-    """{who read it: measured H1, H2 (over H) or P2 (over rho g H), as a curve over T}."""
+    """{person who digitised the curves: measured H1, H2 (over H) or P2 (over rho g H), as a curve over T}."""
     scale = PRESSURE_SCALE if quantity == "P2" else H
     return {name.rpartition("_")[2]: curve.scaled(1 / TIME_SCALE, 1 / scale)
             for name, curve in measured_curves(run, quantity).items()}
 
 
 def depth(run, gauge, column="wet_m"):
-    """Computed depth over H at a gauge, over T; by default the reading of the laboratory's wire, the length under
-    water."""
+    """Computed depth over H at a gauge, as a curve over T; by default the reading of the laboratory's wire, its wet
+    length."""
     return run.curve(gauge, column).scaled(1 / TIME_SCALE, 1 / H)
 
 
 def pressure(run, probe):
-    """Computed wall pressure over rho g H, over T."""
+    """Computed wall pressure over rho g H, as a curve over T."""
     return run.curve(probe, "pressure_Pa").scaled(1 / TIME_SCALE, 1 / PRESSURE_SCALE)
 
 
 def distance(run, probe, window=PRESSURE_WINDOW, column="wet_m", reading=""):
-    """Deviation of a gauge's depth, or of the pressure of a probe, from the laboratory: the fields of `curves.compare`, by
-    default the mean over all readings of its curve."""
+    """Difference between a gauge's depth, or the pressure of a probe, and the laboratory: the fields of
+    `curves.compare`, by default the mean over all digitised versions of its curve."""
     is_depth = probe in GAUGES
     computed = depth(run, probe, column) if is_depth else pressure(run, probe)
     found = [compare(curve, computed, window, GRID, TIME_UNCERTAINTY)
@@ -79,12 +79,12 @@ def distance(run, probe, window=PRESSURE_WINDOW, column="wet_m", reading=""):
 
 
 def rms(run, *what, field="value"):
-    """The one number of it; "shifted_value": at the best shift of time."""
+    """One number of that difference; "shifted_value" is that with the best shift in time."""
     return distance(run, *what)[field]
 
 
 def arrival(curve, not_before=0.0):
-    """When a pressure over rho g H, over T, first exceeds the threshold: in s."""
+    """Time (s) at which a pressure over rho g H, as a curve over T, first exceeds the threshold."""
     time = arrival_time(curve, ARRIVAL_THRESHOLD, not_before)
     if time is None:
         raise DataError(f"the pressure never exceeds {ARRIVAL_THRESHOLD} rho g H")
@@ -96,7 +96,7 @@ def arrival_at(run, probe=READ_AT):
 
 
 def front_arrival(run):
-    """When the front, which is half a spacing ahead of the first particle, is within a spacing of the wall: in s."""
+    """Time (s) at which the front, half a spacing ahead of the first particle, is within a spacing of the wall."""
     time = arrival_time(run.curve("front", "front_m"), TANK - run.spacing)
     if time is None:
         raise DataError("the front never reaches the wall")
@@ -121,12 +121,12 @@ def energy_at(T, run):
 
 
 def measured(run, read):
-    """"openmps 0.596, fluidity 0.607": values of the laboratory's P2, read with the rule for the computed curve."""
+    """"openmps 0.596, fluidity 0.607": values of the laboratory's P2, computed by the rule for the computed curve."""
     return ", ".join(f"{name} {read(curve, LABORATORY_QUIET):.3f}" for name, curve in laboratory(run, "P2").items())
 
 
 def impact(run):
-    """When the water meets the wall, and its first peak there, as [Metric]."""
+    """Time at which the water meets the wall, and its first peak there, as [Metric]."""
     arrivals = f"measured P2: {measured(run, arrival)} (+-{TIME_UNCERTAINTY * TIME_SCALE:.2f})"
     return [
         *(measure(Metric(f"arrival_{probe}", f"arrival, {probe}", "s", arrivals), partial(arrival_at, run, probe))
@@ -141,8 +141,8 @@ def impact(run):
 
 
 def distances(run, reading=""):
-    """Distance of each gauge and window from the laboratory, as [Metric]; by default the mean over all readings of its
-    curves."""
+    """Difference from the laboratory for each gauge and window, as [Metric]; by default the mean over all digitised
+    versions of its curves."""
     windows = [*((gauge, window, "H") for gauge in GAUGES for window in DEPTH_TARGETS),
                *((probe, PRESSURE_WINDOW, "rho g H") for probe in ("P2", *POINT_HEIGHTS))]
     return [measure(Metric(f"rms {probe} T {start:g}..{end:g} {reading}".rstrip(), f"RMS of {probe}, T {start:g}..{end:g}", unit,
@@ -161,7 +161,7 @@ FREE_SLIP = ("wall.tank.slip=free",)
 
 
 def zhou_run(plan, dx, integrator="explicit", variant="", settings=()):
-    """To T = 8; costs 12 CPU s at dx = 0.02."""
+    """A run to T = 8; costs 12 CPU s at dx = 0.02."""
     return plan.run("_".join(filter(None, (f"zhou1999_dx{dx:g}", variant))), "zhou1999/case.toml",
                     (f"particles.spacing={dx:g}", *settings), 12 * (0.02 / dx) ** 3.2, integrator)
 
@@ -199,7 +199,7 @@ def detached_at(T, run):
 
 def soundness_checks(run):
     return [
-        Check(Metric("zhou1999.detached", "particles apart from the body of water at T = 5", "", "the paper's claim: none"),
+        Check(Metric("zhou1999.detached", "particles detached from the body of water at T = 5", "", "the paper's claim: none"),
               (run,), partial(detached_at, 5.0)),
         Check(Metric("zhou1999.energy_rise", "largest rise of the total energy", "of the start", "physics: none",
                      high=RISE_TARGET), (run,), partial(summary, "energy", "largest_rise_over_start")),
@@ -211,7 +211,7 @@ def soundness_checks(run):
 
 
 def beside_laboratory(run, quantity, computed, end=8):
-    """The readings of the laboratory's curve to T = `end`, with the computed ones [(label, curve)]."""
+    """The digitised versions of the laboratory's curve to T = `end`, with the computed ones [(label, curve)]."""
     for name, curve in laboratory(run, quantity).items():
         yield panels.over_time(f"laboratory, read by {name}", curve.window(0, end), "measured")
     for label, curve in computed:
