@@ -198,6 +198,7 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   find_wall_rates(flow, dt);
+  if (is_at_start_) return;
   forces_.locate(flow, walls_);
   std::vector<Vec<Dim>> force(particles.owned, Vec<Dim>::Zero());
   flow.discretisation().find_gradient(flow, particles.pressure, force);
@@ -220,7 +221,7 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
 /// Floating bodies are coupled to the pressure with this friction.
 template <int Dim>
 int ThickLiquid<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
-  if (flow.walls.forces.are_requested) {
+  if (!is_at_start_ && flow.walls.forces.are_requested) {
     forces_.find_forces_on_walls(flow, walls_, velocity_, flow.walls.forces.friction);
   }
   return 0;
@@ -233,6 +234,19 @@ void ThickLiquid<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
     if (flow.role[i] == Role::water) particles.pressure[i] -= forces_.shared_viscosity()[i] * expansion_[i];
   });
   flow.halo().exchange(particles.pressure);
+}
+
+/// Viscosity and friction of the initial velocity.
+template <int Dim>
+void ThickLiquid<Dim>::stay(Flow<Dim>& flow) {
+  forces_.locate(flow, walls_);
+  velocity_ = flow.state.particles.velocity;
+  flow.halo().exchange(velocity_);
+  find_viscosity(flow, velocity_);
+  yielded_fraction_ = find_yielded_fraction(flow);
+  if (flow.walls.forces.are_requested) {
+    forces_.find_forces_on_walls(flow, walls_, velocity_, flow.walls.forces.friction);
+  }
 }
 
 template <int Dim>

@@ -36,10 +36,12 @@ class ThickLiquid final : public Part<Dim> {
 
   std::string_view name() const override { return "thick_liquid"; }
   void reordered(Reordering how) override;
+  void begin_step(Flow<Dim>& /*flow*/, double dt) override { is_at_start_ = dt == 0.0; }
   void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
                          std::span<Vec<Dim>> predicted) override;
   int pose(Flow<Dim>& flow, std::span<const Vec<Dim>> predicted, double dt) override;
   void correct(Flow<Dim>& flow, double dt) override;
+  void stay(Flow<Dim>& flow) override;
   void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;
   std::vector<StepColumn> step_columns() const override;
   void add_to_summary(const Flow<Dim>& flow, Json& summary) const override;
@@ -76,6 +78,8 @@ class ThickLiquid final : public Part<Dim> {
   Guess guess_ = Guess::present;       ///< the best one for the last step
   double present_residual_ = 0.0;  ///< sqrt(W); of the last guess that was the present velocity, in the natural norm
   double contraction_ = 1.0;       ///< movement of a pass over that of the one before it
+
+  bool is_at_start_ = false;  ///< only the initial pressure is computed
 
   // The present step; owned particles, but the velocity of ghosts too.
   WallRates<Dim> walls_;            ///< at the end of the step

@@ -228,6 +228,19 @@ TEST(ThickFlow, AVeryThickLiquidComesToRest) {
   EXPECT_LT(largest_horizontal_speed(flow), 0.01);
 }
 
+// At the start the velocity is given and no time passes, so that viscous forces carry none of the weight.
+TEST(ThickFlow, ALayerBeginsWithItsHydrostaticPressure) {
+  CaseSpec spec = layer_case(newtonian(1e5), 0.1, {0.0, -10.0});
+  spec.particles.jitter = 0.0;
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const Particles<2>& particles = flow.state.particles;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i) || particles.position[i][1] > 0.1) continue;
+    EXPECT_NEAR(particles.pressure[i] / (density * 10.0 * (1.0 - particles.position[i][1])), 1.0, 0.02) << i;
+  }
+}
+
 // Water has no part of thick liquids, and a thin liquid is computed as water of its viscosity.
 TEST(ThickFlow, ThinLiquidIsComputedAsWater) {
   const auto velocity_of = [](const CaseSpec& spec) {
