@@ -59,6 +59,7 @@ GROUPS = {
                             "checks/springs": "`[[body]]`, `[[mooring]]`", "bodies/floating_bodies": "`[[body]]`"},
     "Zones of refinement": {"checks/refinement": "`[[refinement]]`", "refinement/spacing_field": "`[[refinement]]`"},
     "Air, porous layers and liquids": {"air": "`[air]`, `[[pocket]]`, `[[vent]]`", "checks/air_places": "`[[pocket]]`, `[[vent]]`",
+                                       "air/voids_under_tension": "`[physics]`",
                                        "porous": "`[[porous]]`", "checks/creep": "`[[liquid]]`", "checks/units": "`[physics]`",
                                        "rheology/thick_liquid": "`[[liquid]]`"},
     "Probes": {"checks/probes": "`[[probe]]`, `[[damping]]`", "probes": "`[[probe]]`"},

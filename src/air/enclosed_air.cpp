@@ -9,13 +9,12 @@
 #include <utility>
 
 #include "air/pocket_pressure.h"
-#include "base/box.h"
+#include "air/space_of_run.h"
 #include "base/finding.h"
 #include "base/for_each.h"
 #include "base/saved.h"
 #include "flow/measure.h"
 #include "geometry/from_spec.h"
-#include "geometry/opening.h"
 #include "io/messages.h"
 #include "motion/wall_motion.h"
 
@@ -32,34 +31,6 @@ namespace {
 
 /// Rows of water whose weight a pressure below 0 may hold before a warning.
 constexpr double min_rows_of_tension = 2.0;
-
-/// Number of times in a run at which walls are evaluated, for the box around all their places.
-constexpr int looks_at_moving_walls = 1000;
-
-/// Box around walls, wherever they go, and openings. Its lowest corner is a whole number of cells from that of the
-/// walls as drawn, so that cells lie where they would in a run with another end.
-template <int Dim>
-Box<Dim> box_of_run(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary) {
-  Box<Dim> box = box_around(boundary.faces);
-  for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
-  const Vec<Dim> drawn = box.isEmpty() ? Vec<Dim>(Vec<Dim>::Zero()) : box.min();
-  const MotionState<Dim> start = initial_motion<Dim>(spec);
-  for (const auto& moving : setup.wall_motion->moving()) {
-    if (moving.body >= 0) continue;  // it stays where water is
-    for (int k = 0; k <= looks_at_moving_walls; ++k) {
-      const AffineMap<Dim> placement = moving.at(spec.time.end * k / looks_at_moving_walls, start);
-      for (const WallFace<Dim>& face : boundary.faces) {
-        if (face.wall == moving.wall) box.extend(moved(placement, face).box());
-      }
-    }
-  }
-  if (box.isEmpty()) return box;
-  const double cell = 0.5 * spec.particles.spacing;
-  Vec<Dim> low = drawn;
-  for (int d = 0; d < Dim; ++d) low[d] -= cell * std::ceil((drawn[d] - box.min()[d]) / cell - 1e-6);
-  box.extend(low);
-  return box;
-}
 
 /// The grid to which saved cells belong: the place of its first cell, and the number of cells along the second axis.
 template <int Dim>

@@ -5,6 +5,7 @@
 
 #include "bodies/contacts.h"
 #include "bodies/narrow_gaps.h"
+#include "bodies/part_in_front.h"
 #include "geometry/screen.h"
 #include "neighbours/neighbourhood.h"
 
@@ -134,15 +135,10 @@ double NarrowGaps<Dim>::wetted_measure(const WallPatch<Dim>& patch, const OtherW
   if (is_flush(patch, wall)) return is_flat_there ? 0.0 : patch.measure;
   const double dx = flow_.setup.scale.spacing;
   if (wall.distance > dx) return patch.measure;
-  const double size = longest_patch_edge * dx;  // no piece is farther from the centre
-  if (wall.distance < -size) return 0.0;
   const int hull = hulls_.of_wall[boundary.faces[patch.face].wall];
-  const std::vector<WallPatch<Dim>> pieces = pieces_of(patch, boundary, longest_part * dx);
-  const double reach = std::abs(wall.distance) + size;  // finds the wall from each piece
-  const auto in_front = std::ranges::count_if(pieces, [&](const WallPatch<Dim>& piece) {
-    return other_wall(hull, piece.centre(boundary), reach).distance > 0.0;
-  });
-  return patch.measure * static_cast<double>(in_front) / static_cast<double>(pieces.size());
+  return patch.measure *
+         part_in_front(patch, boundary, wall.distance, longest_part * dx,
+                       [&](const Vec<Dim>& x, double reach) { return other_wall(hull, x, reach).distance; });
 }
 
 template <int Dim>

@@ -66,11 +66,11 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
     walls.depth.push_back(
         has_friction ? std::abs(walls.boundary.nearest(walls.particles.position[row], reach).signed_distance) : 0.0);
   }
-  walls.share_of_water.assign(walls.particles.size(), 0.0);
+  walls.normal_in_gap.assign(walls.particles.size(), Vec<Dim>::Zero());
   if (has_force_probe(spec)) {
     const double radius = traits_of(spec).support * spec.particles.spacing;
     for_each(walls.particles.size(), [&](std::size_t row) {
-      walls.share_of_water[row] = share_of_water(walls, row, radius * field.at(walls.particles.position[row]));
+      walls.normal_in_gap[row] = normal_in_gap(walls, row, radius * field.at(walls.particles.position[row]));
     });
   }
   walls.curvature = find_curvature(walls, spec.particles.spacing, reach);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <span>
+
 #include "base/for_each.h"
 #include "motion/wall_motion.h"
 #include "pressure/operators.h"
@@ -7,19 +10,52 @@
 namespace tailwater {
 namespace {
 
-/// The fraction of a pair's force that acts through its fluid particle, by wall particle, ghosts included; 0 at fluid.
+/// Fraction of a pair's force that acts through its fluid particle; along the normal of a wall in a narrow gap it is 0.
+constexpr double share_of_water = 0.5;
+
+/// The normal of each wall particle's wall in a narrow gap, ghosts included; 0 elsewhere, at fluid and at dry walls.
 template <int Dim>
-std::vector<double> shares_of_water(const Flow<Dim>& flow) {
+std::vector<Vec<Dim>> normals_in_gaps(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   const bool rests = flow.setup.wall_motion->moving().empty();
-  std::vector<double> share(particles.size(), 0.0);
+  std::vector<Vec<Dim>> normals(particles.size(), Vec<Dim>::Zero());
   for_each(particles.size(), [&](std::size_t i) {
     if (particles.is_fluid(i) || !flow.surroundings.is_wet[i]) return;
     const auto row = static_cast<std::size_t>(particles.wall_row[i]);
     const double radius = kernel_radius(flow.setup.scale.kernel) * flow.setup.relative_spacing(particles.position[i]);
-    share[i] = rests ? flow.walls.share_of_water[row] : share_of_water(flow.walls, row, radius);
+    normals[i] = rests ? flow.walls.normal_in_gap[row] : normal_in_gap(flow.walls, row, radius);
   });
-  return share;
+  return normals;
+}
+
+/// Adds the forces that act through these water particles, by pairs that count with `share`. Calls add(force, f) with
+/// the sum for a particle and its force f.
+template <int Dim, class Add>
+void add_through_water(Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
+                       const std::vector<double>& pressure, Add&& add) {
+  std::vector<Vec<Dim>> pushes(water.size());
+  flow.discretisation().reactions_seen_by_water(flow, water, share, pressure, pushes);
+  std::vector<Vec<Dim>>& forces = flow.walls.forces.through_water;
+  for_each(water.size(),
+           [&](std::size_t n) { add(forces[water[n]], Vec<Dim>(flow.state.particles.volume[water[n]] * pushes[n])); });
+}
+
+/// Takes from these water particles the forces along the normals n of walls in gaps: n n^T f of each pair, entry by
+/// entry of n n^T.
+template <int Dim>
+void take_forces_across_gaps(Flow<Dim>& flow, std::span<const std::size_t> water, const std::vector<Vec<Dim>>& normals,
+                             const std::vector<double>& pressure) {
+  std::vector<double> share(normals.size());
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      for_each(share.size(), [&](std::size_t i) { share[i] = share_of_water * normals[i][a] * normals[i][b]; });
+      if (std::ranges::none_of(share, [](double one) { return one != 0.0; })) continue;
+      add_through_water(flow, water, share, pressure, [&](Vec<Dim>& sum, const Vec<Dim>& force) {
+        sum[a] -= force[b];
+        if (b < a) sum[b] -= force[a];
+      });
+    }
+  }
 }
 
 }  // namespace
@@ -28,26 +64,27 @@ template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
   if (!flow.walls.forces.pressure_is_requested) return;
   const Particles<Dim>& particles = flow.state.particles;
-  const std::vector<double> share = shares_of_water(flow);
+  const std::vector<Vec<Dim>> normals = normals_in_gaps(flow);
+  std::vector<double> share(particles.size(), 0.0);
   std::vector<std::size_t> walls;
   std::vector<std::size_t> water;
-  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: lists
+  for (std::size_t i = 0; i < particles.size(); ++i) {  // in order: lists
+    if (!particles.is_fluid(i) && flow.surroundings.is_wet[i]) share[i] = share_of_water;
+    if (i >= particles.owned) continue;
     if (!particles.is_fluid(i)) {
       walls.push_back(i);
     } else if (flow.pairs().sees_wall[i] != 0) {
       water.push_back(i);
     }
   }
-  WallForces<Dim>& forces = flow.walls.forces;
-  std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, walls, pressure);
+  const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, walls, pressure);
   for_each(walls.size(), [&](std::size_t n) {
     const std::size_t i = walls[n];
-    forces.pressure[i] -= (1.0 - share[i]) * particles.volume[i] * pushes[n];
+    const Vec<Dim> across = normals[i].dot(pushes[n]) * normals[i];
+    flow.walls.forces.pressure[i] -= particles.volume[i] * ((1.0 - share[i]) * pushes[n] + share_of_water * across);
   });
-  pushes.resize(water.size());
-  flow.discretisation().reactions_seen_by_water(flow, water, share, pressure, pushes);
-  for_each(water.size(),
-           [&](std::size_t n) { forces.through_water[water[n]] += particles.volume[water[n]] * pushes[n]; });
+  add_through_water(flow, water, share, pressure, [](Vec<Dim>& sum, const Vec<Dim>& force) { sum += force; });
+  take_forces_across_gaps(flow, water, normals, pressure);
 }
 
 TAILWATER_IN_2D_AND_3D(add_wall_forces);

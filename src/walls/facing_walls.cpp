@@ -32,17 +32,18 @@ bool meet_in_corner(const Boundary<Dim>& boundary, const NearestWall<Dim>& a, co
 }  // namespace
 
 template <int Dim>
-double share_of_water(const Walls<Dim>& walls, std::size_t row, double radius) {
+Vec<Dim> normal_in_gap(const Walls<Dim>& walls, std::size_t row, double radius) {
+  const Vec<Dim> none = Vec<Dim>::Zero();
   const Boundary<Dim>& boundary = walls.boundary;
   const NearestWall<Dim> own = boundary.nearest(walls.particles.position[row], to_foot * radius);
-  if (own.face < 0) return 0.5;
+  if (own.face < 0) return none;
   // A ball that touches the wall from the water's side. Of walls as near as its own none faces it.
   const Vec<Dim>& n = boundary.faces[own.face].normal;
   const NearestWall<Dim> other = boundary.nearest(own.point + radius * n, radius);
-  if (other.face < 0 || boundary.faces[other.face].normal.dot(n) > like_cosine) return 0.5;
-  return meet_in_corner(boundary, own, other, radius) ? 0.5 : 0.0;
+  if (other.face < 0 || boundary.faces[other.face].normal.dot(n) > like_cosine) return none;
+  return meet_in_corner(boundary, own, other, radius) ? none : n;
 }
 
-TAILWATER_IN_2D_AND_3D(share_of_water);
+TAILWATER_IN_2D_AND_3D(normal_in_gap);
 
 }  // namespace tailwater

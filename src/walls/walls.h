@@ -22,18 +22,18 @@ struct Surroundings;
 /// are in order of their numbers.
 template <int Dim>
 struct Walls {
-  Boundary<Dim> boundary;              ///< faces
-  WallParticles<Dim> particles;        ///< the table that Particles::wall_row points into
-  std::vector<double> friction;        ///< lambda of each row of the table: 0 free slip, 1 no slip
-  std::vector<double> roughness;       ///< m; k_s of each row
-  std::vector<double> depth;           ///< m; distance of each row behind its wall, where it has friction
-  std::vector<Mat<Dim>> curvature;     ///< 1/m; curvature of each row's wall as drawn (turning_walls.h); empty if flat
-  std::vector<double> share_of_water;  ///< of the force of a pair; for a force probe, as drawn (facing_walls.h)
-  bool is_curved = false;              ///< whether any wall is curved; the same on all ranks
-  std::size_t moving = 0;              ///< rows of walls that move
-  std::size_t kept = 0;                ///< rows without halo rows
-  std::int64_t all = 0;                ///< rows of the case on all ranks
-  WallForces<Dim> forces;              ///< in the last step; empty if neither a probe nor a part needs them
+  Boundary<Dim> boundary;               ///< faces
+  WallParticles<Dim> particles;         ///< the table that Particles::wall_row points into
+  std::vector<double> friction;         ///< lambda of each row of the table: 0 free slip, 1 no slip
+  std::vector<double> roughness;        ///< m; k_s of each row
+  std::vector<double> depth;            ///< m; distance of each row behind its wall, where it has friction
+  std::vector<Mat<Dim>> curvature;      ///< 1/m; curvature of each row's wall as drawn (turning_walls.h); empty if flat
+  std::vector<Vec<Dim>> normal_in_gap;  ///< of each row's wall in a narrow gap, else 0; as drawn (facing_walls.h)
+  bool is_curved = false;               ///< whether any wall is curved; the same on all ranks
+  std::size_t moving = 0;               ///< rows of walls that move
+  std::size_t kept = 0;                 ///< rows without halo rows
+  std::int64_t all = 0;                 ///< rows of the case on all ranks
+  WallForces<Dim> forces;               ///< in the last step; empty if neither a probe nor a part needs them
   std::vector<Vec<Dim>> turn_acceleration;  ///< m/s^2; of water along walls that turn, of owned particles; or empty
 
   /// Calls body with references to all fields of the rows.
@@ -41,9 +41,9 @@ struct Walls {
   void apply_to_rows(Body&& body) {
     particles.apply_to_fields([&](auto&... field) {
       if (is_curved) {
-        body(field..., friction, roughness, depth, curvature, share_of_water);
+        body(field..., friction, roughness, depth, curvature, normal_in_gap);
       } else {
-        body(field..., friction, roughness, depth, share_of_water);
+        body(field..., friction, roughness, depth, normal_in_gap);
       }
     });
   }

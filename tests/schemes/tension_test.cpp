@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "air/voids_under_tension.h"
 #include "schemes/cases.h"
 
 namespace tailwater {
@@ -62,6 +63,20 @@ TEST(Siphon, RestsWithTension) {
     const double height = particles.position[i][1];
     if (!particles.is_fluid(i) || height < roof - 0.05) continue;
     EXPECT_NEAR(particles.pressure[i], -flow.setup.liquid.density * g * (height - level), 0.02 * scale);
+  }
+}
+
+/// With less tension than the roof needs the water leaves it. The space below the roof has no air, and grows.
+TEST(Siphon, ReportsAVoidThatNoAirCanReach) {
+  for (const double tension : {1e3, 5e4}) {
+    Flow<2> flow = make_flow<2>(siphon(tension));
+    start(flow);
+    ASSERT_TRUE(has_part<VoidsUnderTension<2>>(flow));
+    const auto& voids = dynamic_cast<const VoidsUnderTension<2>&>(
+        **std::ranges::find_if(flow.parts, [](const auto& part) { return part->name() == "voids_under_tension"; }));
+    const double end = tension < 5e4 ? 0.4 : 0.15;
+    while (flow.state.time < end && voids.find_grown() == nullptr) step(flow);
+    EXPECT_EQ(voids.find_grown() != nullptr, tension < 5e4) << tension;
   }
 }
 

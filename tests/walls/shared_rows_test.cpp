@@ -42,7 +42,7 @@ Walls<Dim> made_by(const Communicator& ranks) {
     walls.roughness.push_back(4.0 * x);
     walls.depth.push_back(5.0 * x);
     walls.curvature.push_back(6.0 * x * Mat<Dim>::Identity());
-    walls.share_of_water.push_back(7.0 * x);
+    walls.normal_in_gap.push_back(7.0 * x * Vec<Dim>::UnitX());
   }
   return walls;
 }
@@ -62,7 +62,7 @@ void expect_row(const Walls<Dim>& walls, std::int32_t row, std::int64_t number) 
   EXPECT_EQ(walls.roughness[row], 4.0 * x);
   EXPECT_EQ(walls.depth[row], 5.0 * x);
   EXPECT_EQ(walls.curvature[row], Mat<Dim>(6.0 * x * Mat<Dim>::Identity()));
-  EXPECT_EQ(walls.share_of_water[row], 7.0 * x);
+  EXPECT_EQ(walls.normal_in_gap[row], Vec<Dim>(7.0 * x * Vec<Dim>::UnitX()));
 }
 
 /// Wall particles with these numbers, behind one fluid particle.
