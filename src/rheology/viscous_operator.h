@@ -31,21 +31,9 @@
 #include <vector>
 
 #include "flow/flow.h"
+#include "rheology/coulomb_friction.h"
 
 namespace tailwater {
-
-/// The rigid motion of the walls.
-template <int Dim>
-struct WallRates {
-  std::vector<Vec<Dim>> velocity;  ///< m/s; of each row of walls that move
-  std::vector<Mat<Dim>> spin;      ///< 1/s; of each wall, whose velocity changes by spin d over a way d; empty: all 0
-
-  /// The velocity [m/s] that the wall of a row has by its rigid motion at `d` [m] from the row.
-  Vec<Dim> at(const Walls<Dim>& walls, std::int32_t row, const Vec<Dim>& d) const {
-    const Vec<Dim> own = entry_of<Dim>(velocity, row);
-    return spin.empty() ? own : Vec<Dim>(own + spin[walls.particles.wall[row]] * d);
-  }
-};
 
 /// The numbers of a particle that the forces on its neighbours depend on.
 template <int Dim>
@@ -64,6 +52,15 @@ class ViscousOperator {
   /// The shear rates s_i [1/s] of owned fluid. The velocity must be up to date on ghosts.
   void find_shear_rates(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity, std::span<double> rate) const;
 
+  /// Lets the liquid slide along walls with Coulomb friction (coulomb_friction.h), which changes its shear rates. The
+  /// viscosity must be that of the last pass. Collective.
+  void slide(const Flow<Dim>& flow, const WallRates<Dim>& walls, const LawOfParticle& law,
+             const std::vector<double>& pressure, std::span<const Vec<Dim>> velocity, std::span<double> rate);
+  /// Whether `velocity`, the result of a pass, slides where the pass did not. Collective.
+  bool has_changed_slip(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity) const;
+  CoulombFriction<Dim>& coulomb() { return coulomb_; }
+  const CoulombFriction<Dim>& coulomb() const { return coulomb_; }
+
   /// Sets the dynamic viscosity [Pa s] of owned fluid; 0 of walls. Collective.
   void set_viscosity(const Flow<Dim>& flow, std::span<const double> viscosity);
   /// The dynamic viscosity of all particles, ghosts too.
@@ -75,16 +72,24 @@ class ViscousOperator {
   /// of `velocity`. Collective.
   void find_forces(const Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity, std::span<Vec<Dim>> force);
 
-  /// The part of the force on owned particle i that comes from the motion of the walls [N].
+  /// The part of the force on owned particle i that comes from the motion of the walls, and does not depend on its
+  /// velocity [N].
   Vec<Dim> drag_of_walls(const Flow<Dim>& flow, std::size_t i) const {
-    return friction_of_walls(flow, i) * wall_velocity_[i];
+    const Vec<Dim> drag = friction_of_walls(flow, i) * wall_velocity_[i];
+    if (!coulomb_.has_walls()) return drag;
+    return drag - coulomb_.relief(i) * wall_velocity_[i] - coulomb_.offset(i);
   }
 
   /// Writes w_i w_j F_ij (mu_i + mu_j) [N s/m] of the pairs of fluid particle i, 0 for walls. Returns their sum.
   double write_weights(const Flow<Dim>& flow, std::size_t i, float* weights) const;
-  /// The force of walls at rest on fluid particle i over its velocity [N s/m].
+  /// The force of walls at rest, if the liquid does not slide, on fluid particle i over its velocity [N s/m].
   double friction_of_walls(const Flow<Dim>& flow, std::size_t i) const {
     return flow.state.particles.volume[i] * viscosity_[i] * wall_weight_[i];
+  }
+  /// Friction of walls at rest on component a over that of the velocity [N s/m], also where the liquid slides.
+  double friction_of_walls(const Flow<Dim>& flow, std::size_t i, int a) const {
+    const double no_slip = friction_of_walls(flow, i);
+    return coulomb_.has_walls() ? no_slip - coulomb_.relief(i)(a, a) : no_slip;
   }
 
   /// The forces [N] on owned wall particles. Velocity and viscosity must be up to date on ghosts.
@@ -106,6 +111,7 @@ class ViscousOperator {
   std::vector<double> viscosity_;         ///< Pa s
   std::vector<double> shared_viscosity_;  ///< Pa s; times `share_`, ghosts too
   std::vector<StressEnd<Dim>> ends_;      ///< of the last product; kept for its memory
+  CoulombFriction<Dim> coulomb_;
 };
 
 }  // namespace tailwater
