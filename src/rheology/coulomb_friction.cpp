@@ -32,10 +32,9 @@ void CoulombFriction<Dim>::locate(const Flow<Dim>& flow) {
       const auto j = static_cast<std::size_t>(pairs.j[k]);
       if (!is_sliding_wall(flow, j)) continue;
       const auto row = particles.wall_row[j];
-      const Vec<Dim>& n = flow.walls.particles.normal[row];
       const double c = particles.volume[j] * wall_factor<Dim>(flow, row, pairs.d(i, k), pairs.F(i, k));
       contact.weight += c;
-      contact.along += c * (Mat<Dim>::Identity() - n * n.transpose());
+      contact.along += c * along_wall<Dim>(flow, row);
     }
     if (contact.weight > 0.0) contacts_.push_back(contact);
   }

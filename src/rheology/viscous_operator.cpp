@@ -49,6 +49,9 @@ Mat<Dim> ViscousOperator<Dim>::weigh_walls(const Flow<Dim>& flow, const WallRate
     const double of_wall = particles.volume[j] * wall_factor(flow, row, d, F);
     moment += flow.walls.friction[row] * particles.volume[j] * F * d * d.transpose();
     wall_weight_[i] += of_wall;
+    if (flow.walls.friction[row] < 1.0) {
+      slip_weight_[i] += (1.0 - flow.walls.friction[row]) * of_wall * along_wall<Dim>(flow, row);
+    }
     wall_velocity_[i] += of_wall * walls.at(flow.walls, row, d);
   }
   if (wall_weight_[i] > 0.0) wall_velocity_[i] /= wall_weight_[i];
@@ -67,6 +70,9 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, const WallRates<Dim>& w
   fluid_share_.assign(owned, 1.0);
   wall_weight_.assign(owned, 0.0);
   wall_velocity_.assign(owned, Vec<Dim>::Zero());
+  slips_ =
+      std::ranges::any_of(flow.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction < 1.0; });
+  slip_weight_.assign(slips_ ? owned : 0, Mat<Dim>::Zero());
   for_each(owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     const Mat<Dim> moment = weigh_fluid(flow, i);
@@ -100,7 +106,9 @@ void ViscousOperator<Dim>::find_shear_rates(const Flow<Dim>& flow, std::span<con
   for_each(particles.owned, [&](std::size_t i) {
     rate[i] = 0.0;
     if (!particles.is_fluid(i)) return;
-    double squared = wall_weight_[i] * (velocity[i] - wall_velocity_[i]).squaredNorm();
+    const Vec<Dim> beside_walls = velocity[i] - wall_velocity_[i];
+    double squared = wall_weight_[i] * beside_walls.squaredNorm();
+    if (slips_) squared = std::max(0.0, squared - beside_walls.dot(slip_weight_[i] * beside_walls));
     if (share_[i] > 0.0) {
       const Mat<Dim> G = gradient(flow, in_single, i);
       const Mat<Dim> twice_D = G + G.transpose();
@@ -163,7 +171,7 @@ void ViscousOperator<Dim>::find_forces(const Flow<Dim>& flow, std::vector<Vec<Di
     force[i].setZero();
     if (!particles.is_fluid(i)) return;
     force[i] = force_of_fluid(flow, i) - friction_of_walls(flow, i) * velocity[i];
-    if (coulomb_.has_walls()) force[i] += coulomb_.relief(i) * velocity[i];
+    if (may_slip()) force[i] += relief_of_walls(flow, i) * velocity[i];
   });
 }
 
@@ -213,13 +221,15 @@ void ViscousOperator<Dim>::find_forces_on_walls(const Flow<Dim>& flow, const Wal
   for_each(pairs.owned(), [&](std::size_t w) {
     if (particles.is_fluid(w)) return;
     const auto row = particles.wall_row[w];
+    const double lost = 1.0 - flow.walls.friction[row];
     const bool may_slide = flow.walls.boundary.walls[flow.walls.particles.wall[row]].coulomb_friction > 0.0;
     const Vec<Dim>& n = flow.walls.particles.normal[row];
     force[w] = particles.volume[w] * sum_over_fluid(pairs, particles, w, [&](std::int32_t i, std::size_t k) {
                  const Vec<Dim> d = -pairs.d(w, k);
                  const double factor = wall_factor<Dim>(flow, row, d, pairs.F(w, k));
                  Vec<Dim> slip_velocity = velocity[i] - walls.at(flow.walls, row, d);
-                 if (may_slide) slip_velocity -= (1.0 - fraction[i]) * (slip_velocity - n.dot(slip_velocity) * n);
+                 const double of_pair = may_slide ? 1.0 - fraction[i] : lost;
+                 if (of_pair > 0.0) slip_velocity -= of_pair * (slip_velocity - n.dot(slip_velocity) * n);
                  return Vec<Dim>(particles.volume[i] * viscosity_[i] * factor * slip_velocity);
                });
   });

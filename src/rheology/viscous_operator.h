@@ -1,7 +1,8 @@
 // Viscous forces as the negative derivative of a dissipation that is never negative,
 //
 //   Phi = 1/2 sum_i w_i mu_i s_i^2,
-//   s_i^2 = k_i 2 D_i:D_i + sum_j w_j F_ij |z_ij|^2 + sum_w 2 lambda_w (1 + b_iw) w_w F_iw |u_i - V_w|^2.
+//   s_i^2 = k_i 2 D_i:D_i + sum_j w_j F_ij |z_ij|^2
+//           + sum_w 2 (1 + b_iw) w_w F_iw (|P_w (u_i - V_w)|^2 + lambda_w |(I - P_w) (u_i - V_w)|^2),  P_w = n_w n_w^T.
 //
 // G_i = [ sum_j w_j F_ij (u_j - u_i) (r_j - r_i)^T ] M_i^-1 is the velocity gradient by least squares over the fluid j,
 // with M_i = sum_j w_j F_ij (r_j - r_i) (r_j - r_i)^T and F = -(dW/dr)/r. D_i is its symmetric part, and
@@ -18,12 +19,13 @@
 // - Linear and angular momentum are conserved, but for walls.
 // - At a free surface the stress vanishes, the natural condition.
 //
-// Walls with friction: between particle i at the distance d_i from a wall and a particle w of it, b_iw = d_w/d_i behind
+// Walls: between particle i at the distance d_i from a wall and a particle w of it, b_iw = d_w/d_i behind
 // the wall, the velocity is linear and that of the wall on it. V_w is the velocity that the rigid motion of the wall
-// has at r_i, so that a liquid that turns with a wall meets no force. lambda_w is the wall's friction. k_i is the
-// fraction of the least moment of neighbours that fluid alone has there, so that uniform shear beside a wall is in
-// balance. Where fluid has too few neighbours for a gradient, as in spray, mu_i fades. Derivation:
-// docs/theory/rheology.md.
+// has at r_i, so that a liquid that turns with a wall meets no force. lambda_w is the wall's friction, 0 of free
+// slip. Across the wall the velocity is that of the wall whatever its friction. Otherwise v could lead through the
+// wall, and mu div v, which corrects the pressure, would be wrong there (thick_liquid.h). k_i is the fraction of the
+// least moment of neighbours that fluid alone has there, so that uniform shear beside a wall is in balance. Where fluid
+// has too few neighbours for a gradient, as in spray, mu_i fades. Derivation: docs/theory/rheology.md.
 #pragma once
 
 #include <array>
@@ -76,20 +78,31 @@ class ViscousOperator {
   /// velocity [N].
   Vec<Dim> drag_of_walls(const Flow<Dim>& flow, std::size_t i) const {
     const Vec<Dim> drag = friction_of_walls(flow, i) * wall_velocity_[i];
-    if (!coulomb_.has_walls()) return drag;
-    return drag - coulomb_.relief(i) * wall_velocity_[i] - coulomb_.offset(i);
+    if (!may_slip()) return drag;
+    const Vec<Dim> rest = drag - relief_of_walls(flow, i) * wall_velocity_[i];
+    return coulomb_.has_walls() ? Vec<Dim>(rest - coulomb_.offset(i)) : rest;
   }
 
   /// Writes w_i w_j F_ij (mu_i + mu_j) [N s/m] of the pairs of fluid particle i, 0 for walls. Returns their sum.
   double write_weights(const Flow<Dim>& flow, std::size_t i, float* weights) const;
-  /// The force of walls at rest, if the liquid does not slide, on fluid particle i over its velocity [N s/m].
+  /// Force of walls at rest, if they are of no slip, on fluid particle i over its velocity [N s/m].
   double friction_of_walls(const Flow<Dim>& flow, std::size_t i) const {
     return flow.state.particles.volume[i] * viscosity_[i] * wall_weight_[i];
   }
-  /// Friction of walls at rest on component a over that of the velocity [N s/m], also where the liquid slides.
+  /// The friction along walls that particle i does not have because of their slip, over its velocity [N s/m].
+  Mat<Dim> relief_of_walls(const Flow<Dim>& flow, std::size_t i) const {
+    Mat<Dim> relief = Mat<Dim>::Zero();
+    if (slips_) relief = flow.state.particles.volume[i] * viscosity_[i] * slip_weight_[i];
+    return coulomb_.has_walls() ? Mat<Dim>(relief + coulomb_.relief(i)) : relief;
+  }
+  /// Whether walls have a fraction of the friction of no slip, or none; the same on all ranks.
+  bool slips() const { return slips_; }
+  /// Whether walls have such friction, or Coulomb friction.
+  bool may_slip() const { return slips_ || coulomb_.has_walls(); }
+  /// Friction of walls at rest on component a over that of the velocity [N s/m], with slip.
   double friction_of_walls(const Flow<Dim>& flow, std::size_t i, int a) const {
     const double no_slip = friction_of_walls(flow, i);
-    return coulomb_.has_walls() ? no_slip - coulomb_.relief(i)(a, a) : no_slip;
+    return may_slip() ? no_slip - relief_of_walls(flow, i)(a, a) : no_slip;
   }
 
   /// The forces [N] on owned wall particles. Velocity and viscosity must be up to date on ghosts.
@@ -106,8 +119,10 @@ class ViscousOperator {
   std::vector<Mat<Dim>> inverse_moment_;  ///< M^-1 of owned fluid
   std::vector<double> share_;             ///< of the viscosity; 0 where there is no gradient
   std::vector<double> fluid_share_;       ///< k
-  std::vector<double> wall_weight_;       ///< 1/m^2; sum_w 2 lambda (1 + b) w F
+  std::vector<double> wall_weight_;       ///< 1/m^2; sum_w 2 (1 + b) w F
   std::vector<Vec<Dim>> wall_velocity_;   ///< m/s; mean of V_w with these weights
+  std::vector<Mat<Dim>> slip_weight_;     ///< 1/m^2; part of wall_weight_ that slip takes; empty if none does
+  bool slips_ = false;                    ///< some walls have less than the friction of no slip
   std::vector<double> viscosity_;         ///< Pa s
   std::vector<double> shared_viscosity_;  ///< Pa s; times `share_`, ghosts too
   std::vector<StressEnd<Dim>> ends_;      ///< of the last product; kept for its memory

@@ -10,7 +10,7 @@ template <int Dim>
 ViscousPreconditioner<Dim>::ViscousPreconditioner(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces,
                                                   std::span<const double> inertia)
     : component_(inertia.size()), correction_(inertia.size()) {
-  const int count = forces.coulomb().slides_anywhere(flow) ? Dim : 1;
+  const int count = forces.slips() || forces.coulomb().slides_anywhere(flow) ? Dim : 1;
   for (int a = 0; a < count; ++a) {
     matrices_.push_back(std::make_unique<Matrix>(flow.setup.ranks));
     fill(flow, forces, inertia, a, *matrices_.back());

@@ -29,10 +29,17 @@ double distance_from_wall(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim
                   min_friction_distance * flow.setup.scale.spacing);
 }
 
-/// 2 lambda (1 + b) F [1/m^(Dim+2)] of the pair, in the row of either particle.
+/// The projector on the directions along the wall.
+template <int Dim>
+Mat<Dim> along_wall(const Flow<Dim>& flow, std::int32_t row) {
+  const Vec<Dim>& n = flow.walls.particles.normal[row];
+  return Mat<Dim>::Identity() - n * n.transpose();
+}
+
+/// 2 (1 + b) F [1/m^(Dim+2)] of the pair, in the row of either particle.
 template <int Dim>
 double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, double F) {
-  return 2.0 * flow.walls.friction[row] * (1.0 + flow.walls.depth[row] / distance_from_wall(flow, row, d)) * F;
+  return 2.0 * (1.0 + flow.walls.depth[row] / distance_from_wall(flow, row, d)) * F;
 }
 
 }  // namespace tailwater

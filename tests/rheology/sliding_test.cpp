@@ -28,7 +28,7 @@ WallTable sliding_bed(double mu) {
 template <int Dim>
 CaseSpec layer_on_slope(double mu, double angle, double speed, const LiquidTable& liquid, double spacing = 0.1) {
   CaseSpec spec;
-  const double length = 8.0 * spacing;
+  const double length = 12.0 * spacing;
   std::array<double, 2> down{1.0, 0.0};
   if (Dim == 3) down = {std::cos(30.0 * degree), std::sin(30.0 * degree)};
   spec.general.dimension = Dim;
@@ -210,6 +210,24 @@ TEST(SlidingBlock, StopsOnALevelBed) {
   record_error("way_of_a_block", 2, spec.particles.spacing, way / (speed * speed / (2.0 * mu * gravity)) - 1.0);
   EXPECT_NEAR(friction / sliding / mu, 1.0, 0.02);
   EXPECT_LT(std::abs(speed_of(flow)), 1e-3 * speed);
+}
+
+// Walls without friction leave the acceleration and the pressure of a stiff layer as they are.
+TYPED_TEST(SlidingLayers, AccelerateFreelyOnAFreeSlipBed) {
+  constexpr int Dim = TypeParam::value;
+  constexpr double angle = 30.0 * degree;
+  CaseSpec spec = layer_on_slope<Dim>(0.3, angle, 0.0, newtonian(1e5));
+  spec.walls[0].slip = Slip::free;
+  Flow<Dim> flow = make_flow<Dim>(spec);
+  begin(flow);
+  run_to(flow, 0.2);
+  EXPECT_NEAR(speed_of(flow) / (gravity * std::sin(angle) * flow.state.time), 1.0, 0.001);
+  const Particles<Dim>& particles = flow.state.particles;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const double y = particles.position[i][Dim - 1];
+    if (!particles.is_fluid(i) || y > spec.particles.spacing) continue;
+    EXPECT_NEAR(particles.pressure[i] / (1000.0 * gravity * std::cos(angle) * (layer_depth - y)), 1.0, 0.02);
+  }
 }
 
 // Only the implicit solve contains this friction.
