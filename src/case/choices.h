@@ -44,9 +44,9 @@ template <>
 inline constexpr auto choices<FluidSide> = std::to_array<std::string_view>({"left", "right", "inside", "outside",
                                                                             "above", "below", "front", "back"});
 
-enum class Slip { free, no_slip, partial };
+enum class Slip { free, no_slip, partial, coulomb };
 template <>
-inline constexpr auto choices<Slip> = std::to_array<std::string_view>({"free", "no-slip", "partial"});
+inline constexpr auto choices<Slip> = std::to_array<std::string_view>({"free", "no-slip", "partial", "coulomb"});
 
 enum class Beyond { channel, air };
 template <>

@@ -57,6 +57,7 @@ std::vector<KeyUse> uses_of_shapes_and_types() {
       {"wall", "slip", "free", {}, {}},
       {"wall", "slip", "no-slip", {}, {"roughness", "manning"}},
       {"wall", "slip", "partial", {}, {"friction"}},
+      {"wall", "slip", "coulomb", {"friction"}, {}},
       {"porous", "shape", "box", {"min", "max"}, {}},
       {"porous", "shape", "polygon", {"points"}, {}},
       {"porous", "shape", "mesh", {"file"}, {"checksum", "scale", "rotate", "translate"}},

@@ -374,10 +374,12 @@ struct WallTable : PlacedFile {
         "polygon, box or closed mesh; above, below, front or back of an open mesh, where the corners of triangles run "
         "counter-clockwise as seen from the front (default: left; inside; required for a mesh; not for a plate)");
     v.choice("slip", self.slip,
-             "Wall friction: none (free), that of the no-slip condition (no-slip), or a fraction of that of a smooth "
-             "wall (partial)");
+             "Wall friction: none (free), that of the no-slip condition (no-slip), a fraction of that of a smooth wall "
+             "(partial), or that of the no-slip condition up to a fraction of the normal stress, along which a thick "
+             "liquid slides (coulomb)");
     v.number("friction", self.friction, "", Range::between(0.0, 1.0),
-             "With slip = \"partial\": fraction of the no-slip wall stress");
+             "With slip = \"partial\": fraction of the no-slip wall stress; with slip = \"coulomb\": coefficient of "
+             "friction, the largest shear stress over the normal stress");
     v.number("roughness", self.roughness, "m", Range::at_least(0.0),
              "With slip = \"no-slip\": equivalent sand roughness k_s of the wall; 0: smooth");
     v.number("manning", self.manning, "s/m^(1/3)", Range::at_least(0.0),

@@ -20,8 +20,10 @@ namespace {
 /// (docs/theory/rheology.md). This factor allows for 50 %.
 constexpr double reach_with_inertia = 1.5;
 
-/// The least yield stress over the weight of a unit volume [m], of all liquids; 0 if one has no yield stress.
+/// The least yield stress over the weight of a unit volume [m], of all liquids; 0 if one has no yield stress, or can
+/// slide below it.
 double min_yield_height(const CaseSpec& spec, double gravity) {
+  if (std::ranges::any_of(spec.walls, [](const WallTable& wall) { return wall.slip == Slip::coulomb; })) return 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (const FluidTable& block : spec.fluid) {
     if (block.liquid.empty()) return 0.0;

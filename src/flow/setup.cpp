@@ -62,9 +62,9 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
     const WallProperties& wall = walls.boundary.walls[walls.particles.wall[row]];
     walls.friction.push_back(wall.friction);
     walls.roughness.push_back(wall.roughness);
-    const bool has_friction = wall.friction > 0.0;
+    const bool needs_depth = wall.friction > 0.0 || !spec.liquids.empty();  // rheology/viscous_operator.h
     walls.depth.push_back(
-        has_friction ? std::abs(walls.boundary.nearest(walls.particles.position[row], reach).signed_distance) : 0.0);
+        needs_depth ? std::abs(walls.boundary.nearest(walls.particles.position[row], reach).signed_distance) : 0.0);
   }
   walls.normal_in_gap.assign(walls.particles.size(), Vec<Dim>::Zero());
   if (has_force_probe(spec)) {

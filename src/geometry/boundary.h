@@ -32,6 +32,8 @@ struct WallProperties {
   std::string kind = "wall";  ///< the table of the case file that defines it
   bool is_plate = false;      ///< without thickness, with water on both sides
   bool is_duct = false;       ///< outside of an opening; not a wall of the case file
+  /// Largest shear stress over the normal stress, along a wall whose friction is that of no slip; 0: no bound.
+  double coulomb_friction = 0.0;
 
   bool moves() const { return body != resting_body; }
 };

@@ -24,6 +24,8 @@ double friction_of(const WallTable& wall) {
       return 1.0;
     case Slip::partial:
       return wall.friction;
+    case Slip::coulomb:
+      return wall.friction > 0.0 ? 1.0 : 0.0;
   }
   return 0.0;
 }
@@ -281,6 +283,7 @@ Boundary<Dim> make_boundary(const CaseSpec& spec) {
                               body_of(spec, w), kind_of(table)});
     const CaseLabel owner = wall_label(boundary, wall);
     boundary.walls[wall].is_plate = table.shape == WallShape::plate;
+    if (table.slip == Slip::coulomb) boundary.walls[wall].coulomb_friction = table.friction;
     if (Dim == 3 && table.shape == WallShape::plate && !table.file.empty()) {
       if constexpr (Dim == 3) append_mesh_plate(spec, table, wall, owner, boundary);
     } else if (table.shape == WallShape::plate) {

@@ -10,6 +10,7 @@
 #include "case/rheology.h"
 #include "flow/flow.h"
 #include "flow/stages.h"
+#include "geometry/wall_label.h"
 #include "io/messages.h"
 #include "motion/wall_motion.h"
 #include "neighbours/halo.h"
@@ -37,7 +38,44 @@ constexpr double change_of_next_pass = 0.03;
 /// Error over the velocity, both in the energy norm, below which rounding dominates: products are in single precision.
 constexpr double min_error = 1e-5;
 
+/// Only the solve for viscous forces contains this friction.
+template <int Dim>
+void refuse_coulomb_friction(const Boundary<Dim>& boundary) {
+  for (std::size_t wall = 0; wall < boundary.walls.size(); ++wall) {
+    if (boundary.walls[wall].coulomb_friction == 0.0) continue;
+    throw CaseError(
+        "coulomb-wall-without-thick-liquid",
+        {"{}: slip = \"coulomb\" has no meaning here, because only the solve for the viscous forces of thick "
+         "liquids contains this friction, and the viscous forces of this case are explicit",
+         wall_label(boundary, static_cast<int>(wall))},
+        {"give slip = \"no-slip\", or a [[liquid]] with more viscosity or a yield stress"});
+  }
+}
+
 }  // namespace
+
+/// div v of the velocity found last.
+template <int Dim>
+void ThickLiquid<Dim>::find_expansion(const Flow<Dim>& flow) {
+  expansion_.assign(flow.state.particles.owned, 0.0);
+  std::vector<Vec<Dim>> beside_walls = velocity_;
+  set_wall_velocities<Dim>(flow, walls_.velocity, beside_walls);
+  flow.discretisation().find_divergence(flow, beside_walls, expansion_);
+}
+
+/// The pressure [Pa] that acts in a step, q + mu div v, at the velocity found last; the last q where this velocity is
+/// that after a projection. Collective.
+template <int Dim>
+std::vector<double> ThickLiquid<Dim>::pressing_pressure(const Flow<Dim>& flow) {
+  std::vector<double> pressure = flow.state.particles.pressure;
+  if (!has_viscosity_) return pressure;
+  find_expansion(flow);
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (flow.role[i] == Role::water) pressure[i] += forces_.shared_viscosity()[i] * expansion_[i];
+  });
+  flow.halo().exchange(pressure);
+  return pressure;
+}
 
 /// By the law, at the shear rates of a velocity that is up to date on ghosts.
 template <int Dim>
@@ -45,11 +83,24 @@ void ThickLiquid<Dim>::find_viscosity(const Flow<Dim>& flow, std::span<const Vec
   const Particles<Dim>& particles = flow.state.particles;
   shear_rate_.resize(particles.owned);
   forces_.find_shear_rates(flow, velocity, shear_rate_);
-  std::vector<double> viscosity(particles.owned, 0.0);
-  for_each(particles.owned, [&](std::size_t i) {
-    if (particles.is_fluid(i)) viscosity[i] = viscosity_at(liquid_of(flow, i), shear_rate_[i]);
-  });
-  forces_.set_viscosity(flow, viscosity);
+  const auto by_law = [&] {
+    std::vector<double> viscosity(particles.owned, 0.0);
+    for_each(particles.owned, [&](std::size_t i) {
+      if (particles.is_fluid(i)) viscosity[i] = viscosity_at(liquid_of(flow, i), shear_rate_[i]);
+    });
+    return viscosity;
+  };
+  if (forces_.coulomb().has_walls()) {
+    // The normal stress needs the viscosity of the last pass, ghosts too, or else that without slip.
+    std::vector<double> last(forces_.viscosity());
+    last.resize(particles.owned);
+    forces_.set_viscosity(flow, has_viscosity_ ? last : by_law());
+    forces_.slide(
+        flow, walls_, [&](std::size_t i, double rate) { return viscosity_at(liquid_of(flow, i), rate); },
+        pressing_pressure(flow), velocity, shear_rate_);
+  }
+  forces_.set_viscosity(flow, by_law());
+  has_viscosity_ = true;
 }
 
 /// The fraction of the volume that is sheared faster than it creeps at the yield stress. Collective.
@@ -102,7 +153,7 @@ void ThickLiquid<Dim>::remember(const Flow<Dim>& flow) {
   for (int n = 1; n < guess_count; ++n) {
     if (errors[n] <= errors[best]) best = n;  // equal without earlier solutions: the higher guess is tried next
   }
-  guess_ = static_cast<Guess>(best);
+  guess_ = forces_.coulomb().has_walls() ? Guess::last : static_cast<Guess>(best);
   before_last_ = std::move(last_);
   last_.assign(velocity_.begin(), velocity_.begin() + static_cast<std::ptrdiff_t>(owned));
 }
@@ -113,12 +164,14 @@ void ThickLiquid<Dim>::reordered(Reordering /*how*/) {
   before_last_.clear();
   guess_ = Guess::present;
   contraction_ = 1.0;
+  has_viscosity_ = false;
 }
 
 /// Whether the next pass would hardly change the velocity, compared with the whole step, after one that began at
 /// `before`. Collective.
 template <int Dim>
 bool ThickLiquid<Dim>::is_last_pass(const Flow<Dim>& flow, std::span<const Vec<Dim>> before, int pass) {
+  const bool has_changed_slip = forces_.has_changed_slip(flow, velocity_);
   const std::vector<Vec<Dim>>& start = flow.state.particles.velocity;
   double of_pass = sum_over(before.size(), 0.0, [&](auto i) { return (velocity_[i] - before[i]).squaredNorm(); });
   double of_step = sum_over(before.size(), 0.0, [&](auto i) { return (velocity_[i] - start[i]).squaredNorm(); });
@@ -126,7 +179,7 @@ bool ThickLiquid<Dim>::is_last_pass(const Flow<Dim>& flow, std::span<const Vec<D
   const double moved = std::sqrt(of_pass);
   if (pass > 0 && moved_ > 0.0) contraction_ = std::min(1.0, moved / moved_);
   moved_ = moved;
-  return contraction_ * moved <= change_of_next_pass * std::sqrt(of_step);
+  return !has_changed_slip && contraction_ * moved <= change_of_next_pass * std::sqrt(of_step);
 }
 
 /// Solves with the viscosity of the guess in velocity_. Returns the iterations. Collective.
@@ -138,12 +191,13 @@ int ThickLiquid<Dim>::solve_pass(const Flow<Dim>& flow, std::span<const double> 
   for_each(rhs.size(), [&](std::size_t i) { rhs[i] = impulse[i] + forces_.drag_of_walls(flow, i); });
   const double power =
       flow.setup.ranks.sum(sum_over(rhs.size(), 0.0, [&](std::size_t i) { return rhs[i].dot(velocity_[i]); }));
-  const bool varies = std::ranges::any_of(liquids_, varies_with_shear);
-  const double of_present = (varies ? reduction_of_passes : reduction) * present_residual_;
-  const ShellGoal goal{std::max(min_error * std::sqrt(std::abs(power)), of_present),
-                       varies ? reduction_of_pass : reduction, max_iterations};
+  const bool slides = forces_.coulomb().has_walls();
+  const bool varies = slides || std::ranges::any_of(liquids_, varies_with_shear);
+  const double of_scale = (varies ? reduction_of_passes : reduction) * scale_residual_;
+  const ShellGoal goal{std::max(min_error * std::sqrt(std::abs(power)), of_scale),
+                       varies && !slides ? reduction_of_pass : reduction, max_iterations};
   const ShellReport report = solve_viscous_step<Dim>(flow, forces_, inertia, rhs, goal, velocity_);
-  if (present_residual_ == 0.0) present_residual_ = report.first_residual;
+  if (scale_residual_ == 0.0) scale_residual_ = report.first_residual;
   has_converged_ = report.has_converged;
   return report.iterations;
 }
@@ -161,9 +215,11 @@ void ThickLiquid<Dim>::solve(const Flow<Dim>& flow, std::span<const Vec<Dim>> fo
     impulse[i] = inertia[i] * (predicted[i] + dt * force[i]);
   });
   guess(flow);
-  if (guess_ == Guess::present) present_residual_ = 0.0;
+  const bool slides = forces_.coulomb().has_walls();
+  if (guess_ == (slides ? Guess::last : Guess::present)) scale_residual_ = 0.0;
+  forces_.coulomb().begin_passes();
   iterations_ = 0;
-  const int passes = std::ranges::any_of(liquids_, varies_with_shear) ? max_passes : 1;
+  const int passes = slides || std::ranges::any_of(liquids_, varies_with_shear) ? max_passes : 1;
   std::vector<Vec<Dim>> before;
   for (int pass = 0; pass < passes; ++pass) {
     before.assign(velocity_.begin(), velocity_.begin() + static_cast<std::ptrdiff_t>(particles.owned));
@@ -212,10 +268,7 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
 
   yielded_fraction_ = find_yielded_fraction(flow);
 
-  expansion_.assign(particles.owned, 0.0);
-  std::vector<Vec<Dim>> beside_walls = velocity_;
-  set_wall_velocities<Dim>(flow, walls_.velocity, beside_walls);
-  flow.discretisation().find_divergence(flow, beside_walls, expansion_);
+  find_expansion(flow);
 }
 
 /// Floating bodies are coupled to the pressure with this friction.
@@ -247,6 +300,18 @@ void ThickLiquid<Dim>::stay(Flow<Dim>& flow) {
   if (flow.walls.forces.are_requested) {
     forces_.find_forces_on_walls(flow, walls_, velocity_, flow.walls.forces.friction);
   }
+}
+
+template <int Dim>
+Json ThickLiquid<Dim>::save() const {
+  if (!forces_.coulomb().has_walls()) return nullptr;
+  return {{"residual", scale_residual_}};
+}
+
+template <int Dim>
+bool ThickLiquid<Dim>::restore(const Json& saved) {
+  if (saved.contains("residual")) scale_residual_ = saved.at("residual").get<double>();
+  return true;
 }
 
 template <int Dim>
@@ -286,9 +351,12 @@ void ThickLiquid<Dim>::warn(const Flow<Dim>& flow) {
 
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_thick_liquid(const CaseSpec& spec, const Setup<Dim>& setup,
-                                             const Boundary<Dim>& /*boundary*/) {
+                                             const Boundary<Dim>& boundary) {
+  if (!setup.has_implicit_viscosity) {
+    refuse_coulomb_friction(boundary);
+    return nullptr;
+  }
   const LiquidTable* const liquid = tailwater::liquid_of(spec);
-  if (liquid == nullptr || !setup.has_implicit_viscosity) return nullptr;
   return std::make_unique<ThickLiquid<Dim>>(setup.liquids.are_several() ? spec.liquids
                                                                         : std::vector<LiquidTable>{*liquid});
 }

@@ -35,6 +35,8 @@ class ThickLiquid final : public Part<Dim> {
   double viscosity(std::size_t i) const { return i < forces_.viscosity().size() ? forces_.viscosity()[i] : 0.0; }
 
   std::string_view name() const override { return "thick_liquid"; }
+  Json save() const override;
+  bool restore(const Json& saved) override;
   void reordered(Reordering how) override;
   void begin_step(Flow<Dim>& /*flow*/, double dt) override { is_at_start_ = dt == 0.0; }
   void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
@@ -62,6 +64,8 @@ class ThickLiquid final : public Part<Dim> {
   const LiquidTable& liquid_of(const Flow<Dim>& flow, std::size_t i) const {
     return liquids_[flow.setup.liquids.of(flow.state.particles.id[i])];
   }
+  void find_expansion(const Flow<Dim>& flow);
+  std::vector<double> pressing_pressure(const Flow<Dim>& flow);
   double find_yielded_fraction(const Flow<Dim>& flow) const;
   void find_viscosity(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity);
 
@@ -76,8 +80,11 @@ class ThickLiquid final : public Part<Dim> {
   std::vector<Vec<Dim>> last_;         ///< m/s; v of owned particles in the last step
   std::vector<Vec<Dim>> before_last_;  ///< m/s; and in the step before
   Guess guess_ = Guess::present;       ///< the best one for the last step
-  double present_residual_ = 0.0;  ///< sqrt(W); of the last guess that was the present velocity, in the natural norm
-  double contraction_ = 1.0;       ///< movement of a pass over that of the one before it
+  /// sqrt(W); the natural norm of the residual of the present velocity when it was the guess, beside Coulomb walls of
+  /// the last v.
+  double scale_residual_ = 0.0;
+  bool has_viscosity_ = false;  ///< of the last pass, in the present order of the particles
+  double contraction_ = 1.0;    ///< movement of a pass over that of the one before it
 
   bool is_at_start_ = false;  ///< only the initial pressure is computed
 

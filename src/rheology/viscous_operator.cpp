@@ -7,7 +7,7 @@
 #include "neighbours/halo.h"
 #include "neighbours/pair_lanes.h"
 #include "operators/symmetric.h"
-#include "walls/wall_friction.h"
+#include "rheology/wall_pair.h"
 
 namespace tailwater {
 namespace {
@@ -16,16 +16,6 @@ namespace {
 /// surface it is 0.45, of a single row 0.
 constexpr double no_moment = 0.1;
 constexpr double full_moment = 0.25;
-
-/// 2 lambda (1 + b) F [1/m^(Dim+2)] of pair k in the row of either particle; `d` leads from the wall to the fluid.
-template <int Dim>
-double wall_factor(const Flow<Dim>& flow, std::int32_t row, const Vec<Dim>& d, double F) {
-  const Walls<Dim>& walls = flow.walls;
-  const double depth = walls.depth[row];
-  const double distance =
-      std::max(d.dot(walls.particles.normal[row]) - depth, min_friction_distance * flow.setup.scale.spacing);
-  return 2.0 * walls.friction[row] * (1.0 + depth / distance) * F;
-}
 
 }  // namespace
 
@@ -59,6 +49,9 @@ Mat<Dim> ViscousOperator<Dim>::weigh_walls(const Flow<Dim>& flow, const WallRate
     const double of_wall = particles.volume[j] * wall_factor(flow, row, d, F);
     moment += flow.walls.friction[row] * particles.volume[j] * F * d * d.transpose();
     wall_weight_[i] += of_wall;
+    if (flow.walls.friction[row] < 1.0) {
+      slip_weight_[i] += (1.0 - flow.walls.friction[row]) * of_wall * along_wall<Dim>(flow, row);
+    }
     wall_velocity_[i] += of_wall * walls.at(flow.walls, row, d);
   }
   if (wall_weight_[i] > 0.0) wall_velocity_[i] /= wall_weight_[i];
@@ -77,6 +70,9 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, const WallRates<Dim>& w
   fluid_share_.assign(owned, 1.0);
   wall_weight_.assign(owned, 0.0);
   wall_velocity_.assign(owned, Vec<Dim>::Zero());
+  slips_ =
+      std::ranges::any_of(flow.walls.boundary.walls, [](const WallProperties& wall) { return wall.friction < 1.0; });
+  slip_weight_.assign(slips_ ? owned : 0, Mat<Dim>::Zero());
   for_each(owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
     const Mat<Dim> moment = weigh_fluid(flow, i);
@@ -87,6 +83,7 @@ void ViscousOperator<Dim>::locate(const Flow<Dim>& flow, const WallRates<Dim>& w
     inverse_moment_[i] = moment.inverse();
     if (wall_weight_[i] > 0.0) fluid_share_[i] = least / min_eigenvalue<Dim>(moment + of_walls);
   });
+  coulomb_.locate(flow);
 }
 
 template <int Dim>
@@ -109,7 +106,9 @@ void ViscousOperator<Dim>::find_shear_rates(const Flow<Dim>& flow, std::span<con
   for_each(particles.owned, [&](std::size_t i) {
     rate[i] = 0.0;
     if (!particles.is_fluid(i)) return;
-    double squared = wall_weight_[i] * (velocity[i] - wall_velocity_[i]).squaredNorm();
+    const Vec<Dim> beside_walls = velocity[i] - wall_velocity_[i];
+    double squared = wall_weight_[i] * beside_walls.squaredNorm();
+    if (slips_) squared = std::max(0.0, squared - beside_walls.dot(slip_weight_[i] * beside_walls));
     if (share_[i] > 0.0) {
       const Mat<Dim> G = gradient(flow, in_single, i);
       const Mat<Dim> twice_D = G + G.transpose();
@@ -127,6 +126,18 @@ void ViscousOperator<Dim>::find_shear_rates(const Flow<Dim>& flow, std::span<con
     }
     rate[i] = std::sqrt(squared);
   });
+}
+
+template <int Dim>
+void ViscousOperator<Dim>::slide(const Flow<Dim>& flow, const WallRates<Dim>& walls, const LawOfParticle& law,
+                                 const std::vector<double>& pressure, std::span<const Vec<Dim>> velocity,
+                                 std::span<double> rate) {
+  coulomb_.slide(flow, walls, law, pressure, velocity, wall_velocity_, viscosity_, rate);
+}
+
+template <int Dim>
+bool ViscousOperator<Dim>::has_changed_slip(const Flow<Dim>& flow, std::span<const Vec<Dim>> velocity) const {
+  return coulomb_.has_walls() && coulomb_.has_changed(flow, velocity, wall_velocity_, viscosity_);
 }
 
 template <int Dim>
@@ -158,7 +169,9 @@ void ViscousOperator<Dim>::find_forces(const Flow<Dim>& flow, std::vector<Vec<Di
   flow.halo().exchange(ends_);
   for_each(particles.owned, [&](std::size_t i) {
     force[i].setZero();
-    if (particles.is_fluid(i)) force[i] = force_of_fluid(flow, i) - friction_of_walls(flow, i) * velocity[i];
+    if (!particles.is_fluid(i)) return;
+    force[i] = force_of_fluid(flow, i) - friction_of_walls(flow, i) * velocity[i];
+    if (may_slip()) force[i] += relief_of_walls(flow, i) * velocity[i];
   });
 }
 
@@ -203,13 +216,20 @@ void ViscousOperator<Dim>::find_forces_on_walls(const Flow<Dim>& flow, const Wal
                                                 std::span<const Vec<Dim>> velocity, std::span<Vec<Dim>> force) const {
   const Pairs<Dim>& pairs = flow.pairs();
   const Particles<Dim>& particles = flow.state.particles;
+  const std::vector<double> fraction =
+      coulomb_.has_walls() ? coulomb_.fractions(flow, velocity, wall_velocity_, viscosity_) : std::vector<double>();
   for_each(pairs.owned(), [&](std::size_t w) {
     if (particles.is_fluid(w)) return;
     const auto row = particles.wall_row[w];
+    const double lost = 1.0 - flow.walls.friction[row];
+    const bool may_slide = flow.walls.boundary.walls[flow.walls.particles.wall[row]].coulomb_friction > 0.0;
+    const Vec<Dim>& n = flow.walls.particles.normal[row];
     force[w] = particles.volume[w] * sum_over_fluid(pairs, particles, w, [&](std::int32_t i, std::size_t k) {
                  const Vec<Dim> d = -pairs.d(w, k);
                  const double factor = wall_factor<Dim>(flow, row, d, pairs.F(w, k));
-                 const Vec<Dim> slip_velocity = velocity[i] - walls.at(flow.walls, row, d);
+                 Vec<Dim> slip_velocity = velocity[i] - walls.at(flow.walls, row, d);
+                 const double of_pair = may_slide ? 1.0 - fraction[i] : lost;
+                 if (of_pair > 0.0) slip_velocity -= of_pair * (slip_velocity - n.dot(slip_velocity) * n);
                  return Vec<Dim>(particles.volume[i] * viscosity_[i] * factor * slip_velocity);
                });
   });

@@ -3,7 +3,8 @@
 //
 //   inertia_i u_i - w_i sum_j w_j F_ij (mu_i + mu_j) (u_j - u_i) + friction of walls,
 //
-// which lacks the transposed term that couples the components.
+// which lacks the transposed term that couples the components. The friction of walls along which the liquid slides
+// differs between the components, each of which then has a matrix of its own.
 #pragma once
 
 #include <memory>
@@ -26,9 +27,18 @@ class ViscousPreconditioner {
   void apply(std::span<const Vec<Dim>> force, std::span<Vec<Dim>> velocity);
 
  private:
-  std::vector<double> scale_;  ///< m/(N s); 1/diagonal; 0 of walls and of claimed particles
-  LinearSystem rows_;
-  std::unique_ptr<CellMultigrid> multigrid_;
+  /// The matrix of a component, or of all of them.
+  struct Matrix {
+    explicit Matrix(const Communicator& ranks) : rows(ranks) {}
+
+    std::vector<double> scale;  ///< m/(N s); 1/diagonal; 0 of walls and of claimed particles
+    LinearSystem rows;
+    std::unique_ptr<CellMultigrid> multigrid;
+  };
+  void fill(const Flow<Dim>& flow, const ViscousOperator<Dim>& forces, std::span<const double> inertia, int a,
+            Matrix& matrix) const;
+
+  std::vector<std::unique_ptr<Matrix>> matrices_;
   std::vector<double> component_;
   std::vector<double> correction_;
 };

@@ -138,6 +138,7 @@ std::string kind_of(const WallTable& wall) {
   if (!wall.points.empty()) text += fmt::format(" of {}", plural(static_cast<double>(wall.points.size()), "point"));
   if (wall.slip == Slip::no_slip) text += wall.roughness > 0.0 || wall.manning > 0.0 ? ", rough" : ", smooth";
   if (wall.slip == Slip::partial) text += ", with part of the friction";
+  if (wall.slip == Slip::coulomb) text += fmt::format(", with a coefficient of friction of {:.3g}", wall.friction);
   const auto varies = [](const Varying& value) { return value != Varying(0.0); };
   const bool moves = !wall.series.empty() || varies(wall.rotation) || std::ranges::any_of(wall.displacement, varies);
   return text + (moves ? ", moves)" : ")");

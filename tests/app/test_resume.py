@@ -54,6 +54,10 @@ LAYERS = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name=
           "yield_stress=5}]", "--set", "fluid=[{min=[0, 0], max=[1, 0.2], liquid='mud'}, "
           "{min=[0, 0.2], max=[0.5, 0.5], liquid='brine'}]", "--set",
           "probe=[{name='level', type='depth', at=[0.6, 0], liquid='mud'}, {name='front', type='front', liquid='brine'}]")
+SLIDE = ("--set", "liquid=[{name='mud', rheology='bingham', viscosity=100, yield_stress=2000}]", "--set",
+         "fluid=[{min=[0, 0], max=[1, 0.5], liquid='mud', velocity=[1, 0]}]", "--set",
+         "wall=[{points=[[0, 2], [0, 0], [3, 0], [3, 2]], slip='coulomb', friction=0.3}]", "--set",
+         "probe=[{name='bed', type='force'}, {name='front', type='front'}]")
 LOCK = ("--set", "liquid=[{name='brine', density=1050, viscosity=1e-3}, {name='water', viscosity=1e-3}]", "--set",
         "fluid=[{min=[0, 0], max=[0.5, 0.5], liquid='brine'}, {min=[0.5, 0], max=[1, 0.5], liquid='water'}]", "--set",
         "wall=[{shape='box', min=[0, 0], max=[1, 0.5]}]")
@@ -77,6 +81,7 @@ FEATURES = {
     "a tank that a file rolls": ROLL,
     "water that enters a porous layer": ROCK,
     "two liquids": LAYERS,
+    "mud that slides on its bed": SLIDE,
     "two liquids in a full box": LOCK,
     "brine that enters under water": WEDGE,
     "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),

@@ -64,7 +64,7 @@ TEST(Boundary, BoxIn3DHasTwoTrianglesPerClosedFace) {
 
 TEST(Boundary, FrictionFollowsSlip) {
   CaseSpec spec = empty_case(0.1);
-  for (const Slip slip : {Slip::free, Slip::no_slip, Slip::partial}) {
+  for (const Slip slip : {Slip::free, Slip::no_slip, Slip::partial, Slip::coulomb}) {
     spec.walls.push_back(polyline({{0, 0}, {1, 0}}));
     spec.walls.back().slip = slip;
     spec.walls.back().friction = 0.25;
@@ -73,6 +73,9 @@ TEST(Boundary, FrictionFollowsSlip) {
   EXPECT_EQ(boundary.walls[0].friction, 0.0);
   EXPECT_EQ(boundary.walls[1].friction, 1.0);
   EXPECT_EQ(boundary.walls[2].friction, 0.25);
+  EXPECT_EQ(boundary.walls[2].coulomb_friction, 0.0);
+  EXPECT_EQ(boundary.walls[3].friction, 1.0);
+  EXPECT_EQ(boundary.walls[3].coulomb_friction, 0.25);
   EXPECT_EQ(boundary.walls[1].name, "wall2");
 }
 

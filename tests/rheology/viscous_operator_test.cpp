@@ -18,7 +18,7 @@ TYPED_TEST_SUITE(ViscousForces, Dimensions);
 /// each particle, from 1 to 1000.
 template <int Dim>
 struct Block {
-  explicit Block(bool has_walls) : flow(make_flow<Dim>(make_case(has_walls))) {
+  explicit Block(bool has_walls, double friction = 1.0) : flow(make_flow<Dim>(make_case(has_walls, friction))) {
     locate(flow);
     forces.locate(flow, {flow.state.wall_velocity, {}});
     const Particles<Dim>& particles = flow.state.particles;
@@ -29,12 +29,12 @@ struct Block {
     forces.set_viscosity(flow, viscosity);
   }
 
-  static CaseSpec make_case(bool has_walls) {
+  static CaseSpec make_case(bool has_walls, double friction) {
     CaseSpec spec = tank_case<Dim>(0.1, 0.8, 0.6);
     spec.particles.jitter = 0.2;
     for (WallTable& wall : spec.walls) {
-      wall.slip = Slip::no_slip;
-      wall.friction = 1.0;
+      wall.slip = Slip::partial;
+      wall.friction = friction;
     }
     if (!has_walls) spec.walls.clear();
     fill_with(spec, newtonian(1000.0));
@@ -68,8 +68,8 @@ constexpr double rounding = 1e-5;  // of sums over a hundred pairs in single pre
 
 TYPED_TEST(ViscousForces, AreSymmetricAndDissipate) {
   constexpr int Dim = TypeParam::value;
-  for (const bool has_walls : {false, true}) {
-    Block<Dim> block(has_walls);
+  for (const double friction : {-1.0, 0.0, 0.3, 1.0}) {  // without walls, of free slip, ...
+    Block<Dim> block(friction >= 0.0, friction);
     const std::vector<Vec<Dim>> u = block.random_velocity();
     const std::vector<Vec<Dim>> v = block.random_velocity();
     const double uu = block.power(block.forces_at(u), u);
@@ -80,15 +80,17 @@ TYPED_TEST(ViscousForces, AreSymmetricAndDissipate) {
 
 TYPED_TEST(ViscousForces, DissipateViscosityTimesShearRateSquared) {
   constexpr int Dim = TypeParam::value;
-  Block<Dim> block(true);
-  const std::vector<Vec<Dim>> u = block.random_velocity();
-  const Particles<Dim>& particles = block.flow.state.particles;
-  std::vector<double> rate(particles.owned);
-  block.forces.find_shear_rates(block.flow, u, rate);
-  const double dissipated = sum_over(particles.owned, 0.0, [&](std::size_t i) {
-    return particles.volume[i] * block.forces.viscosity()[i] * rate[i] * rate[i];
-  });
-  EXPECT_NEAR(-block.power(block.forces_at(u), u) / dissipated, 1.0, rounding);
+  for (const double friction : {0.0, 0.3, 1.0}) {
+    Block<Dim> block(true, friction);
+    const std::vector<Vec<Dim>> u = block.random_velocity();
+    const Particles<Dim>& particles = block.flow.state.particles;
+    std::vector<double> rate(particles.owned);
+    block.forces.find_shear_rates(block.flow, u, rate);
+    const double dissipated = sum_over(particles.owned, 0.0, [&](std::size_t i) {
+      return particles.volume[i] * block.forces.viscosity()[i] * rate[i] * rate[i];
+    });
+    EXPECT_NEAR(-block.power(block.forces_at(u), u) / dissipated, 1.0, rounding) << friction;
+  }
 }
 
 TYPED_TEST(ViscousForces, ConserveLinearAndAngularMomentum) {
