@@ -945,6 +945,32 @@ TEST(Check, WaterOnABeachMayBeInAZone) {
   EXPECT_TRUE(found.empty()) << listed(found);
 }
 
+TEST(Check, ZonesWithADisplacementAreRefusedWhereTheyDoNotWork) {
+  CaseSpec spec = tank();  // 1 m x 0.6 m
+  RefinementTable zone;
+  zone.name = "zone";
+  zone.min = {-0.9, -1.0};
+  zone.max = {0.1, 2.0};
+  zone.displacement = {"0.5*t", 0.0};
+  spec.refinement = {zone};
+  spec.time.end = 1.0;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.refinement[0].displacement = {"-0.5*t - 1", 0.0};
+  expect_among(check(spec), Severity::error, {"refinement 'zone' is outside of the case"});
+  spec.refinement[0].displacement = {"log(0.5 - t)", 0.0};
+  expect_among(check(spec), Severity::error, {"refinement 'zone'", "displacement has no finite value at t = 0.5 s"});
+  spec.refinement = {zone, zone};
+  expect_among(check(spec), Severity::error, {"refinement 'zone' moves: a zone that moves must be the only one"});
+  spec.refinement = {zone};
+  WallTable plate;
+  plate.name = "plate";
+  plate.shape = WallShape::plate;
+  plate.points = {{0.5, 0.0}, {0.5, 0.6}};
+  plate.displacement = {0.0, "0.2*t"};
+  spec.walls.push_back(plate);
+  expect_among(check(spec), Severity::error, {"refinement 'zone' moves and comes within 8 spacings of wall 'plate'"});
+}
+
 TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
   CaseSpec spec = tank();  // 1 m x 0.6 m
   const double dx = spec.particles.spacing;
@@ -972,7 +998,7 @@ TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
   spec.refinement[0].distance = 4.0 * dx;
   EXPECT_EQ(listed(check(spec)).find("refinement"), std::string::npos) << listed(check(spec));
   spec.refinement.push_back(zone);
-  expect_among(check(spec), Severity::error, {"moves with wall 'gate': a zone that moves must be the only one"});
+  expect_among(check(spec), Severity::error, {"refinement 'zone' moves: a zone that moves must be the only one"});
   spec.refinement.pop_back();
   spec.refinement[0].walls.push_back(spec.walls[0].name = "tank");
   expect_among(check(spec), Severity::error, {"moves with wall 'gate', and 'tank' does not move with that wall"});
