@@ -51,6 +51,10 @@ void set_defaults(BodyTable& body, TableReader& reader) {
   body.velocity.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
 }
 
+void set_defaults(RefinementTable& zone, TableReader& reader) {
+  zone.displacement.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
+}
+
 void set_defaults(PorousTable& porous, TableReader& reader) {
   porous.rotate.assign(static_cast<std::size_t>(reader.dimension()), 0.0);
   porous.translate = porous.rotate;

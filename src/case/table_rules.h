@@ -25,6 +25,7 @@ void set_defaults(OutletTable& outlet, TableReader& reader);
 void set_defaults(SchemeTable& scheme, TableReader& reader);
 void set_defaults(ProbeTable& probe, TableReader& reader);
 void set_defaults(PorousTable& porous, TableReader& reader);
+void set_defaults(RefinementTable& zone, TableReader& reader);
 void set_defaults(LiquidTable& liquid, TableReader& reader);
 
 /// Reads the files that a sound table names. Points from a file become the table's own, and the name of a mesh file

@@ -82,15 +82,15 @@ SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& bound
       if (wall.moves() && std::ranges::count(table.walls, wall.name) > 0) carrier_ = static_cast<int>(w);
     }
     Box<Dim> bounds = outermost;
-    if (!table.displacement.empty()) {
+    if (std::ranges::any_of(table.displacement, [](const Varying& component) { return component != Varying(0.0); })) {
       require_dimension<Dim>(table.displacement.size(), CaseLabel("refinement", table.name).with_key("displacement"));
-    }
-    for (std::size_t axis = 0; axis < table.displacement.size(); ++axis) {
-      displacement_.resize(Dim);
-      displacement_[axis] = TimeFunction(table.displacement[axis], named_numbers(spec));
-      if (table.displacement[axis] == Varying(0.0) || periodic_.sizes()[axis] > 0.0) continue;
-      bounds.min()[axis] = -infinity;
-      bounds.max()[axis] = infinity;
+      displacement_.clear();
+      for (int axis = 0; axis < Dim; ++axis) {
+        displacement_.emplace_back(table.displacement[axis], named_numbers(spec));
+        if (table.displacement[axis] == Varying(0.0) || periodic_.sizes()[axis] > 0.0) continue;
+        bounds.min()[axis] = -infinity;
+        bounds.max()[axis] = infinity;
+      }
     }
     if (table.shape == ZoneShape::polygon || table.shape == ZoneShape::walls) {
       zone.depth = std::make_shared<ZoneDepth<Dim>>(table, boundary, bounds, periodic_.sizes(), zone.border, dx);
