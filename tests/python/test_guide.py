@@ -48,7 +48,7 @@ class Guide(PackageTest):
         # And a damper: a stronger damper reduces the swing.
         shares = sorted((float(line.split()[0]), float(line.split()[3])) for line in lines if "of a swing" in line)
         self.assertEqual([share for _, share in shares], sorted((share for _, share in shares), reverse=True))
-        self.assertLess(min(abs(share - names["wanted_share"]) for _, share in shares), 0.01)
+        self.assertLess(min(abs(share - names["wanted_fraction"]) for _, share in shares), 0.01)
         self.assertLess(abs(names["damping"] - 540), 25)
 
     def test_study_of_a_weir(self):
