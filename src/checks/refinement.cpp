@@ -1,7 +1,6 @@
 #include "refinement/spacing_field.h"
 
 #include "base/box.h"
-#include "base/fp_traps.h"
 #include "case/formulation.h"
 #include "checks/checks.h"
 #include "checks/swept_box.h"
@@ -278,7 +277,6 @@ Findings check_neighbours(const CaseSpec& spec, const Boundary<Dim>& boundary, c
 template <int Dim>
 Findings check_displaced(const CaseSpec& spec, const Boundary<Dim>& boundary, const SpacingField<Dim>& field,
                          const CaseLabel& owner) {
-  const SuspendFpTraps suspended;  // a displacement may not be finite
   Findings findings = check_alone(spec, owner);
   if (!findings.empty()) return findings;
   const std::vector<AffineMap<Dim>> path = path_of_zone(spec, boundary, field);
@@ -298,6 +296,7 @@ bool comes_into(const Box<Dim>& box, const CaseSpec& spec, const Boundary<Dim>& 
                 const SpacingField<Dim>& field, const typename SpacingField<Dim>::Zone& zone) {
   if (!field.moves() || field.carrier() >= 0) return box.intersects(zone.box);
   return std::ranges::any_of(path_of_zone(spec, boundary, field), [&](const AffineMap<Dim>& map) {
+    if (!map.constant.allFinite()) return true;  // check_displaced reports it
     return box.intersects(Box<Dim>(zone.box.min() + map.constant, zone.box.max() + map.constant));
   });
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/box.h"
+#include "base/fp_traps.h"
 #include "case/named_numbers.h"
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
@@ -121,6 +122,7 @@ void SpacingField<Dim>::carry(const Mat<Dim>& turn, const Vec<Dim>& shift) const
 
 template <int Dim>
 Vec<Dim> SpacingField<Dim>::displacement(double time) const {
+  const SuspendFpTraps suspended;  // the values may not be finite
   Vec<Dim> moved = Vec<Dim>::Zero();
   for (std::size_t axis = 0; axis < displacement_.size(); ++axis) moved[axis] = displacement_[axis].at(time);
   return moved;

@@ -86,7 +86,7 @@ FEATURES = {
     "brine that enters under water": WEDGE,
     "a zone of refinement that water enters": ("--set", "refinement=[{min=[0.8, -1], max=[9, 9]}]"),
     "a zone of refinement that moves through the water": (
-        "--set", "refinement=[{min=[0.3, -1], max=[0.9, 9], displacement=['0.5*t', 0]}]"),
+        "--set", "refinement=[{min=[0.1, -1], max=[1.0, 9], displacement=['0.5*t', 0]}]"),
     "a body that floats on a line": BARGE,
     "a hull on the bed, in water under tension": SUNK,
     "two-step scheme and an outlet that lets water go": ("--set", "scheme.name=farmani2020", *OUTLET),
