@@ -27,13 +27,14 @@ For users who look up an error or a warning. Every error about a case and every 
 Search this page for the id. An error stops the command, and a warning does not. Errors of the command line, of files
 and of the solver have no id. `tailwater check --json` has the id under `id`, and the lines under `warnings` in
 `summary.json` end with it. `…` stands for names, places and numbers, and `key` for a key of the case file.
+The last column names the tables of the case file that the message can concern: `any` of them, or `several`.
 [Troubleshooting](../guide/troubleshooting.md) explains the most frequent messages. `scripts/message_reference.py`
 writes this page from the source.
 """
 # Title of a group: {file or folder of the source: its tables}, in the order of the page.
 GROUPS = {
     "The case file": {"case/case_toml": "any", "case/overrides": "any", "case/reader": "any", "case/table_reader": "any",
-                      "case/foundations": "`[parameters]`", "case/key_rules": "any", "case/table_rules": "any",
+                      "case/foundations": "`[case]`, `[parameters]`", "case/key_rules": "any", "case/table_rules": "any",
                       "case/linked_rules": "`[[inlet]]`, `[[outlet]]`, files", "case/driven_rules": "motions, bodies, zones",
                       "case/across_tables": "several", "case/measurements": "`[[measurement]]`",
                       "geometry/from_spec": "any", "app/check_json": "any"},
@@ -51,7 +52,7 @@ GROUPS = {
                            "checks/sealed_space": "`[[fluid]]`", "sampling": "`[[fluid]]`"},
     "Inlets and outlets": {"geometry/opening": "`[[inlet]]`, `[[outlet]]`", "checks/open_ends": "`[[inlet]]`, `[[outlet]]`",
                            "checks/end_flows": "`[[inlet]]`, `[[outlet]]`", "checks/closed_space": "`[[inlet]]`",
-                           "checks/speeds": "`[[inlet]]`, `[[body]]`", "motion/channel_end": "`[[inlet]]`",
+                           "checks/speeds": "`[[inlet]]`, `[[outlet]]`, `[[body]]`", "motion/channel_end": "`[[inlet]]`",
                            "open_ends/monitor": "`[[inlet]]`, `[[outlet]]`"},
     "Waves": {"motion/wave_maker": "`[[wave_maker]]`", "motion/wave_field": "`[[damping]]`",
               "motion/wave_zone": "`[[damping]]`", "checks/wave_makers": "`[[wave_maker]]`, `[[damping]]`"},
@@ -61,12 +62,12 @@ GROUPS = {
     "Air, porous layers and liquids": {"air": "`[air]`, `[[pocket]]`, `[[vent]]`", "checks/air_places": "`[[pocket]]`, `[[vent]]`",
                                        "air/voids_under_tension": "`[physics]`",
                                        "porous": "`[[porous]]`", "checks/creep": "`[[liquid]]`", "checks/units": "`[physics]`",
-                                       "rheology/thick_liquid": "`[[liquid]]`"},
+                                       "rheology/thick_liquid": "`[[liquid]]`, `[[wall]]`"},
     "Probes": {"checks/probes": "`[[probe]]`, `[[damping]]`", "probes": "`[[probe]]`"},
     "Cost, solver and machine": {"run/estimate": "`[particles]`, `[time]`", "linear/petsc_options": "`[pressure_solver]`",
                                  "app/ranks": "", "app/pictures": "", "app/check_command": "", "io/folder_lock": "",
                                  "run/resume": ""},
-    "During a run": {"results": "`[limits]`, `[[probe]]`", "run/run_output": "`[[wall]]`", "module": ""},
+    "During a run": {"results": "`[limits]`, `[[probe]]`, `[[outlet]]`", "run/run_output": "`[[wall]]`", "module": ""},
 }
 # Messages that pass on another text.
 PASSED = {"case-not-readable": "the case cannot be read", "expression-invalid": "the place in the expression and its fault",

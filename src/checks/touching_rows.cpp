@@ -23,7 +23,7 @@ Findings check_touching_rows(const CaseSpec& spec, const Boundary<Dim>& drawn) {
             face.wall, other.wall, [&](int a, int b) { return drawn.walls[a].moves() && !drawn.walls[b].moves(); });
         return {
             Finding::error("moving-wall-touches-wall",
-                           {"{} is {:.3g} from {} at {}, and the formulation puts particles on both",
+                           {"{} is {:.3g} from {} at {}, and the published formulation puts particles on both walls",
                             wall_label(drawn, moving), Amount{distance, "m"}, wall_label(drawn, near), place(corner)},
                            {"draw it {:.6g} m away, or choose scheme.formulation = \"robust\"", dx})};
       }
