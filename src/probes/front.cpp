@@ -72,7 +72,7 @@ Reading<Dim> front_reading(const ProbeTable& probe) {
   if (direction.norm() == 0.0) {
     throw CaseError("probe-direction-zero",
                     {"{} = {} has no length", label(probe).with_key("direction"), vector_text(direction)},
-                    {"give the direction of the front, as (1, 0)"});
+                    {"give the direction in which the front moves, such as [1, 0]"});
   }
   direction.normalize();
   return {columns_of(probe, Dim), [direction](const ProbeContext<Dim>& context) -> std::vector<Row> {

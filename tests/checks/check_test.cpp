@@ -1355,7 +1355,7 @@ TEST(Check, AZoneThatBrakesTheFlowIsReported) {
   spec.damping = {zone};
   const auto fluid = make_fluid_particles<2>(spec, make_boundary<2>(spec));
   expect_only(check_wave_zones<2>(spec, fluid), Severity::warning,
-              {"damping lies between inlet 'inlet1' and outlet 'outlet1'", "give transport"});
+              {"damping lies between inlet 'inlet1' and outlet 'outlet1'", "give `transport`"});
   spec.damping[0].transport = 0.5;
   EXPECT_TRUE(check_wave_zones<2>(spec, fluid).empty());
   EXPECT_EQ(WaveZone<2>(spec, spec.damping[0]).target({1.5, 0.2}, 0.0), Vec<2>(0.5, 0.0));
