@@ -39,28 +39,12 @@ WallFace<Dim> moved(const AffineMap<Dim>& motion, WallFace<Dim> face) {
 }
 
 template <int Dim>
-double WrittenMotion<Dim>::Component::at(double time) const {
-  return formula.empty() ? number : formula.front().at(std::array{time});
-}
-
-template <int Dim>
-typename WrittenMotion<Dim>::Component WrittenMotion<Dim>::make_component(const CaseSpec& spec, const Varying& value) {
-  Component component;
-  if (const auto* number = std::get_if<double>(&value)) {
-    component.number = *number;
-  } else {
-    component.formula.emplace_back(std::get<std::string>(value), named_numbers(spec), time_name);
-  }
-  return component;
-}
-
-template <int Dim>
 WrittenMotion<Dim>::WrittenMotion(const CaseSpec& spec, const WallTable& table, const CaseLabel& owner)
-    : rotation_(make_component(spec, table.rotation)) {
+    : rotation_(table.rotation, named_numbers(spec)) {
   if (!table.displacement.empty()) {
     require_dimension<Dim>(table.displacement.size(), owner.with_key("displacement"));
   }
-  for (const Varying& component : table.displacement) displacement_.push_back(make_component(spec, component));
+  for (const Varying& component : table.displacement) displacement_.emplace_back(component, named_numbers(spec));
 }
 
 template <int Dim>

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "case/expression.h"
 #include "case/spec.h"
+#include "case/time_function.h"
 #include "geometry/boundary.h"
 #include "motion/affine_map.h"
 #include "motion/floating_body.h"
@@ -42,15 +42,8 @@ class WrittenMotion {
   Placement<Dim> at(double time) const;
 
  private:
-  struct Component {
-    double number = 0.0;
-    mutable std::vector<Formula> formula;  ///< at most one; mutable because evaluating writes the time into it
-    double at(double time) const;
-  };
-  static Component make_component(const CaseSpec& spec, const Varying& value);
-
-  std::vector<Component> displacement_;
-  Component rotation_;
+  std::vector<TimeFunction> displacement_;
+  TimeFunction rotation_;
 };
 
 /// A motion from a file: the spline through its samples.
