@@ -232,8 +232,7 @@ Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx
   }
   return Finding::warning("gap-few-rows",
                           {"the gap of {:.3g} between {} and {} at {} is {:.1f} spacings wide, so too little water "
-                           "passes: under a plate on "
-                           "a bed about 20 % less at half a spacing and 4 % less at four",
+                           "passes: under a plate on a bed about 20 % less at half a spacing and 4 % less at four",
                            width, a, b, place(gap.where), gap.width / local},
                           {"use a spacing of at most {:.3g} m", good_spacing});
 }

@@ -13,9 +13,6 @@
 namespace tailwater {
 namespace {
 
-/// Number of times at which moving walls are evaluated.
-constexpr int looks_at_walls = 100;
-
 /// The box around the water at the start and the walls, wherever they are during the run.
 template <int Dim>
 Box<Dim> box_of_case(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
@@ -99,8 +96,8 @@ template <int Dim>
 std::vector<AffineMap<Dim>> path_of_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall) {
   std::vector<AffineMap<Dim>> maps;
   const WallPath<Dim> path(spec, spec.walls[wall], wall_label(drawn, wall));
-  for (int k = 0; k <= looks_at_walls; ++k) {
-    const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_walls);
+  for (int k = 0; k <= looks_at_path; ++k) {
+    const AffineMap<Dim> map = path.at(spec.time.end * k / looks_at_path);
     const bool is_finite = map.linear.allFinite() && map.constant.allFinite();  // check_paths reports others
     if (is_finite) maps.push_back(map);
   }

@@ -165,9 +165,10 @@ std::vector<AffineMap<Dim>> path_of_zone(const CaseSpec& spec, const Boundary<Di
     if (spec.walls[field.carrier()].drive.by == Drive::By::body) path.resize(1);
     return path;
   }
-  constexpr int looks = 100;
   std::vector<AffineMap<Dim>> path;
-  for (int k = 0; k <= looks; ++k) path.emplace_back().constant = field.displacement(spec.time.end * k / looks);
+  for (int k = 0; k <= looks_at_path; ++k) {
+    path.emplace_back().constant = field.displacement(spec.time.end * k / looks_at_path);
+  }
   return path;
 }
 
@@ -284,7 +285,7 @@ Findings check_displaced(const CaseSpec& spec, const Boundary<Dim>& boundary, co
     if (path[k].constant.allFinite()) continue;
     return {Finding::error("value-not-finite-in-time",
                            {"{} has no finite value at t = {:.6g} s", owner.with_key("displacement"),
-                            spec.time.end * static_cast<double>(k) / static_cast<double>(path.size() - 1)},
+                            spec.time.end * static_cast<double>(k) / looks_at_path},
                            {"give an expression that has one during the whole run"})};
   }
   return check_way(spec, boundary, field, owner);

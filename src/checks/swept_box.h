@@ -10,7 +10,10 @@
 
 namespace tailwater {
 
-/// The motion of a wall from where it is drawn, at a hundred instants of the run. A wall of a floating body stays.
+/// Number of times in a run, after its start, at which the path of a wall or zone is evaluated.
+inline constexpr int looks_at_path = 100;
+
+/// The motion of a wall from where it is drawn, at these instants. A wall of a floating body stays.
 template <int Dim>
 std::vector<AffineMap<Dim>> path_of_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall);
 

@@ -44,7 +44,7 @@ WallDrive<Dim> drive_walls(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& f
 template <int Dim>
 WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from, double dt);
 
-/// Moves the faces and particles of moving walls to their places at `time`.
+/// Moves the faces and particles of moving walls, and zones of refinement, to their places at `time`.
 template <int Dim>
 void place_walls(Flow<Dim>& flow, double time);
 

@@ -21,6 +21,22 @@ WallDrive<Dim> drive_to(const Flow<Dim>& flow, const std::vector<Vec<Dim>>& from
   return drive;
 }
 
+/// Moves the zones of refinement to where they are at a time.
+template <int Dim>
+void place_zones(const Flow<Dim>& flow, double time) {
+  if (flow.setup.graded == nullptr || !flow.setup.graded->field().moves()) return;
+  const SpacingField<Dim>& field = flow.setup.graded->field();
+  if (field.carrier() < 0) {
+    field.carry(Mat<Dim>::Identity(), field.displacement(time));
+    return;
+  }
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
+    if (moving.wall != field.carrier()) continue;
+    const AffineMap<Dim> carried = moving.at(time, flow.state.motion);
+    field.carry(carried.linear, carried.constant);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -38,23 +54,6 @@ WallDrive<Dim> drive_walls_to_end(const Flow<Dim>& flow, const std::vector<Vec<D
   flow.setup.wall_motion->get_velocity(flow.state.time + dt, flow.state.motion, velocity);
   return drive_to(flow, from, std::move(velocity), dt);
 }
-
-namespace {
-
-/// Moves the zones of refinement to where they are at a time.
-template <int Dim>
-void place_zones(const Flow<Dim>& flow, double time) {
-  if (flow.setup.graded == nullptr || !flow.setup.graded->field().moves()) return;
-  const SpacingField<Dim>& field = flow.setup.graded->field();
-  if (field.carrier() < 0) field.carry(Mat<Dim>::Identity(), field.displacement(time));
-  for (const auto& moving : flow.setup.wall_motion->moving()) {
-    if (moving.wall != field.carrier()) continue;
-    const AffineMap<Dim> carried = moving.at(time, flow.state.motion);
-    field.carry(carried.linear, carried.constant);
-  }
-}
-
-}  // namespace
 
 template <int Dim>
 void place_walls(Flow<Dim>& flow, double time) {

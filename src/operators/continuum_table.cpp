@@ -94,7 +94,7 @@ typename ContinuumTable<Dim>::Entry ContinuumTable<Dim>::at(const GradedSums<Dim
       entry.slope[d] += others.prod() * node.concentration;
     }
   }
-  return !sums.field().moves() ? entry : turned<Dim>(entry, sums.field().turn());
+  return sums.field().moves() ? turned<Dim>(entry, sums.field().turn()) : entry;
 }
 
 template class ContinuumTable<2>;
