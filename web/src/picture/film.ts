@@ -34,8 +34,10 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
   const { width, height } = canvas;
   const [codec, config] = await encoding({ width, height });
   const muxer = new Muxer({ target: new ArrayBufferTarget(), video: { codec, width, height, frameRate: plan.rate } });
-  let fault: Error | undefined;
-  const encoder = new VideoEncoder({ output: (chunk, about) => muxer.addVideoChunk(chunk, about), error: (error) => (fault = error) });
+  let fail: (error: Error) => void;
+  const failed = new Promise<never>((_, reject) => (fail = reject));
+  failed.catch(() => {}); // heard where a picture waits
+  const encoder = new VideoEncoder({ output: (chunk, about) => muxer.addVideoChunk(chunk, about), error: (error) => fail(error) });
   encoder.configure(config);
   const n = pictures(plan);
   const before = app.player.time;
@@ -48,8 +50,7 @@ export async function record(app: App, plan: FilmPlan, tell: (share: number) => 
       const picture = new VideoFrame(canvas, { timestamp: (1e6 * i) / plan.rate, duration: 1e6 / plan.rate });
       encoder.encode(picture, { keyFrame: i % (2 * plan.rate) === 0 }); // a player can go to each second second
       picture.close();
-      while (encoder.encodeQueueSize > 8 && !fault) await new Promise((resolve) => encoder.addEventListener("dequeue", resolve, { once: true }));
-      if (fault) throw fault;
+      while (encoder.encodeQueueSize > 8) await Promise.race([failed, new Promise((resolve) => encoder.addEventListener("dequeue", resolve, { once: true }))]);
       whole = tell((i + 1) / n);
     }
     await encoder.flush();
