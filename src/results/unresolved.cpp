@@ -26,6 +26,7 @@ struct Gauges {
     largest = std::max(largest, height);
     rows = std::max(rows, height / spacing);
   }
+  double spacing_to_resolve() const { return 0.99 * largest / lowest_resolved_wave; }  ///< m
   std::string text() const {
     return fmt::format("{} {}", names.size() == 1 ? "probe" : "probes", fmt::join(names, ", "));
   }
@@ -73,16 +74,20 @@ Findings unresolved_surfaces(const CaseSpec& spec, const RunFolder& folder, cons
     }
   }
   Findings findings;
-  const auto add = [&](const Gauges& gauges, std::string_view what, std::string_view thing) {
-    if (gauges.names.empty()) return;
-    findings.push_back(
-        Finding::warning("surface-not-resolved",
-                         {"at {} {} {:.3g} m or less, {:.2g} spacings: {} of less than {:g} spacings are not resolved",
-                          gauges.text(), what, gauges.largest, gauges.rows, thing, lowest_resolved_wave},
-                         {"use a spacing of at most {:.3g} m", 0.99 * gauges.largest / lowest_resolved_wave}));
-  };
-  add(waves, "the surface moved by", "waves");
-  add(films, "the largest depth was", "films");
+  if (!waves.names.empty()) {
+    findings.push_back(Finding::warning("waves-not-resolved",
+                                        {"at {} the surface moved by {:.3g} m or less, {:.2g} spacings: waves of less "
+                                         "than {:g} spacings are not resolved",
+                                         waves.text(), waves.largest, waves.rows, lowest_resolved_wave},
+                                        {"use a spacing of at most {:.3g} m", waves.spacing_to_resolve()}));
+  }
+  if (!films.names.empty()) {
+    findings.push_back(Finding::warning("films-not-resolved",
+                                        {"at {} the largest depth was {:.3g} m or less, {:.2g} spacings: films of less "
+                                         "than {:g} spacings are not resolved",
+                                         films.text(), films.largest, films.rows, lowest_resolved_wave},
+                                        {"use a spacing of at most {:.3g} m", films.spacing_to_resolve()}));
+  }
   return findings;
 }
 
