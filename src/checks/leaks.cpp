@@ -20,10 +20,18 @@ namespace {
 /// (docs/theory/rheology.md). This factor allows for 50 %.
 constexpr double reach_with_inertia = 1.5;
 
-/// The least yield stress over the weight of a unit volume [m], of all liquids; 0 if one has no yield stress, or can
-/// slide below it.
+/// Whether liquids slide along the ground below their yield stress: it has no friction, or that of Coulomb.
+template <int Dim>
+bool slides(const Boundary<Dim>& boundary, const Vec<Dim>& down) {
+  return std::ranges::any_of(boundary.faces, [&](const WallFace<Dim>& face) {
+    const WallProperties& wall = boundary.walls[face.wall];
+    const bool is_ground = face.normal.dot(down) < -0.5;
+    return is_ground && (wall.friction == 0.0 || wall.coulomb_friction > 0.0);
+  });
+}
+
+/// The least yield stress over the weight of a unit volume [m], of all liquids; 0 if one has no yield stress.
 double min_yield_height(const CaseSpec& spec, double gravity) {
-  if (std::ranges::any_of(spec.walls, [](const WallTable& wall) { return wall.slip == Slip::coulomb; })) return 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (const FluidTable& block : spec.fluid) {
     if (block.liquid.empty()) return 0.0;
@@ -56,17 +64,17 @@ bool is_walled(const CellSpace<Dim>& space, const typename CellSpace<Dim>::Cell&
   return c.has_value();
 }
 
-/// The slump of liquids that all have a yield stress and are not walled in on all sides; else nothing. A wall on one
-/// side is a plane of symmetry. A volume V that spreads to all sides reaches (225 V^2/(128 pi^2 a))^(1/5) (Roussel &
-/// Coussot 2005), and a cross-section A between two walls (9 A^2/(32 a))^(1/3) (Liu & Mei 1989), where a is the yield
-/// stress over the weight of a unit volume. Both assume that the whole heap yields. Of a heap that is long for its
-/// height H only the ends move: a front that has come to rest is H^2/(2a) long (Liu & Mei), a third of it beyond the
-/// start. Collective.
+/// The slump of liquids that all have a yield stress, cannot slide and are not walled in on all sides; else nothing. A
+/// wall on one side is a plane of symmetry. A volume V that spreads to all sides reaches (225 V^2/(128 pi^2 a))^(1/5)
+/// (Roussel & Coussot 2005), and a cross-section A between two walls (9 A^2/(32 a))^(1/3) (Liu & Mei 1989), where a is
+/// the yield stress over the weight of a unit volume. Both assume that the whole heap yields. Of a heap that is long
+/// for its height H only the ends move: a front that has come to rest is H^2/(2a) long (Liu & Mei), a third of it
+/// beyond the start. Collective.
 template <int Dim>
-std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const CellSpace<Dim>& space,
+std::optional<Slump<Dim>> find_slump(const CaseSpec& spec, const Boundary<Dim>& boundary, const CellSpace<Dim>& space,
                                      const FluidParticles<Dim>& fluid, const Vec<Dim>& gravity) {
   const double a = min_yield_height(spec, gravity.norm());
-  if (a == 0.0) return std::nullopt;
+  if (a == 0.0 || slides<Dim>(boundary, gravity.normalized())) return std::nullopt;
   const Box<Dim> box = fluid.box();
   Slump<Dim> slump{0.5 * (box.min() + box.max()), 0.0};
   const auto middle = space.cell_of(slump.start);
@@ -182,7 +190,8 @@ Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const 
   const Vec<Dim>& way_out = *reached.way_out;
   const auto where = place(way_out);
   const CaseLabel beside = nearest_label(boundary, ends, way_out);
-  const std::optional<Slump<Dim>> slump = ends.empty() ? find_slump(spec, space, fluid, gravity) : std::nullopt;
+  const std::optional<Slump<Dim>> slump =
+      ends.empty() ? find_slump(spec, boundary, space, fluid, gravity) : std::nullopt;
   if (!slump) {
     return {Finding::error("water-pours-out", {"the water would pour out of the case at {}, near {}", where, beside},
                            {"close it there, or make it higher"})};

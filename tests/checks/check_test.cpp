@@ -375,6 +375,7 @@ TEST(Check, WaterThatPoursOutIn3D) {
 CaseSpec mud_on_table(double half, double drop) {
   CaseSpec spec = empty_case(0.05);
   spec.walls = {polyline({{-half, -drop}, {0.0, 0.0}, {half, -drop}})};
+  spec.walls[0].slip = Slip::no_slip;
   spec.fluid = {box_fluid({-0.2, 0}, {0.2, 0.4})};
   LiquidTable mud = bingham(1000.0, 981.0);
   mud.density = 1000.0;
@@ -388,6 +389,9 @@ TEST(Check, AYieldingLiquidStopsOnAnOpenTable) {
   CaseSpec water = mud_on_table(0.8, 0.0);
   water.liquids[0].yield_stress = 0.0;
   expect_only(check(water), Severity::error, {"would pour out"});
+  CaseSpec slippery = mud_on_table(0.8, 0.0);
+  slippery.walls[0].slip = Slip::free;
+  expect_only(check(slippery), Severity::error, {"would pour out"});
 }
 
 /// Only the ends of a long dyke move: 0.8 m of front, a third of it beyond the start, and half as much for its inertia.
@@ -408,9 +412,11 @@ TEST(Check, AYieldingLiquidStopsOnAnOpenTableIn3D) {
   CaseSpec spec = empty_case(0.1, 3);
   spec.fluid = {box_fluid({-0.2, -0.2, 0}, {0.2, 0.2, 0.4})};
   spec.walls = {box_wall({-0.8, -0.8, 0}, {0.8, 0.8, 0.6}, {"+x", "-x", "+y", "-y", "+z"})};
+  spec.walls[0].slip = Slip::no_slip;
   fill_with(spec, mud_on_table(0.8, 0.0).liquids[0]);
   EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
   spec.walls = {box_wall({-0.8, -0.2, 0}, {0.8, 0.2, 0.6}, {"+x", "-x", "+z"})};
+  spec.walls[0].slip = Slip::no_slip;
   EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
   spec.liquids[0].yield_stress = 98.1;
   expect_only(check<3>(spec), Severity::warning, {"may pour out", "up to 1.34 m from"});
