@@ -146,7 +146,7 @@ void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, const RunEsti
   double most = estimate.particles.fluid;
   for (std::size_t n = 0; n < spec.refinement.size(); ++n) {
     const auto& zone = field.zones()[n];
-    const double full = particles_of_full_zone(field, n, spec.particles.spacing, flow.box(), flow.walls.boundary);
+    const double full = particles_of_full_zone(field, n, spec, flow.box(), flow.walls.boundary);
     most += full;
     fmt::print("refinement: {}: spacing {:.4g} m {}, border {:.4g} m wide, about {:.0f} particles when full\n",
                spec.refinement[n].name, spec.particles.spacing * std::exp2(-zone.level),

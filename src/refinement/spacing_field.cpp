@@ -264,12 +264,14 @@ bool SpacingField<Dim>::varies_around(Vec<Dim>& x, double reach) const {
   return varies;
 }
 
+namespace {
+
+/// Particles of a spacing in a zone that is full of water, moved by `shift` [m] from where it is drawn.
 template <int Dim>
-double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t number, double spacing, const Box<Dim>& box,
-                              const Boundary<Dim>& boundary) {
+double count_in_zone(const SpacingField<Dim>& field, const typename SpacingField<Dim>::Zone& zone, double spacing,
+                     const Vec<Dim>& shift, const Box<Dim>& box, const Boundary<Dim>& boundary) {
   constexpr int pieces = Dim == 2 ? 64 : 32;  // along each edge
-  const typename SpacingField<Dim>::Zone& zone = field.zones()[number];
-  const Box<Dim> inside = zone.box.intersection(box);
+  const Box<Dim> inside = Box<Dim>(zone.box.min() + shift, zone.box.max() + shift).intersection(box);
   if (inside.isEmpty()) return 0.0;
   const double all = power<Dim>(pieces);
   double count = 0.0;
@@ -279,12 +281,30 @@ double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t number
     for (int axis = 0; axis < Dim; ++axis, rest /= pieces) {
       x[axis] = inside.min()[axis] + (static_cast<double>(rest % pieces) + 0.5) / pieces * inside.sizes()[axis];
     }
-    if (zone.depth != nullptr && zone.depth->depth(x) <= 0.0) continue;
+    const Vec<Dim> drawn = x - shift;
+    if (zone.depth != nullptr && zone.depth->depth(drawn) <= 0.0) continue;
     const NearestWall<Dim> wall = boundary.nearest(x, std::numeric_limits<double>::infinity());
     if (wall.face >= 0 && wall.signed_distance < 0.0) continue;
-    count += inside.volume() / all / power<Dim>(spacing * field.at(x));
+    count += inside.volume() / all / power<Dim>(spacing * field.at_drawn(drawn));
   }
   return count;
+}
+
+}  // namespace
+
+template <int Dim>
+double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t number, const CaseSpec& spec,
+                              const Box<Dim>& box, const Boundary<Dim>& boundary) {
+  constexpr int looks = 10;  // at the way of a zone that moves
+  double most = 0.0;
+  Vec<Dim> before = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
+  for (int k = 0; k <= looks; ++k) {
+    const Vec<Dim> shift = field.displacement(spec.time.end * k / looks);
+    if (!shift.allFinite() || shift == before) continue;
+    most = std::max(most, count_in_zone(field, field.zones()[number], spec.particles.spacing, shift, box, boundary));
+    before = shift;
+  }
+  return most;
 }
 
 TAILWATER_IN_2D_AND_3D(particles_of_full_zone);

@@ -106,11 +106,11 @@ class SpacingField {
   Box<Dim> periodic_;                       ///< m; along directions that are not periodic it has no extent
 };
 
-/// Particles in the part of a zone that is in `box` and not behind walls, without other zones, when it is full of water
-/// of this `spacing` [m] of the case.
+/// The most particles, during the run, in the part of a zone that is in `box` and not behind walls, without other
+/// zones, when it is full of water. A zone that walls carry is taken where it is drawn.
 template <int Dim>
-double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t number, double spacing, const Box<Dim>& box,
-                              const Boundary<Dim>& boundary);
+double particles_of_full_zone(const SpacingField<Dim>& field, std::size_t number, const CaseSpec& spec,
+                              const Box<Dim>& box, const Boundary<Dim>& boundary);
 
 /// A particle is split in two where its volume exceeds that of the field, (h dx)^Dim, by this factor.
 inline constexpr double volume_to_split = 1.34;

@@ -5,7 +5,9 @@
 
 namespace tailwater {
 
-std::string place_of_zone(const RefinementTable& zone) {
+namespace {
+
+std::string place_as_drawn(const RefinementTable& zone) {
   switch (zone.shape) {
     case ZoneShape::box:
       return fmt::format("from ({:.6g}) to ({:.6g})", fmt::join(zone.min, ", "), fmt::join(zone.max, ", "));
@@ -17,6 +19,12 @@ std::string place_of_zone(const RefinementTable& zone) {
       break;
   }
   return fmt::format("above {:.6g} m below the initial surface", zone.distance);
+}
+
+}  // namespace
+
+std::string place_of_zone(const RefinementTable& zone) {
+  return place_as_drawn(zone) + (zone.displacement.empty() ? "" : ", displaced over time");
 }
 
 }  // namespace tailwater

@@ -121,7 +121,7 @@ double particles_of_zones(const CaseSpec& spec, const Boundary<Dim>& boundary, d
   const SpacingField<Dim> field(spec, boundary);
   double most = 0.0;
   for (std::size_t zone = 0; zone < field.zones().size(); ++zone) {
-    most += particles_of_full_zone(field, zone, spec.particles.spacing, box_around(boundary.faces), boundary);
+    most += particles_of_full_zone(field, zone, spec, box_around(boundary.faces), boundary);
   }
   return std::min(most, fluid / power<Dim>(field.finest()));
 }

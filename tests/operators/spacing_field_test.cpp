@@ -133,6 +133,22 @@ TEST(SpacingField, IsCarriedByWallsThatMove) {
   }
 }
 
+/// A zone that enters the tank during the run counts as where it has its most particles.
+TEST(SpacingField, AZoneThatEntersTheTankCountsThere) {
+  CaseSpec spec = tank_with_block();
+  spec.time.end = 3.0;
+  RefinementTable zone;
+  zone.min = {1.0, 0.9};
+  zone.max = {2.4, 2.3};
+  const auto particles = [&] {
+    const Boundary<2> boundary = make_boundary<2>(spec);
+    return particles_of_full_zone<2>(field_of(spec, zone), 0, spec, box_around(boundary.faces), boundary);
+  };
+  const double at_rest = particles();
+  zone.displacement = {"t - 2.6", 0.0};
+  EXPECT_NEAR(particles(), at_rest, 1e-3 * at_rest);
+}
+
 TEST(SpacingField, APolygonIsAPrismInThreeDimensions) {
   CaseSpec spec = tank_with_block();
   const SpacingField<2> in_plan = field_of(spec, slanted());
