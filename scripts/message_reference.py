@@ -24,10 +24,10 @@ For users who look up an error or a warning. Every error about a case and every 
     narrower than half a spacing; let the walls touch, or use a spacing of at most 0.006 m to let water pass
     [gap-closed]
 
-Search this page for the id. An error stops the command, and a warning does not. Errors of the command line, of files
-and of the solver have no id. `tailwater check --json` has the id under `id`, and the lines under `warnings` in
+Search this page for the id. An error stops the command, and a warning does not. Most errors of the command line, of
+files and of the solver have no id. `tailwater check --json` has the id under `id`, and the lines under `warnings` in
 `summary.json` end with it. `…` stands for names, places and numbers, and `key` for a key of the case file.
-The last column names the tables of the case file that the message can concern: `any` of them, or `several`.
+The last column names the tables of the case file that the checks beside this one read: `any` of them, or `several`.
 [Troubleshooting](../guide/troubleshooting.md) explains the most frequent messages. `scripts/message_reference.py`
 writes this page from the source.
 """
@@ -73,6 +73,10 @@ GROUPS = {
 PASSED = {"case-not-readable": "the case cannot be read", "expression-invalid": "the place in the expression and its fault",
           "linked-file": "the line of the named file and its fault", "list-expected": "give a list of …",
           "override-misplaced": "the key of --set does not exist, or is not written as table.key=value",
+          "balance-limit-passed": "at t = … s the energy of the water rose, or its mean density was off, by … %, more than "
+                                  "limits.energy_warning or limits.volume_warning",
+          "balance-worst": "until t = … s the energy of the water rose, or its mean density was off, by … %, the largest "
+                           "value in this run",
           "checkpoint-damaged": "the faults of the newest checkpoints; continuing from the last intact one"}
 MADE = re.compile(r"\b(?P<maker>Finding::(?:error|warning)|CaseError|(?:tailwater::)?warn|error|wrong|missing|add|add_override"
                   r"|report|refuse)\(\s*\"(?P<id>[a-z0-9]+(?:-[a-z0-9]+)+)\",\s*")
@@ -114,7 +118,10 @@ def filled(arguments):
     text, rest = joined(TEXT.match(arguments[0])[0]), iter(arguments[1:])
 
     def shown(_):
-        amount = re.match(r'Amount\{.*"([^"]*)"\}$', next(rest, ""), re.DOTALL)
+        argument = next(rest, "")
+        if choice := re.match(r"name_of\(\w+::(\w+)\)$", argument):
+            return choice[1].replace("_", "-")
+        amount = re.match(r'Amount\{.*"([^"]*)"\}$', argument, re.DOTALL)
         return f"… {amount[1]}" if amount else "…"
     return re.sub(r"(?:… *)*…(?! %)(?=[ ,;:.]|$)", "…", re.sub(r"\{[^{}]*\}", shown, text).replace("{{", "{"))
 

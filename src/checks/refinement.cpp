@@ -128,7 +128,7 @@ Findings check_carried(const CaseSpec& spec, const Boundary<Dim>& boundary, int 
   }
   if (const double least = clearance * spec.particles.spacing * std::exp2(-table.level); table.distance < least) {
     findings.push_back(Finding::error("moving-zone-too-narrow",
-                                      {"{} = {:.4g} is narrower than the supports beside walls that move",
+                                      {"{} = {:.4g} is less than the reach of particles beside walls that move",
                                        owner.with_key("distance"), Amount{table.distance, "m"}},
                                       {"give at least {:.4g}", least}));
   }

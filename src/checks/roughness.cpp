@@ -79,7 +79,7 @@ Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary, co
                             "particles between "
                             "its grains",
                             label, roughness_text(wall, roughness), dx},
-                           {"draw the roughness elements and give a smaller roughness, or a larger spacing"}));
+                           {"use a larger spacing, or draw the largest elements and give the roughness of the rest"}));
     }
   }
   return findings;

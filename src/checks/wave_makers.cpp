@@ -123,8 +123,8 @@ Findings check_current(const CaseSpec& spec, const DampingTable& zone) {
       return {Finding::warning("damping-brakes-flow",
                                {"{} lies between {} and {}, and brings the flow between them to rest",
                                 CaseLabel("damping", zone.name), in.label(), out.label()},
-                               {"give `transport`, the discharge per metre of width divided by the depth, positive in "
-                                "the direction of `towards`"})};
+                               {"give `transport`, the mean velocity of the flow, positive in the direction of "
+                                "`towards`"})};
     }
   }
   return {};
