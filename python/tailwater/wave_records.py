@@ -18,6 +18,9 @@ MIN_DETERMINED = 0.1
 MAX_LOSS = 0.2
 # Wave numbers that are tried for waves of finite height, over the wave number of linear theory.
 WAVE_NUMBER_FACTORS = np.linspace(0.8, 1.15, 141)
+# Bound waves of a larger fraction of the waves that bind them are beyond third-order theory and left out.
+MAX_BOUND = 0.2
+BOUND_ROUNDS = 6
 # Periods are searched for within this fraction of the mean period between up-crossings.
 PERIOD_RANGE = 0.05
 # Quantiles 0.975 of Student's t for 1, 2, ... degrees of freedom; `student` continues with the expansion for large numbers.
@@ -147,30 +150,45 @@ class RegularWaves:
     wave_number: float
 
 
-def least_misfit(position, amplitude, wave_numbers_tried):
+def bound_by_two_trains(there, back, wave_number, depth, position):
+    """Complex amplitudes (m) at gauges of the waves of the same frequency and of three times the wave number that two trains
+    bind to third order. Of the standing wave A cos(k x) cos(omega t) this is b13 cos(3 k x) cos(omega t): I. Tadjbakhsh, J.B.
+    Keller (1960) *Standing surface waves of finite amplitude*, J. Fluid Mech. 8, 442-451. In deep water b13 = 9/32 k^2 A^3."""
+    t = np.tanh(wave_number * depth) ** 2
+    factor = 3 * wave_number**2 * (2 * t**4 + t**3 - 15 * t**2 + 27 * t + 9) / (64 * t**2)
+    if factor * max(abs(there), abs(back)) ** 2 > MAX_BOUND:
+        return np.zeros(position.size)
+    return factor * wave_shapes(position, 3 * wave_number) @ [there**2 * np.conj(back), back**2 * np.conj(there)]
+
+
+def least_misfit(position, amplitude, depth, wave_numbers_tried):
     """(misfit, RegularWaves) of the wave number with the least misfit; None if the gauges cannot separate any."""
     best = None
     for k in wave_numbers_tried:
         shape = wave_shapes(position, k)
         if determined(shape) < MIN_DETERMINED:
             continue
-        found = np.linalg.lstsq(shape, amplitude, rcond=None)[0]
-        misfit = np.linalg.norm(shape @ found - amplitude)
+        inverse, bound = np.linalg.pinv(shape), 0.0
+        for _ in range(BOUND_ROUNDS):
+            found = inverse @ (amplitude - bound)
+            bound = bound_by_two_trains(*found, k, depth, position)
+        misfit = np.linalg.norm(shape @ found + bound - amplitude)
         if best is None or misfit < best[0]:
             best = misfit, RegularWaves(complex(found[0]), complex(found[1]), float(k))
     return best
 
 
-def separate_regular(position, amplitude, wave_number):
+def separate_regular(position, amplitude, wave_number, depth):
     """RegularWaves of the complex amplitudes at two or more gauges. With three or more the wave number has the least misfit
-    near that of linear theory, because high waves are longer than linear waves; with two it is the one given."""
+    near that of linear theory, because high waves are longer than linear waves; with two it is the one given. The waves that
+    both trains bind are taken into account: high standing waves would otherwise seem a tenth too long."""
     tried = wave_number * WAVE_NUMBER_FACTORS if position.size > 2 else np.array([wave_number])
-    best = least_misfit(position, amplitude, tried)
+    best = least_misfit(position, amplitude, depth, tried)
     if best is None:
         refuse_gauges()
     if position.size > 2:
         step = tried[1] - tried[0]
-        finer = least_misfit(position, amplitude, best[1].wave_number + step * np.linspace(-1, 1, 41))
+        finer = least_misfit(position, amplitude, depth, best[1].wave_number + step * np.linspace(-1, 1, 41))
         best = min(best, finer, key=lambda one: one[0]) if finer else best
     return best[1]
 

@@ -104,7 +104,7 @@ def regular_numbers(position, harmonics, depth, gravity):
     """(numbers, RegularWaves) from the harmonics at two or more gauges."""
     period = harmonics[0].period
     first, second = (np.array([found.amplitude[n] for found in harmonics]) for n in (0, 1))
-    waves = separate_regular(position, first, float(wave_numbers(1 / period, depth, gravity)))
+    waves = separate_regular(position, first, float(wave_numbers(1 / period, depth, gravity)), depth)
     there, back = abs(waves.there), abs(waves.back)
     numbers = {"H_there_m": 2 * there, "H_back_m": 2 * back, "reflection": reflection_of(there, back),
                "wavelength_m": 2 * np.pi / waves.wave_number, "runs": direction_of(there, back)}

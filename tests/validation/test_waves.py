@@ -104,6 +104,17 @@ class WaveGauges(unittest.TestCase):
             ",".join(f"{value:.9g}" for value in row) + "\n" for row in zip(*series)))
         return Run(run.path)
 
+    def test_a_high_standing_wave_has_its_own_wavelength(self):
+        position, depth, k = np.array([0.0, 3.86, 9.65]), 5.0, 2 * np.pi / 38.6
+        # The wave of three times the wave number over k^2 A^3, by a derivation apart from the program's formula.
+        for kh, bound in ((0.3, 18.199), (1.0, 0.69790), (5.0, 0.28134)):
+            found = wave_records.bound_by_two_trains(0.005, 0.005, kh / depth, depth, np.array([0.0]))[0]
+            self.assertAlmostEqual(found.real / ((kh / depth) ** 2 * 0.01**3), bound, delta=1e-4 * bound)
+        amplitude = 1.12 * np.cos(k * position) + 1.054 * k**2 * 1.12**3 * np.cos(3 * k * position)
+        waves_found = wave_records.separate_regular(position, amplitude, 1.02 * k, depth)
+        self.assertAlmostEqual(2 * np.pi / waves_found.wave_number, 38.6, delta=0.01)
+        self.assertAlmostEqual(2 * abs(waves_found.there), 1.12, delta=1e-3)
+
     def test_two_gauges_separate_regular_waves_in_less_than_two_periods(self):
         run = self.run_with([(0.05, PERIOD, 1, 0.3), (0.015, PERIOD, -1, 1.1)], places={"g1": 3.0, "g2": 3.3})
         numbers, _ = waves.analyse(run, start=18.0, period=PERIOD)

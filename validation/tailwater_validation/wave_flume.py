@@ -33,7 +33,7 @@ class Group:
             heights.append(single_waves(curve.time, curve.value - curve.value.mean())[0].mean())
         self.height = float(np.mean(heights))
         linear = float(wave_numbers(1 / period, run.parameters["h"], run.gravity))
-        waves = separate_regular(self.place - self.place[0], np.array(amplitudes), linear)
+        waves = separate_regular(self.place - self.place[0], np.array(amplitudes), linear, run.parameters["h"])
         self.there, self.back, self.wave_number = abs(waves.there), abs(waves.back), waves.wave_number
 
 
