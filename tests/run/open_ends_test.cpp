@@ -152,6 +152,22 @@ TEST(SectionOfAnOpening, WaterHighAboveTheSurfaceFalls) {
   EXPECT_GT(rise(0.48), 0.0);
 }
 
+/// A jet that falls through a floor at an angle has no surface that rises from one side of the opening to the other.
+TEST(SectionOfAnOpening, AnOutletInAFloorHasNoDepth) {
+  const CaseSpec spec = read_case_text(
+      "particles.spacing = 0.1\ntime.end = 1\n[[wall]]\npoints = [[0, 2], [0, 1]]\n[[wall]]\npoints = [[1, 1], [1, "
+      "2]]\n[[fluid]]\nmin = [0, 1]\nmax = [1, 1.5]\n[[outlet]]\nfrom = [0, 1]\nto = [1, 1]\ndirection = [0, -1]\n",
+      "case.toml");
+  Flow<2> flow = make_flow<2>(spec);
+  const OpenEnd<2>& end = flow.part<OpenEnds<2>>().ends()[0];
+  flow.role.assign(flow.state.particles.owned, Role::water);
+  for (Vec<2>& velocity : flow.state.particles.velocity) velocity = {1.0, -2.0};
+  OpenEndState state;
+  find_fibres(end, flow, {}, state);
+  const Vec<2> at = end.opening.corner + Vec<2>(0.5, 0.1);
+  EXPECT_LT((end.velocity_at(state, at) - Vec<2>(0.0, -2.0)).norm(), 1e-12);
+}
+
 /// Water that rises before the end becomes deeper in the buffer, too, unless it fills the section: a jet may rise to
 /// the lid of a full conduit, and piles up there if the buffer rises with it.
 TEST(SectionOfAnOpening, DoesNotBecomeDeeperIfItIsFull) {
