@@ -152,7 +152,7 @@ TEST(SectionOfAnOpening, WaterHighAboveTheSurfaceFalls) {
   EXPECT_GT(rise(0.48), 0.0);
 }
 
-/// Rolls before the end lift the water of the buffer, and what is high above the surface falls. Where both meet, water
+/// Rolls before the end lift the water of the buffer, and spray high above the surface falls. Where both meet, water
 /// would pile up in a field with a divergence: nothing else moves it on.
 TEST(SectionOfAnOpening, TheFlowOfTheBufferHasNoDivergence) {
   OpenEnd<3> end = valley();
