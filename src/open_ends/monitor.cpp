@@ -36,14 +36,6 @@ std::string discharge_warning(const std::string& label, double time, double miss
       label, problem, time, std::abs(missing), std::abs(asked), remedy);
 }
 
-/// The level beyond hardly acts on water that leaves faster than its waves.
-std::string_view remedy_of_level(const OpenEndState& state, double gravity) {
-  if (state.mean_speed > std::sqrt(gravity * state.surface)) {
-    return "move the opening farther downstream, because the flow before it is supercritical";
-  }
-  return "make the opening wider or deeper, or change levels and discharges more slowly";
-}
-
 }  // namespace
 
 template <int Dim>
@@ -63,9 +55,9 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
       tailwater::warn(
           "level-not-held",
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
-          "spacing of {:.3g} m; remedy: {}",
-          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", end.spacing,
-          remedy_of_level(state, end.gravity));
+          "spacing of {:.3g} m; remedy: make the opening wider or deeper, move it away from jumps and jets, or change "
+          "levels and discharges more slowly",
+          label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", end.spacing);
     }
     const double missing = state.missing();
     const double columns = columns_that_wait * end.spacing * end.area_below(state.depth);

@@ -47,24 +47,6 @@ TEST(OpenEndsWarning, ReportsAtTheEndWhetherALevelIsHeldAgain) {
             "[level-off-at-end]");
 }
 
-/// The warning of a run whose outlet misses its level by 0.2 m, with water 0.3 m deep before it.
-std::string warning_of_level(double speed) {
-  Flow<2> flow = flow_with_outlet();
-  auto& ends = flow.part<OpenEnds<2>>();
-  Json saved = ends.save();
-  saved["states"][0]["miss"].update({{"mean", -0.2}, {"since", 1.0}});
-  saved["states"][0].update({{"mean_speed", speed}, {"surface", 0.3}});
-  EXPECT_TRUE(ends.restore(saved));
-  ends.warn(flow);
-  return warnings().back();
-}
-
-TEST(OpenEndsWarning, NamesSupercriticalFlowAsTheCauseOfALevelThatIsNotHeld) {
-  const std::string cause = "the flow before it is supercritical [level-not-held]";
-  EXPECT_EQ(warning_of_level(1.6).find(cause), std::string::npos);  // sqrt(9.81 m/s^2 * 0.3 m) = 1.72 m/s
-  EXPECT_NE(warning_of_level(1.8).find(cause), std::string::npos);
-}
-
 /// The warnings of a run in which an inlet has passed a net volume `passed` [m^3], compared with the prescribed volume.
 std::string warning_of_discharge(double asked, double passed, bool circulates = false) {
   const std::string tank =
