@@ -91,6 +91,16 @@ bool is_dammed(const CaseSpec& spec, const ChannelEnd<Dim>& inlet, std::span<con
          });
 }
 
+/// m^3/s, in 2D per metre of width; of critical flow that reaches the top of an opening. No flow with a surface brings
+/// more.
+template <int Dim>
+double critical_discharge(const ChannelEnd<Dim>& end) {
+  const double below_top = (1.0 - 1e-6) * end.height;
+  const double breadth = end.breadth_at(below_top);
+  if (breadth == 0.0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(end.gravity * std::pow(end.area_below(end.height), 3) / breadth);
+}
+
 /// Checks the prescribed values of one open end over the run.
 template <int Dim>
 class EndFlowCheck {
@@ -197,16 +207,14 @@ class EndFlowCheck {
     if (!end_.flow.feeds() || !findings_.empty()) return;
     const double depth = end_.flow.level ? end_.depth_at_level(end_.flow.level->at(time)) : end_.height;
     const double q = end_.discharge_per_width(time, depth);
-    const double critical = end_.critical_depth(time);
     if (end_.gravity == 0.0 || has_lid_) return;
     if (end_.flow.level) {
       look_at_froude(time, q, depth);
-    } else if (critical > end_.height) {
+    } else if (const double most = critical_discharge(end_), all = std::abs(end_.discharge(time, depth)); all > most) {
       error("inflow-exceeds-opening",
-            {"{}: at t = {:.6g} s more water enters than the opening can pass: the flow is critical at a depth of "
-             "{:.4g}, "
-             "and the opening is {:.4g} m high",
-             label_, time, Amount{critical, "m"}, end_.height},
+            {"{}: at t = {:.6g} s more water enters than the opening can pass: {:.4g}, while critical flow fills "
+             "its section, {:.4g} m high, at {:.4g}",
+             label_, time, Amount{all, discharge_unit}, end_.height, Amount{most, discharge_unit}},
             {"make it higher, let less enter ({}), or give a supercritical flow its level too", unit_hint});
     }
   }

@@ -175,9 +175,10 @@ void find_fibres(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const Inflow& i
   if (height_squared == 0.0) return set_speeds_into_air(end, inflow, state);
   fit_speeds(end, sums, state);
   const double share = inflow.froude * inflow.froude;
-  // Water that fills its section cannot become deeper, even if a jet rises to the lid before the buffer.
-  const bool is_full = state.is_full || state.depth >= end.height;
-  if (!is_full) state.stretching = (1.0 - share) * sums[sums.size() - 2] / height_squared;
+  // Only water with a surface across the fibres can become deeper. It has none in a floor, where jets arrive at any
+  // angle, and none in a full section, even if a jet rises to the lid before the buffer.
+  const bool has_surface = end.gravity > 0.0 && !state.is_full && state.depth < end.height;
+  if (has_surface) state.stretching = (1.0 - share) * sums[sums.size() - 2] / height_squared;
   if (share == 0.0) return;
   const double change = share * (-inflow.speed - mean_below_surface(end, state));
   for (double& speed : state.fibre_speeds) speed += change;

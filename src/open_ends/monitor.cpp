@@ -55,7 +55,8 @@ void OpenEnds<Dim>::warn(const Flow<Dim>& flow) {
       tailwater::warn(
           "level-not-held",
           "{} does not hold its level: since t = {:.4g} s the water before it stands {:.3g} m too {}, more than the "
-          "spacing of {:.3g} m; remedy: make the opening wider or deeper, or change levels and discharges more slowly",
+          "spacing of {:.3g} m; remedy: make the opening wider or deeper, move it away from jumps and jets, or change "
+          "levels and discharges more slowly",
           label, state.miss.since, std::abs(state.miss.mean), state.miss.mean < 0.0 ? "low" : "high", end.spacing);
     }
     const double missing = state.missing();

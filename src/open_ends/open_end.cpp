@@ -78,17 +78,21 @@ Vec<Dim> OpenEnd<Dim>::velocity_at(const OpenEndState& state, const Vec<Dim>& x)
   if (this->flow.feeds()) return inflow_at(state, x);
   const double above_bottom = height_in(column_at(x), x);
   return (fibre_speed_at(state, x) - state.stretching * behind_border(x)) * this->opening.normal +
-         (state.stretching * above_bottom - fall_speed_at(state, x)) * this->rise;
+         state.stretching * above_bottom * this->rise + fall_at(state, x);
 }
 
-/// Water high above the surface falls. Otherwise the stretching would lift it without end where it stands still, as
-/// beside the banks of a river that leaves in its middle.
+/// Velocity [m/s] of water high above the surface relative to the rest: it falls. Otherwise the stretching would lift
+/// it without end where it stands still, as beside the banks of a river that leaves in its middle. Where it lands on
+/// the water below it spreads outwards: the field has no divergence, so falling water does not pile up.
 template <int Dim>
-double OpenEnd<Dim>::fall_speed_at(const OpenEndState& state, const Vec<Dim>& x) const {
-  if (state.is_full || this->gravity <= 0.0) return 0.0;
+Vec<Dim> OpenEnd<Dim>::fall_at(const OpenEndState& state, const Vec<Dim>& x) const {
+  if (state.is_full || this->gravity <= 0.0) return Vec<Dim>::Zero();
   const double surface = std::max(state.surface, state.depth) + height_of_spray * spacing;
   const double above = (this->up.dot(x) - this->floor - surface) / spacing;
-  return std::clamp(above, 0.0, 1.0) * std::sqrt(this->gravity * spacing);
+  if (above <= 0.0) return Vec<Dim>::Zero();
+  const double speed = std::sqrt(this->gravity * spacing);
+  if (above >= 1.0) return -speed * this->up;
+  return speed * (behind_border(x) / spacing * this->opening.normal - above * this->up);
 }
 
 /// The water may become deeper or shallower. Then it is stretched along `rise` and compressed along the channel by

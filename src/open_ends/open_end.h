@@ -107,7 +107,7 @@ struct OpenEnd : ChannelEnd<Dim> {
  private:
   Vec<Dim> inflow_at(const OpenEndState& state, const Vec<Dim>& x) const;
   double fibre_speed_at(const OpenEndState& state, const Vec<Dim>& x) const;
-  double fall_speed_at(const OpenEndState& state, const Vec<Dim>& x) const;
+  Vec<Dim> fall_at(const OpenEndState& state, const Vec<Dim>& x) const;
 };
 
 }  // namespace tailwater

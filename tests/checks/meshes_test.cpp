@@ -38,8 +38,8 @@ TEST(CheckMeshes, FindsWrongUnitsCrossingsAndPlates) {
   expect_words(errors(two), {"crosses itself at (", "unite the bodies"});
 }
 
-// Centres of cells lie on banks of 45 degrees, on either side of a triangle by the rounding of the file.
-TEST(CheckMeshes, BanksOf45DegreesHoldTheWater) {
+/// A channel 1.6 m long along x with a bed 0.2 m wide and banks of 45 degrees, 0.3 m high.
+TriangleMesh trapezoid() {
   TriangleMesh channel;
   for (const double x : {0.0, 1.6}) {
     for (const auto& [y, z] : {std::pair{-0.4, 0.3}, {-0.1, 0.0}, {0.1, 0.0}, {0.4, 0.3}}) {
@@ -50,10 +50,35 @@ TEST(CheckMeshes, BanksOf45DegreesHoldTheWater) {
     channel.triangles.push_back({k, k + 4, k + 5});
     channel.triangles.push_back({k, k + 5, k + 1});
   }
+  return channel;
+}
+
+// Critical flow 0.27 m deep has the discharge sqrt(g A^3/B) = 0.165 m^3/s, with A = 0.27 m (0.2 m + 0.27 m), B = 0.74
+// m.
+TEST(CheckMeshes, ADischargeInLitresThroughASectionIsAnError) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.03, 3);
+  spec.walls = {folder.wall(trapezoid(), FluidSide::above)};
+  InletTable river;
+  river.direction = {1.0, 0.0, 0.0};
+  river.through = {0.0, 0.0, 0.27};
+  spec.inlets = {river};
+  const Boundary<3> boundary = make_boundary<3>(spec);
+  const auto fluid = make_fluid_particles(spec, boundary);
+  for (const double discharge : {0.15, 0.18, 15.0}) {
+    spec.inlets[0].discharge = discharge;
+    const Findings findings = check_end_flows(spec, boundary, fluid);
+    ASSERT_EQ(findings.size(), discharge < 0.165 ? 0u : 1u) << discharge;
+    if (!findings.empty()) expect_words(findings[0].message(), {"more water enters than the opening can pass"});
+  }
+}
+
+// Centres of cells lie on banks of 45 degrees, on either side of a triangle by the rounding of the file.
+TEST(CheckMeshes, BanksOf45DegreesHoldTheWater) {
   const MeshFolder folder;
   for (const double spacing : {0.02, 0.025, 0.03}) {
     CaseSpec spec = empty_case(spacing, 3);
-    spec.walls = {folder.wall(channel, FluidSide::above)};
+    spec.walls = {folder.wall(trapezoid(), FluidSide::above)};
     FluidTable water;
     water.shape = BlockShape::fill;
     water.seed = {0.8, 0.0, 0.1};

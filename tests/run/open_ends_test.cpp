@@ -152,6 +152,46 @@ TEST(SectionOfAnOpening, WaterHighAboveTheSurfaceFalls) {
   EXPECT_GT(rise(0.48), 0.0);
 }
 
+/// Rolls before the end lift the water of the buffer, and spray high above the surface falls. Where both meet, water
+/// would pile up in a field with a divergence: nothing else moves it on.
+TEST(SectionOfAnOpening, TheFlowOfTheBufferHasNoDivergence) {
+  OpenEnd<3> end = valley();
+  end.flow.discharge.reset();
+  OpenEndState state;
+  state.fibre_speeds.assign(end.first_fibre.back(), -0.1);
+  state.stretching = 3.0;
+  state.depth = 0.2;
+  state.surface = 0.25;
+  const double part = 1e-6;
+  for (const double z : {0.2, 0.34, 0.36, 0.38, 0.39, 0.41, 0.45}) {  // the surface of spray is at 0.35, dx = 0.05
+    for (const double x : {0.25, 0.5, 0.75}) {
+      const Vec<3> at = end.opening.corner + Vec<3>(0.0, 0.5, z) - x * end.stretch * end.opening.normal;
+      double divergence = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        const Vec<3> step = part * Vec<3>::Unit(k);
+        divergence += (end.velocity_at(state, at + step) - end.velocity_at(state, at - step))[k] / (2.0 * part);
+      }
+      EXPECT_NEAR(divergence, 0.0, 1e-6) << z << " " << x;
+    }
+  }
+}
+
+/// A jet that falls through a floor at an angle has no surface that rises from one side of the opening to the other.
+TEST(SectionOfAnOpening, AnOutletInAFloorHasNoDepth) {
+  const CaseSpec spec = read_case_text(
+      "particles.spacing = 0.1\ntime.end = 1\n[[wall]]\npoints = [[0, 2], [0, 1]]\n[[wall]]\npoints = [[1, 1], [1, "
+      "2]]\n[[fluid]]\nmin = [0, 1]\nmax = [1, 1.5]\n[[outlet]]\nfrom = [0, 1]\nto = [1, 1]\ndirection = [0, -1]\n",
+      "case.toml");
+  Flow<2> flow = make_flow<2>(spec);
+  const OpenEnd<2>& end = flow.part<OpenEnds<2>>().ends()[0];
+  flow.role.assign(flow.state.particles.owned, Role::water);
+  for (Vec<2>& velocity : flow.state.particles.velocity) velocity = {1.0, -2.0};
+  OpenEndState state;
+  find_fibres(end, flow, {}, state);
+  const Vec<2> at = end.opening.corner + Vec<2>(0.5, 0.1);
+  EXPECT_LT((end.velocity_at(state, at) - Vec<2>(0.0, -2.0)).norm(), 1e-12);
+}
+
 /// Water that rises before the end becomes deeper in the buffer, too, unless it fills the section: a jet may rise to
 /// the lid of a full conduit, and piles up there if the buffer rises with it.
 TEST(SectionOfAnOpening, DoesNotBecomeDeeperIfItIsFull) {
