@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "flow/stages.h"
 #include "pressure/stages.h"
+#include "schemes/float_boxes.h"
 #include "schemes/force_reader.h"
 #include "support/dimensions.h"
 
@@ -414,6 +415,49 @@ TYPED_TEST(WallForceOfAir, IsItsPressureTimesTheArea) {
   ASSERT_GT(std::abs(pressure), 100.0);
   const double expected = -pressure * std::pow(width, Dim - 1);
   EXPECT_NEAR(Reader<Dim>(spec, flow).force()[Dim - 1], expected, rounding * std::abs(expected));
+}
+
+/// Walls that start with an acceleration a push the mass m of water and body with m a, from the start on. The first
+/// step of the explicit projection takes the water to mid-step only, and half of the inertia was missing in its force.
+TEST(AcceleratedTank, HasItsWholeInertiaInTheFirstStep) {
+  const double dx = 0.05;
+  const double a = 0.25 * g;
+  const Integrator with_one = Integrator::explicit_projection, with_two = Integrator::implicit_projection;
+  for (const auto& [integrator, has_body] :
+       {std::pair{with_one, false}, {with_one, true}, {with_two, false}, {with_two, true}}) {
+    CaseSpec spec;
+    spec.particles.spacing = dx;
+    spec.scheme.integrator = integrator;
+    WallTable tank;
+    tank.name = "tank";
+    tank.points = {{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}};
+    tank.displacement = {"0.125*g*t^2", 0.0};
+    spec.walls = {tank};
+    FluidTable water;  // the level in the accelerated frame
+    water.shape = BlockShape::polygon;
+    water.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}, {0.0, 0.75}};
+    spec.fluid = {water};
+    const double edge = 0.3;
+    if (has_body) {
+      const double mass = spec.physics.density * edge * edge;
+      const Coordinates centre{0.35 + 0.5 * edge, 0.15 + 0.5 * edge};
+      WallTable box;
+      box.shape = WallShape::box;
+      box.fluid_side = FluidSide::outside;
+      box.min = {0.35, 0.15};
+      box.max = {0.35 + edge, 0.15 + edge};
+      box.name = "box";
+      add_body(spec, box, body_of("box", mass, centre, {mass * edge * edge / 6.0}));
+    }
+    spec.probes = {force_probe({0.0, 0.0}, {"tank"})};
+    Flow<2> flow = make_flow<2>(spec);
+    start(flow);
+    const double expected = -0.625 * spec.physics.density * a;  // of 0.625 m^2 of water or a body of its density
+    for (int n = 0; n < 4; ++n) {
+      EXPECT_NEAR(Reader<2>(spec, flow).force()[0], expected, 0.03 * std::abs(expected)) << n << ", " << has_body;
+      step(flow);
+    }
+  }
 }
 
 }  // namespace
