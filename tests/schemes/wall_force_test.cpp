@@ -460,5 +460,37 @@ TEST(AcceleratedTank, HasItsWholeInertiaInTheFirstStep) {
   }
 }
 
+/// A block hangs from the lid of a sealed tank of air and is drawn on into the lid, where no air reaches the lid.
+TEST(LidOverAir, HasNoForceBehindABlock) {
+  constexpr double dx = 0.05, overpressure = 5000.0, width = 0.2;
+  CaseSpec spec = tank_case<2>(dx, 1.0, 0.2);
+  spec.walls[0].max = {1.0, 0.6};
+  spec.walls[0].open = {};
+  WallTable block;
+  block.name = "block";
+  block.shape = WallShape::box;
+  block.fluid_side = FluidSide::outside;
+  block.min = {0.41, 0.4};
+  block.max = {0.41 + width, 0.6 + dx};
+  spec.walls.push_back(block);
+  spec.air.pockets = AirPockets::isothermal;
+  PocketTable air;
+  air.at = {0.1, 0.5};
+  air.overpressure = overpressure;
+  spec.pockets = {air};
+  ProbeTable lid = force_probe({0.0, 0.0}, {"tank"});
+  lid.region_min = {-1.0, 0.6 - 1e-6};
+  lid.region_max = {2.0, 1.0};
+  spec.walls[0].name = "tank";
+  spec.probes = {lid, force_probe({0.0, 0.0}, {"block"})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  step(flow);
+  const double pressure = air_of(flow).measures().pressure;
+  EXPECT_NEAR(pressure, overpressure, 0.01 * overpressure);
+  EXPECT_NEAR(Reader<2>(spec, flow, 0).force()[1], (1.0 - width) * pressure, 0.25 * dx * pressure);  // a piece
+  EXPECT_NEAR(Reader<2>(spec, flow, 1).force()[1], width * pressure, 0.25 * dx * pressure);
+}
+
 }  // namespace
 }  // namespace tailwater
