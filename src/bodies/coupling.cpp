@@ -192,7 +192,12 @@ void BodyCoupling<Dim>::accelerate(const Eigen::VectorXd& A) {
     flow_.state.motion.bodies.each[body].acceleration[entry] = A[static_cast<Eigen::Index>(w)];
   }
   bodies_.steer(flow_, dt_);
-  drive_ = drive_walls(flow_, flow_.state.wall_velocity, dt_);
+  const WallDrive<Dim> drive = drive_walls(flow_, flow_.state.wall_velocity, dt_);
+  for (std::size_t row = 0; row < drive.velocity.size(); ++row) {
+    if (bodies_.body_of_wall[flow_.walls.particles.wall[row]] < 0) continue;  // prescribed, perhaps to the step's end
+    drive_.velocity[row] = drive.velocity[row];
+    drive_.acceleration[row] = drive.acceleration[row];
+  }
   flow_.wall_model().set_sources(flow_.wall_scene(), flow_.wall_force(drive_.acceleration), flow_.equation->rows);
 }
 

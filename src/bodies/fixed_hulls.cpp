@@ -1,11 +1,14 @@
 #include "bodies/fixed_hulls.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "air/enclosed_air.h"
+#include "base/for_each.h"
 #include "case/formulation.h"
 #include "flow/drawing.h"
 #include "flow/pressure_equation.h"
+#include "geometry/facing.h"
 #include "geometry/some_walls.h"
 
 namespace tailwater {
@@ -16,6 +19,42 @@ std::vector<int> hull_of_each(std::size_t count, const std::vector<int>& hulls) 
   std::vector<int> hull_of_wall(count, -1);
   for (std::size_t k = 0; k < hulls.size(); ++k) hull_of_wall[hulls[k]] = static_cast<int>(k);
   return hull_of_wall;
+}
+
+/// dx; width below which no particle enters a gap.
+constexpr double empty_gap = 0.5;
+
+/// Counts the space of empty gaps beside hulls as wall: the particles of the hull's first layer, dx thick, take the
+/// volume of the gap in front of them. Otherwise the kernel has a hole there, into which a uniform pressure pushes the
+/// water beside the gap (docs/theory/probes.md).
+template <int Dim>
+void fill_empty_gaps(Flow<Dim>& flow, const std::vector<int>& hull_of_wall) {
+  const Boundary<Dim>& boundary = flow.walls.boundary;
+  const double dx = flow.setup.scale.spacing;
+  WallParticles<Dim>& rows = flow.walls.particles;
+  std::vector<double> growth(rows.size(), 1.0);
+  for_each(rows.size(), [&](std::size_t row) {
+    const auto wall = static_cast<std::size_t>(rows.wall[row]);
+    if (hull_of_wall[wall] < 0) return;
+    std::vector<std::uint8_t> is_own(boundary.walls.size(), 0), is_other(boundary.walls.size(), 0);
+    for (std::size_t w = 0; w < is_own.size(); ++w) {
+      is_own[w] = w == wall ? 1 : 0;
+      is_other[w] = w == wall || boundary.walls[w].is_plate ? 0 : 1;
+    }
+    const NearestWall<Dim> own = nearest_among<Dim>(boundary, is_own, rows.position[row], dx);
+    if (own.face < 0 || own.signed_distance > 0.0) return;
+    const NearestWall<Dim> other = nearest_among<Dim>(boundary, is_other, own.point, empty_gap * dx);
+    const double width = other.signed_distance / dx;
+    if (other.face < 0 || width <= 0.0 || width > empty_gap - corner_tolerance) return;
+    if (!face_each_other<Dim>(boundary.faces[own.face].normal, boundary.faces[other.face].normal)) return;
+    const bool is_shared = hull_of_wall[boundary.faces[other.face].wall] >= 0;  // the other hull takes half of it
+    growth[row] = 1.0 + (is_shared ? 0.5 : 1.0) * width;
+    rows.share[row] *= growth[row];
+  });
+  Particles<Dim>& particles = flow.state.particles;
+  for_each(particles.owned, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) particles.volume[i] *= growth[particles.wall_row[i]];
+  });
 }
 
 }  // namespace
@@ -45,6 +84,7 @@ template <int Dim>
 void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
   if (std::ranges::any_of(boundary.walls, &WallProperties::moves)) return;
+  fill_empty_gaps(flow, hull_of_wall_);
   const NarrowGaps<Dim> gaps(flow, hulls(near_patches_), flow.state.time);
   std::vector<bool> faces_wall;
   for (std::size_t k = 0; k < hulls_.size(); ++k) faces_wall.push_back(gaps.wall_facing(static_cast<int>(k)) >= 0);

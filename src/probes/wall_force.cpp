@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -78,7 +79,7 @@ class WallForceProbe {
   /// Collective.
   WallLoads<Dim> read(const ProbeContext<Dim>& context) {
     TAILWATER_ASSERT(context.wall_forces != nullptr, "the flow finds the forces on its walls");
-    place_patches(context.boundary);
+    place_patches(context.boundary, context.air_pressure != nullptr);
     const std::vector<AffineMap<Dim>> velocity = find_velocities(context);
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       const WallLoads<Dim> whole = loads_at(context, i);
@@ -92,10 +93,10 @@ class WallForceProbe {
   bool moves(std::size_t wall) const { return paths_[wall].has_value() || body_of_[wall] >= 0; }
   bool takes_all_and_rests() const { return takes_all_ && !has_power_; }
 
-  void place_patches(const Boundary<Dim>& boundary) {
+  void place_patches(const Boundary<Dim>& boundary, bool has_air) {
     bool rest = true;
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
-    if (takes_all_and_rests() || (rest && !wetted_.centres().empty())) return;
+    if ((takes_all_and_rests() && !has_air) || (rest && !wetted_.centres().empty())) return;
     wetted_.place(boundary, patches_);
     around_chosen_ = {};
     for (std::size_t k = 0; k < patches_.size(); ++k) {
@@ -187,10 +188,14 @@ class WallForceProbe {
     return maps;
   }
 
-  /// The loads of pockets of air on the selected patches beside them; the same on all ranks. Collective.
+  /// The loads of pockets of air on the selected patches beside them, as far as these are in front of all other walls;
+  /// the same on all ranks. Collective.
   WallLoads<Dim> loads_of_air(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) const {
     WallLoads<Dim> loads;
-    for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, patches_, chosen_)) {
+    if (!context.air_pressure) return loads;
+    std::vector<double> taken = chosen_;
+    for (std::size_t k = 0; k < taken.size(); ++k) taken[k] *= wetted_.share(static_cast<std::int32_t>(k));
+    for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, patches_, taken)) {
       loads.pressure += push.force;
       loads.moment += moment(push.centre, push.force);
       loads.power -= push.force.dot(velocity[push.wall](push.centre));

@@ -22,13 +22,17 @@ void predict_pressure_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, dou
 }
 
 template <int Dim>
-void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
-  WallDrive<Dim> drive = drive_walls_to_end(flow, start.wall_velocity, dt);
+void project_in_place(Flow<Dim>& flow, const StepStart<Dim>& start, WallDrive<Dim> drive, double dt) {
   Prediction<Dim> predicted = predict(flow, start, drive, dt);
   const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
   solve(flow, assemble(flow, predicted, target, drive, dt), drive);
   for (const auto& part : flow.parts) part->stay(flow);
   add_wall_forces(flow, flow.state.particles.pressure);
+}
+
+template <int Dim>
+void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+  project_in_place(flow, start, drive_walls_to_end(flow, start.wall_velocity, dt), dt);
 }
 
 template <int Dim>
@@ -45,6 +49,7 @@ void start(Flow<Dim>& flow) {
   flow.setup.formulation.find_first_pressure(flow, start, dt);
 }
 
+TAILWATER_IN_2D_AND_3D(project_in_place);
 TAILWATER_IN_2D_AND_3D(project_at_start);
 TAILWATER_IN_2D_AND_3D(predict_pressure_at_start);
 TAILWATER_IN_2D_AND_3D(start);

@@ -6,7 +6,12 @@
 
 namespace tailwater {
 
-/// Computes it by the first projection of a step of length dt.
+/// Computes the pressure and the forces on walls by the first projection of a step of length dt, for walls that are
+/// driven so. Changes no velocity. Call after `locate`.
+template <int Dim>
+void project_in_place(Flow<Dim>& flow, const StepStart<Dim>& start, WallDrive<Dim> drive, double dt);
+
+/// Computes it by the first projection of a step of length dt, with walls that reach their velocity at its end.
 template <int Dim>
 void project_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
