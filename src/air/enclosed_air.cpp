@@ -141,10 +141,10 @@ void EnclosedAir<Dim>::begin(Flow<Dim>& flow) {
     if (pressure >= least || watch.reference_of(k) == k) continue;
     const Finding finding = Finding::warning(
         "air-pressure-separates-water",
-        {"air enclosed at the start has a pressure of {:.4g}, and the water beside it is open to other air; this water "
-         "will separate or be stirred, because the model sustains no tension there",
+        {"air enclosed at the start has a pressure of {:.4g} relative to the atmosphere, and the water beside it is "
+         "open to other air; this water will separate or be stirred, because the model sustains no tension there",
          Amount{pressure, "Pa"}},
-        {"close the space around it, or give it an overpressure of at least 0"});
+        {"separate this water from other air, or give the enclosed air an overpressure of at least 0"});
     tailwater::warn(finding);
   }
   watch.forget();

@@ -197,7 +197,7 @@ void check_porous(const CaseSpec& spec, const toml::table& root, Problems& probl
   if (!traits_of(spec).no_floating.empty()) {
     wrong("porous-needs-robust",
           fmt::format("porous layers are possible only with scheme.formulation = \"{}\" and scheme.name = \"{}\", and "
-                      "without study.displacement; choose these, or remove the layers",
+                      "without study.displacement; give these, remove that key, or remove the layers",
                       name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
   }
   const bool has_coefficients = std::ranges::any_of(
@@ -227,10 +227,11 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
   check_number("density", liquid.density);
   check_number("viscosity", kinematic_viscosity(liquid));
   if (!traits_of(spec).no_floating.empty()) {
-    problems.add("liquid-needs-robust", &root["liquid"][0].node()->source(), CaseLabel("liquid", 0),
-                 fmt::format("liquid[0]: liquids are possible only with scheme.formulation = \"{}\" and scheme.name = "
-                             "\"{}\", and without study.displacement; choose these, or remove the liquid",
-                             name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
+    problems.add(
+        "liquid-needs-robust", &root["liquid"][0].node()->source(), CaseLabel("liquid", 0),
+        fmt::format("liquid[0]: liquids are possible only with scheme.formulation = \"{}\" and scheme.name = "
+                    "\"{}\", and without study.displacement; give these, remove that key, or remove the liquid",
+                    name_of(Formulation::robust), name_of(SchemeName::farzin2014)));
   }
   const auto refuse = [&](const char* table, bool is_there, std::string_view what) {
     if (!is_there) return;
@@ -243,9 +244,7 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
       const toml::node* node = root["wall"][k][key].node();
       if (node == nullptr || (spec.walls[k].roughness == 0.0 && spec.walls[k].manning == 0.0)) continue;
       problems.wrong("rough-wall-beside-liquid", CaseLabel("wall", k).with_key(key), *node,
-                     fmt::format("rough walls are not computed with liquid \"{}\", whose friction is that of a smooth "
-                                 "wall; remove the key",
-                                 liquid.name));
+                     fmt::format("walls beside liquid \"{}\" can only be smooth; remove the key", liquid.name));
     }
   }
   refuse("porous", !spec.porous.empty(), "porous layers are");

@@ -65,7 +65,7 @@ std::vector<double> tabulated_profile(const std::optional<Varying>& profile, con
     throw CaseError("inlet-profile-unbounded",
                     {"{} grows without bound towards s = {}, so that it has no mean", owner.with_key("profile"),
                      at_bed ? "0, the bed" : "1, the surface"},
-                    {"give an expression with an end there, such as min(10, ...)"});
+                    {"limit it there, as in min(10, ...)"});
   }
   std::vector<double> below{0.0};
   for (const double value : values) below.push_back(below.back() + value / (mean * profile_parts));

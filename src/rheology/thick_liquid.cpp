@@ -342,11 +342,11 @@ void ThickLiquid<Dim>::warn(const Flow<Dim>& flow) {
   if (has_converged_ || has_warned_) return;
   has_warned_ = true;
   const auto thickest = std::ranges::max_element(liquids_, {}, viscosity_at_rest);
+  const bool has_constant = thickest->rheology == Rheology::newtonian || thickest->rheology == Rheology::carreau;
   tailwater::warn(
       "viscous-solve-not-converged",
-      "the viscous forces at {:.6g} s did not converge within {} iterations; remedy: give liquid '{}' a smaller "
-      "rest_viscosity",
-      flow.state.time, max_iterations, thickest->name);
+      "the viscous forces at {:.6g} s did not converge within {} iterations; remedy: give liquid '{}' a smaller {}",
+      flow.state.time, max_iterations, thickest->name, has_constant ? "viscosity" : "rest_viscosity");
 }
 
 template <int Dim>
