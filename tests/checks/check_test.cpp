@@ -351,12 +351,14 @@ TEST(Check, ASiphonThatWouldRunEmpty) {
        {box_fluid({0.3, 0}, {0.6, 0.9}), box_fluid({0.6, 0.6}, {0.9, 0.9}), box_fluid({0.9, 0}, {1.2, 0.9})}) {
     spec.fluid.push_back(inside);
   }
-  expect_only(check(spec), Severity::warning, {"below wall 'hood'", "0.4 m above its own surface", "siphon"});
+  expect_only(check(spec), Severity::warning,
+              {"below wall 'hood'", "0.4 m above the free surface that it is connected to", "siphon"});
   spec.physics.tension = 2e5;  // more than the atmosphere carries
   expect_only(check(spec), Severity::warning, {"physics.tension = 2e+05 Pa", "boils", "at most 1e+05 Pa"});
   spec.physics.tension = 0.0;
   spec.air.pockets = AirPockets::adiabatic;  // half of it comes down in 2 s
-  expect_only(check(spec), Severity::warning, {"below wall 'hood'", "0.4 m above its own surface", "siphon"});
+  expect_only(check(spec), Severity::warning,
+              {"below wall 'hood'", "0.4 m above the free surface that it is connected to", "siphon"});
   spec.fluid = basins;
   spec.fluid.push_back(box_fluid({0.3, 0}, {0.6, 0.5}));
   spec.fluid.push_back(box_fluid({0.9, 0}, {1.2, 0.4}));
@@ -1000,7 +1002,7 @@ TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
   EXPECT_EQ(listed(check(spec)).find("refinement"), std::string::npos) << listed(check(spec));
   spec.walls.back().displacement = {0.0, "0.3*t"};
   expect_among(check(spec), Severity::error,
-               {"refinement 'zone'", "narrower than the supports beside walls that move"});
+               {"refinement 'zone'", "less than the reach of particles beside walls that move"});
   spec.refinement[0].distance = 4.0 * dx;
   EXPECT_EQ(listed(check(spec)).find("refinement"), std::string::npos) << listed(check(spec));
   spec.refinement.push_back(zone);
