@@ -250,9 +250,10 @@ class WallForceProbe {
             share.add(taken[k], weight, n);
             const Vec<Dim> force = share.of_pressure.across() * pressure + share.of_friction.along() * friction;
             loads.power -= force.dot(velocity[wall](x));
+            loads.moment -= moment_of<Dim>(context.dt * velocity[wall](x), force);  // it acts where the step began
           });
     }
-    loads.moment = moment(x, loads.pressure);
+    loads.moment += moment(x, loads.pressure);
     if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
     return loads;
   }
