@@ -54,6 +54,12 @@ Box<Dim> box_of(const CaseSpec& spec, const RefinementTable& table, const Bounda
                     {"{} follows the surface of the water, and there is no water at the start", owner},
                     {"give shape = \"box\""});
   }
+  const Vec<Dim> gravity = gravity_of<Dim>(spec);
+  if ((gravity + gravity.norm() * Vec<Dim>::Unit(Dim - 1)).norm() > 1e-6 * gravity.norm()) {
+    throw CaseError("zone-surface-not-level",
+                    {"{} follows a level surface, and gravity does not act along -{}", owner, "xyz"[Dim - 1]},
+                    {"give shape = \"polygon\", or turn the case"});
+  }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Box<Dim> box(Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity));
   box.min()[Dim - 1] = initial_surface(spec, boundary) - table.distance - border;

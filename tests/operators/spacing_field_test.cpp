@@ -197,6 +197,9 @@ TEST(SpacingField, AZoneBelowTheSurfaceReachesUpwardsWithoutEnd) {
   CaseSpec dry = tank_with_block();
   dry.fluid.clear();
   EXPECT_THROW(field_of(dry, zone), CaseError);
+  CaseSpec tilted = tank_with_block();
+  tilted.physics.gravity = {1.0, -9.0};
+  EXPECT_THROW(field_of(tilted, zone), CaseError);
 }
 
 TEST(SpacingField, RepeatsItselfWithThePeriod) {
