@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace tailwater {
 
 namespace {
@@ -24,7 +26,9 @@ std::string place_as_drawn(const RefinementTable& zone) {
 }  // namespace
 
 std::string place_of_zone(const RefinementTable& zone) {
-  return place_as_drawn(zone) + (zone.displacement.empty() ? "" : ", displaced over time");
+  const bool moves =
+      std::ranges::any_of(zone.displacement, [](const Varying& component) { return component != Varying(0.0); });
+  return place_as_drawn(zone) + (moves ? ", displaced over time" : "");
 }
 
 }  // namespace tailwater
