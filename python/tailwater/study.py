@@ -290,6 +290,8 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
         runs = done(sweep(case, {"particles.spacing": chosen}, out=out / "spacings", **runner), "other spacings")
     else:
         own = case["particles.spacing"]
+        if isinstance(own, bool) or not isinstance(own, (int, float, str)):
+            raise InputError(f"particles.spacing = {own!r}: give a length in m in the case, or spacings of the study")
         first = f"{COARSEST:g}*({own})" if isinstance(own, str) else COARSEST * own
         coarse = done(sweep(case, {"particles.spacing": [first]}, out=out / "coarsest", **runner), "a finer case")
         coarsest, finest = coarse[0].spacing, coarse[0].spacing / COARSEST
