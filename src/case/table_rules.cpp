@@ -88,6 +88,10 @@ void check(const PhysicsTable& physics, TableReader& reader) {
                  "replaces the side walls that are missing in two dimensions, but case.dimension = 3; remove it and "
                  "give the side walls as [[wall]] tables");
   }
+  if (physics.channel_roughness > 0.0 && physics.channel_width == 0.0 && !reader.is_wrong("channel_width")) {
+    reader.wrong("channel-roughness-without-width", "channel_roughness",
+                 "has no effect without channel_width; give the width of the channel, or remove this key");
+  }
 }
 
 void check(const FluidTable& fluid, TableReader& reader) {

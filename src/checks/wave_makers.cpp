@@ -86,6 +86,21 @@ Findings check_absorption(const WaveMakerTable& maker, double gravity) {
                            {"replace it with a [[damping]] zone, which makes and absorbs waves of any depth"})};
 }
 
+/// Waves that run over the top of their wave maker.
+template <int Dim>
+Findings check_top(const WaveMakerTable& maker, const WavePlate<Dim>& plate) {
+  const bool is_long = maker.waves == WaveKind::solitary || maker.waves == WaveKind::n_wave;
+  const double crest = (is_long ? 1.0 : 0.5) * maker.height;
+  const CaseLabel owner("wave_maker", maker.name);
+  const double above = plate.up.dot(to_vec<Dim>(maker.to, owner, "to") - plate.foot) - maker.depth;
+  if (maker.waves == WaveKind::none || above >= crest) return {};
+  return {
+      Finding::warning("maker-below-crests",
+                       {"{} ends {:.3g} above the still water, and the crests of its waves are {:.3g} m high or more",
+                        owner, Amount{above, "m"}, crest},
+                       {"let it end above the waves that it makes and those that come back"})};
+}
+
 /// The water at the start must stand where the waves of a zone have their still level.
 template <int Dim>
 Findings check_level(const CaseSpec& spec, const DampingTable& zone, const FluidParticles<Dim>& fluid) {
@@ -141,7 +156,9 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
     append(findings,
            check_focus(maker, CaseLabel("wave_maker", maker.name), maker.depth, gravity_of<Dim>(spec).norm()));
     append(findings, check_absorption(maker, gravity_of<Dim>(spec).norm()));
-    const std::optional<double> depth = depth_at(WavePlate<Dim>(spec, maker), fluid, dx);
+    const WavePlate<Dim> plate(spec, maker);
+    append(findings, check_top(maker, plate));
+    const std::optional<double> depth = depth_at(plate, fluid, dx);
     if (!depth || std::abs(*depth - maker.depth) <= std::max(max_error * maker.depth, max_columns * dx)) continue;
     findings.push_back(
         Finding::error("maker-depth-differs",

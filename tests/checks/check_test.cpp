@@ -212,6 +212,9 @@ TEST(Check, WaveLowerThanTwoSpacings) {
   spec.wave_makers[0].height = 0.038;
   expect_only(check_wave_makers<2>(spec, fluid), Severity::error,
               {"height = 0.038 m is 0.38 spacings", "lower than 0.5 spacings do not keep", "at most 0.0188 m"});
+  spec.wave_makers[0].height = 0.2;
+  spec.wave_makers[0].to = {0, 0.45};
+  expect_only(check_wave_makers<2>(spec, fluid), Severity::warning, {"'piston' ends 0.05 m above", "0.1 m high"});
 }
 
 /// A floating box from `left` to `right` [m] between walls at 0 and 2 m.
@@ -278,6 +281,10 @@ TEST(Check, WallThatCrossesItself) {
   CaseSpec spec = tank();
   spec.walls.push_back(polyline({{2, 0}, {3, 1}, {3, 0}, {2, 1}}));
   expect_among(check(spec), Severity::error, {"wall 'wall2' crosses itself at (2.5, 0.5)"});
+  spec = tank();
+  spec.fluid[0].shape = BlockShape::polygon;
+  spec.fluid[0].points = {{0.2, 0.0}, {0.6, 0.4}, {0.6, 0.0}, {0.2, 0.4}};
+  expect_among(check(spec), Severity::error, {"the outline of fluid 'fluid1' crosses itself at (0.4, 0.2)"});
 }
 
 TEST(Check, WallThinnerThanItsLayers) {
@@ -1054,6 +1061,23 @@ TEST(Check, ValuesOfAnotherUnitAreReported) {
   spec = tank();
   spec.physics.viscosity = 1.0;
   expect_only(check(spec), Severity::warning, {"physics.viscosity = 1 m^2/s", "mm^2/s"});
+  spec.physics.viscosity = 0.001;
+  expect_only(check(spec), Severity::warning, {"physics.viscosity = 0.001 m^2/s", "Pa s"});
+  spec = tank();
+  spec.physics.gravity = {0.0, -32.2};
+  expect_only(check(spec), Severity::warning, {"physics.gravity = 32.2 m/s^2", "ft/s^2"});
+  spec = tank();
+  spec.air.pressure = 1.013;
+  expect_only(check(spec), Severity::warning, {"air.pressure = 1.013 Pa", "bar"});
+  spec = tank();
+  LiquidTable oil;
+  oil.name = "oil";
+  oil.density = 0.9;
+  oil.viscosity = 2e-6;
+  fill_with(spec, oil);
+  spec.physics.density = oil.density;
+  expect_among(check(spec), Severity::warning, {"liquid 'oil': density = 0.9 kg/m^3", "kg/l"});
+  expect_among(check(spec), Severity::warning, {"liquid 'oil': viscosity = 2e-06 Pa s", "m^2/s"});
 }
 
 // A yield stress of 20 Pa, a depth of 1 m or less and 100 Pa s make a creep of at most 0.1 m/s.
