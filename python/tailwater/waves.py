@@ -29,6 +29,8 @@ MIN_READINGS = 11
 MIN_WAVES = 3
 # Waves are regular if the rms of what their harmonics leave is below this fraction of the rms of the record.
 MAX_IRREGULAR = 0.2
+# Gauges over depths that differ by a larger factor do not separate incident and reflected waves.
+MAX_UNEVEN = 1.1
 # Overtopping events are separated by pauses of this fraction of the period.
 PAUSE = 0.25
 
@@ -329,7 +331,14 @@ def analyse(run, names=(), start=None, end=None, depth=None, period=None, respon
     if harmonics:
         numbers["period_s"] = mean_period
     height = numbers["gauges"][gauges.names[0]]["Hm0_m"]
-    if len(gauges.names) >= 2:
+    depths = [gauge["depth_m"] for gauge in numbers["gauges"].values()]
+    is_even = bool(depth) or max(depths) <= MAX_UNEVEN * min(depths)
+    if not is_even:
+        numbers["uneven_depths_m"] = [min(depths), max(depths)]
+        if responses:
+            raise DataError(f"the gauges are over depths from {min(depths):.4g} to {max(depths):.4g} m, and a response needs "
+                            "incident waves, which are found over an even bed; remedy: choose gauges of one depth, or give it")
+    elif len(gauges.names) >= 2:
         incident = separation(gauges, numbers, still, run.gravity, harmonics)
         height = float(4 * np.sqrt((np.abs(incident.amplitude) ** 2).sum() / 2))
         numbers["responses"] = response_numbers(run, responses, gauges, incident, bool(harmonics))
@@ -408,6 +417,10 @@ def harmonic_table(numbers):
 def separation_lines(numbers):
     """Lines on incident and reflected waves."""
     lines = []
+    if "uneven_depths_m" in numbers:
+        least, largest = numbers["uneven_depths_m"]
+        lines.append(f"no incident and reflected waves: the gauges are over depths from {least:.4g} to {largest:.4g} m; "
+                     "choose gauges over an even bed, or give --depth")
     if "separation" in numbers:
         found = numbers["separation"]
         lines.append(f"Hm0 {found['Hm0_there_m']:.4f} m incident, {found['Hm0_back_m']:.4f} m reflected "

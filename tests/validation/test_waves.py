@@ -75,6 +75,17 @@ class WaveGauges(unittest.TestCase):
         numbers, _ = waves.analyse(self.run_with(there + back, end=200.0))
         self.assertAlmostEqual(numbers["separation"]["reflection"], 0.2, delta=0.03)
 
+    def test_gauges_over_an_uneven_bed_do_not_separate_waves(self):
+        run = self.run_with([(0.05, PERIOD, 1, 0.3)])
+        table = run.path / "probes" / "g3.csv"
+        lines = table.read_text().splitlines()
+        table.write_text("\n".join([lines[0]] + [f"{t},{float(z) - 0.2 * DEPTH:.9g}" for t, z in
+                                                 (line.split(",") for line in lines[1:])]) + "\n")
+        numbers, _ = waves.analyse(run)
+        self.assertNotIn("separation", numbers)
+        self.assertIn("over depths from 0.32 to 0.4 m", waves.report(numbers))
+        self.assertIn("separation", waves.analyse(run, depth=DEPTH)[0])
+
     def test_gauges_that_cannot_tell_are_refused(self):
         half = np.pi / waves.wave_numbers(1 / PERIOD, DEPTH, GRAVITY)
         run = self.run_with([(0.05, PERIOD, 1, 0)], places={"a": 1.0, "b": 1.0 + half, "c": 1.0 + 2 * half})
