@@ -72,7 +72,7 @@ Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pre
 /// Works [J] on this rank's water, in a step of dt, of the pressure of moving walls and of the parts; the others are 0.
 /// Needs the pressure of this step and the velocity of walls after `correct`.
 template <int Dim>
-Works work_of_boundaries(const Flow<Dim>& flow, double dt);
+Works work_of_boundaries(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
 
 /// Sums the works of all ranks in `report`, balances the energy of the step, and sets the fraction of the density
 /// source for the next step. Lifting water whose particles had come too close needs energy that the scheme must have

@@ -168,7 +168,8 @@ class WallForceProbe {
     return loads;
   }
 
-  /// For each wall, the map from a place on it to its mean velocity there during the step.
+  /// For each wall, the map from a place on it to its velocity there at the beginning of the step, when the forces act:
+  /// the mean over a time of the step's length around it.
   std::vector<AffineMap<Dim>> find_velocities(const ProbeContext<Dim>& context) const {
     std::vector<AffineMap<Dim>> maps(paths_.size(), {Mat<Dim>::Zero(), Vec<Dim>::Zero()});
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
@@ -181,7 +182,8 @@ class WallForceProbe {
       }
       if (!paths_[wall] || context.dt == 0.0) continue;
       const AffineMap<Dim> now = paths_[wall]->at(context.time);
-      const AffineMap<Dim> of_drawn = paths_[wall]->mean_velocity(context.time - context.dt, context.time);
+      const double from = std::max(0.0, context.time - 1.5 * context.dt);
+      const AffineMap<Dim> of_drawn = paths_[wall]->mean_velocity(from, context.time - 0.5 * context.dt);
       maps[wall].linear = of_drawn.linear * now.linear.transpose();
       maps[wall].constant = of_drawn.constant - maps[wall].linear * now.constant;
     }

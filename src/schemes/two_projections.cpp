@@ -16,7 +16,7 @@ StepReport two_projections_step(Flow<Dim>& flow, const StepStart<Dim>& start, do
   ++report.passes;
   report.iterations += second.report.iterations;  // the residual stays that of the first solve, to the tolerance
   report.interventions += second.report.interventions;
-  const Works boundaries = work_of_boundaries(flow, dt);  // by the pressure of both projections
+  const Works boundaries = work_of_boundaries(flow, start, dt);  // by the pressure of both projections
   report.work.walls = boundaries.walls;
   report.work.ends = boundaries.ends;
   report.divergence = report_of_divergence(flow, divergence_to_report(flow));  // the last solve was where it ends

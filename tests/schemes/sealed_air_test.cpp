@@ -197,18 +197,18 @@ CaseSpec rolling_tank() {
   CaseSpec spec = tank_case<2>(0.02, 0.8, 0.1);
   spec.walls[0].max[1] = 0.4;
   spec.walls[0].open.clear();
-  spec.walls[0].rotation = "0.09*sin(3.6*t)*min(1, t)";
+  spec.walls[0].rotation = "0.12*sin(3.6*t)*min(1, t)";
   spec.walls[0].pivot = {0.4, 0.0};
   return spec;
 }
 
-/// J; the largest rise of the energy of water and gas that walls have not brought, until t = 9 s. Visits each step.
+/// J; the largest rise of the energy of water and gas that walls have not brought, until t = 6 s. Visits each step.
 template <class Visit>
 double largest_rise(Flow<2>& flow, Visit&& visit) {
   double least = measure(flow).energy();
   double rise = 0.0;
   double brought = 0.0;
-  while (flow.state.time < 9.0) {
+  while (flow.state.time < 6.0) {
     if (flow.state.step % 10 == 0) sort_particles(flow);
     const StepReport report = advance(flow, next_time_step(flow));
     brought += report.work.walls + report.work.air;

@@ -382,7 +382,7 @@ TEST(WallForceOfAPiston, ItsPowerIsTheWorkOnTheWater) {
 
 /// Water that turns with a closed tank has its pressure of w^2 r^2/2 on all walls, whose moment is 0. The forces act
 /// where the walls are when the step begins: at its end they would have a moment of w dt times the integral of p r.n.
-TEST(WallForceOfATurningTank, HasNoMoment) {
+TEST(WallForceOfATurningTank, HasNoMomentAndDoesNoWork) {
   constexpr double dx = 0.05, half = 0.3;
   CaseSpec spec = tank_case<2>(dx, 2.0 * half, 2.0 * half);
   spec.physics.gravity = {0.0, 0.0};
@@ -399,14 +399,19 @@ TEST(WallForceOfATurningTank, HasNoMoment) {
   Flow<2> flow = make_flow<2>(spec);
   const Reader<2> probe(spec, flow);
   start(flow);
-  double moment = 0.0, at_end = 0.0;
+  double moment = 0.0, power = 0.0, work = 0.0, at_end = 0.0;
   for (int n = 0; n < 20; ++n) {
-    const double dt = step(flow).dt;
+    const StepReport report = step(flow);
+    const double dt = report.dt;
     if (n < 10) continue;
+    power += probe.power(dt) / 10.0;
+    work += report.work.walls / dt / 10.0;
     moment += probe.row(dt)[2] / 10.0;
     at_end += 3.0 * dt * spec.physics.density * 9.0 * 16.0 / 3.0 * std::pow(half, 4) / 10.0;
   }
   EXPECT_LT(std::abs(moment), 0.1 * at_end);
+  EXPECT_LT(std::abs(power), 0.1 * 0.5 * 3.0 * at_end);  // by the velocity of the walls in the step: half of w M
+  EXPECT_LT(std::abs(work), 0.1 * 0.5 * 3.0 * at_end);
 }
 
 TEST(WallForceRefuses, SchemesWithoutReactions) {
