@@ -28,7 +28,7 @@ UNSEEN = {
         "box_inside_out", "damping_inside_out", "gate_that_slants", "gate_with_the_wrong_sides", "gate_without_an_extent",
         "level_of_a_fill_where_gravity_is_sideways", "liquid_beside_another_density", "liquid_that_thins_upwards",
         "mooring_without_a_force", "zone_of_oblique_waves_in_a_plane",
-        "outlet_without_extent", "period_backwards", "period_empty",
+        "outlet_without_extent", "period_backwards", "period_empty", "side_walls_without_width",
         "porous_coefficients_without_gravity", "porous_inside_out", "probe_stretch_is_a_point", "probe_times_backwards",
         "region_upside_down", "wave_that_breaks_at_once", "less_than_a_vacuum", "vent_where_air_is_nothing", "fluid inside out",
         "wall without length"},
