@@ -12,6 +12,7 @@
 #include "geometry/from_spec.h"
 #include "geometry/mesh_surface.h"
 #include "refinement/zone_depth.h"
+#include "refinement/zone_words.h"
 
 namespace tailwater {
 namespace {
@@ -89,7 +90,7 @@ SpacingField<Dim>::SpacingField(const CaseSpec& spec, const Boundary<Dim>& bound
       if (wall.moves() && std::ranges::count(table.walls, wall.name) > 0) carrier_ = static_cast<int>(w);
     }
     Box<Dim> bounds = outermost;
-    if (std::ranges::any_of(table.displacement, [](const Varying& component) { return component != Varying(0.0); })) {
+    if (is_displaced(table)) {
       require_dimension<Dim>(table.displacement.size(), CaseLabel("refinement", table.name).with_key("displacement"));
       displacement_.clear();
       for (int axis = 0; axis < Dim; ++axis) {

@@ -25,10 +25,12 @@ std::string place_as_drawn(const RefinementTable& zone) {
 
 }  // namespace
 
+bool is_displaced(const RefinementTable& zone) {
+  return std::ranges::any_of(zone.displacement, [](const Varying& component) { return component != Varying(0.0); });
+}
+
 std::string place_of_zone(const RefinementTable& zone) {
-  const bool moves =
-      std::ranges::any_of(zone.displacement, [](const Varying& component) { return component != Varying(0.0); });
-  return place_as_drawn(zone) + (moves ? ", displaced over time" : "");
+  return place_as_drawn(zone) + (is_displaced(zone) ? ", displaced over time" : "");
 }
 
 }  // namespace tailwater
