@@ -33,24 +33,26 @@ void fill_empty_gaps(Flow<Dim>& flow, const std::vector<int>& hull_of_wall) {
   const double dx = flow.setup.scale.spacing;
   WallParticles<Dim>& rows = flow.walls.particles;
   std::vector<double> growth(rows.size(), 1.0);
-  for_each(rows.size(), [&](std::size_t row) {
-    const auto wall = static_cast<std::size_t>(rows.wall[row]);
-    if (hull_of_wall[wall] < 0) return;
+  for (std::size_t wall = 0; wall < hull_of_wall.size(); ++wall) {
+    if (hull_of_wall[wall] < 0) continue;
     std::vector<std::uint8_t> is_own(boundary.walls.size(), 0), is_other(boundary.walls.size(), 0);
     for (std::size_t w = 0; w < is_own.size(); ++w) {
       is_own[w] = w == wall ? 1 : 0;
       is_other[w] = w == wall || boundary.walls[w].is_plate ? 0 : 1;
     }
-    const NearestWall<Dim> own = nearest_among<Dim>(boundary, is_own, rows.position[row], dx);
-    if (own.face < 0 || own.signed_distance > 0.0) return;
-    const NearestWall<Dim> other = nearest_among<Dim>(boundary, is_other, own.point, empty_gap * dx);
-    const double width = other.signed_distance / dx;
-    if (other.face < 0 || width <= 0.0 || width > empty_gap - corner_tolerance) return;
-    if (!face_each_other<Dim>(boundary.faces[own.face].normal, boundary.faces[other.face].normal)) return;
-    const bool is_shared = hull_of_wall[boundary.faces[other.face].wall] >= 0;  // the other hull takes half of it
-    growth[row] = 1.0 + (is_shared ? 0.5 : 1.0) * width;
-    rows.share[row] *= growth[row];
-  });
+    for_each(rows.size(), [&](std::size_t row) {
+      if (rows.wall[row] != static_cast<int>(wall)) return;
+      const NearestWall<Dim> own = nearest_among<Dim>(boundary, is_own, rows.position[row], dx);
+      if (own.face < 0 || own.signed_distance > 0.0) return;
+      const NearestWall<Dim> other = nearest_among<Dim>(boundary, is_other, own.point, empty_gap * dx);
+      const double width = other.signed_distance / dx;
+      if (other.face < 0 || width <= 0.0 || width > empty_gap - corner_tolerance) return;
+      if (!face_each_other<Dim>(boundary.faces[own.face].normal, boundary.faces[other.face].normal)) return;
+      const bool is_shared = hull_of_wall[boundary.faces[other.face].wall] >= 0;  // the other hull takes half of it
+      growth[row] = 1.0 + (is_shared ? 0.5 : 1.0) * width;
+      rows.share[row] *= growth[row];
+    });
+  }
   Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) particles.volume[i] *= growth[particles.wall_row[i]];
