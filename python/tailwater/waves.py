@@ -327,17 +327,17 @@ def analyse(run, names=(), start=None, end=None, depth=None, period=None, respon
         if harmonics:
             numbers["gauges"][name]["harmonics"] = harmonic_numbers(harmonics[n])
         spectra["frequency_Hz"], spectra[f"{name}_m2_per_Hz"] = spectrum(gauges.time, reading)
-    still = depth or float(np.mean([gauge["depth_m"] for gauge in numbers["gauges"].values()]))
+    depths = [gauge["depth_m"] for gauge in numbers["gauges"].values()]
+    still = depth or float(np.mean(depths))
     if harmonics:
         numbers["period_s"] = mean_period
     height = numbers["gauges"][gauges.names[0]]["Hm0_m"]
-    depths = [gauge["depth_m"] for gauge in numbers["gauges"].values()]
     is_even = bool(depth) or max(depths) <= MAX_UNEVEN * min(depths)
     if not is_even:
         numbers["uneven_depths_m"] = [min(depths), max(depths)]
         if responses:
             raise DataError(f"the gauges are over depths from {min(depths):.4g} to {max(depths):.4g} m, and a response needs "
-                            "incident waves, which are found over an even bed; remedy: choose gauges of one depth, or give it")
+                            "incident waves, which are found over an even bed; remedy: choose gauges over one depth, or give --depth")
     elif len(gauges.names) >= 2:
         incident = separation(gauges, numbers, still, run.gravity, harmonics)
         height = float(4 * np.sqrt((np.abs(incident.amplitude) ** 2).sum() / 2))

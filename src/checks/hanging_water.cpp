@@ -95,8 +95,7 @@ Findings check_hanging_water(const CaseSpec& spec, const Boundary<Dim>& boundary
     findings.push_back(Finding::warning(
         "hanging-water-separates",
         {"the water below {} at {} stands {:.3g} above the free surface that it is connected to, as in a siphon, and "
-         "will separate, because "
-         "walls hold water up to {:.3g} below the pressure of the atmosphere (physics.tension)",
+         "will separate, because walls hold water up to {:.3g} below the pressure of the atmosphere (physics.tension)",
          wall_label(boundary, boundary.faces[connected.face_above].wall),
          place(space.centre(space.cell(connected.cell_below))), Amount{above, "m"}, Amount{spec.physics.tension, "Pa"}},
         remedy));

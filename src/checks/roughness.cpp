@@ -76,8 +76,7 @@ Findings check_roughness(const CaseSpec& spec, const Boundary<Dim>& boundary, co
       findings.push_back(
           Finding::warning("roughness-above-spacing",
                            {"{}: {} is larger than the spacing, {:.3g} m, and the law of rough walls does not hold for "
-                            "particles between "
-                            "its grains",
+                            "particles between its grains",
                             label, roughness_text(wall, roughness), dx},
                            {"use a larger spacing, or draw the largest elements and give the roughness of the rest"}));
     }
