@@ -64,12 +64,10 @@ void check_amount_of_output(const CaseSpec& spec, const toml::table& root, Probl
   }
 }
 
-/// The surface of a fill is perpendicular to the last axis. The axes may be turned along a sloping bed.
+/// The surface of a fill is perpendicular to the last axis.
 void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  constexpr double min_downward = 0.5;  // cosine between gravity and the way down along that axis
-  const double g = gravity_magnitude(spec.physics);
   const int dimension = spec.general.dimension;
-  if (spec.physics.gravity.back() <= -min_downward * g) return;
+  if (gravity_points_down(spec.physics)) return;
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
     const toml::node* node = root["fluid"][k]["level"].node();
     if (spec.fluid[k].shape != BlockShape::fill || node == nullptr) continue;

@@ -43,6 +43,16 @@ double initial_surface(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   return highest;
 }
 
+/// Whether the surface at the start is perpendicular to the last axis. Boxes and fills have such a surface also where
+/// the axes are turned along a sloping bed; polygons and meshes are then most likely drawn level.
+bool surface_is_across(const CaseSpec& spec) {
+  constexpr double upright = 1.0 - 1e-12;  // cosine between gravity and the way down along that axis
+  if (spec.physics.gravity.back() <= -upright * gravity_magnitude(spec.physics)) return true;
+  return gravity_points_down(spec.physics) && std::ranges::all_of(spec.fluid, [](const FluidTable& block) {
+           return block.shape == BlockShape::box || block.shape == BlockShape::fill;
+         });
+}
+
 /// The box of a zone that is one, as it is given.
 template <int Dim>
 Box<Dim> box_of(const CaseSpec& spec, const RefinementTable& table, const Boundary<Dim>& boundary, double border) {
@@ -55,10 +65,9 @@ Box<Dim> box_of(const CaseSpec& spec, const RefinementTable& table, const Bounda
                     {"{} follows the surface of the water, and there is no water at the start", owner},
                     {"give shape = \"box\""});
   }
-  const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  if ((gravity + gravity.norm() * Vec<Dim>::Unit(Dim - 1)).norm() > 1e-6 * gravity.norm()) {
+  if (!surface_is_across(spec)) {
     throw CaseError("zone-surface-not-level",
-                    {"{} follows a level surface, and gravity does not act along -{}", owner, "xyz"[Dim - 1]},
+                    {"{0} follows a surface across {1}, and gravity does not act along -{1}", owner, "xyz"[Dim - 1]},
                     {"give shape = \"polygon\", or turn the case"});
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();

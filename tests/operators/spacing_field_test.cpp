@@ -199,6 +199,12 @@ TEST(SpacingField, AZoneBelowTheSurfaceReachesUpwardsWithoutEnd) {
   EXPECT_THROW(field_of(dry, zone), CaseError);
   CaseSpec tilted = tank_with_block();
   tilted.physics.gravity = {1.0, -9.0};
+  EXPECT_EQ(field_of(tilted, zone).at({1.0, 1.75}), 0.5);  // a channel along a sloping bed
+  tilted.physics.gravity = {9.0, -1.0};
+  EXPECT_THROW(field_of(tilted, zone), CaseError);
+  tilted.physics.gravity = {1.0, -9.0};
+  tilted.fluid[0].shape = BlockShape::polygon;
+  tilted.fluid[0].points = {{0.0, 0.0}, {4.0, 0.0}, {4.0, 2.25}, {0.0, 1.75}};
   EXPECT_THROW(field_of(tilted, zone), CaseError);
 }
 
