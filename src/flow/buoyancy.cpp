@@ -54,8 +54,9 @@ std::vector<double> without_balanced_pressure(const Flow<Dim>& flow, double dens
                                               const std::vector<double>& pressure) {
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<double> rest(pressure.size());
-  for_each(rest.size(),
-           [&](std::size_t i) { rest[i] = pressure[i] - density * flow.setup.gravity.dot(particles.position[i]); });
+  for_each(rest.size(), [&](std::size_t i) {
+    rest[i] = pressure[i] - density * flow.setup.gravity_across().dot(particles.position[i]);
+  });
   constexpr double none = std::numeric_limits<double>::lowest();
   const double least = -flow.setup.ranks.largest(
       largest_over(particles.owned, none, [&](std::size_t i) { return particles.is_fluid(i) ? -rest[i] : none; }));

@@ -6,7 +6,8 @@
 //   g' = g (rho_heaviest/rho_b - 1),
 //
 // and the errors of sums over pairs with the pressure p - rho_b g . x instead of p. rho_b is the density of the
-// lightest liquid times the fullness, which is 0 as soon as there is a free surface, and 0 for one liquid. Derivation:
+// lightest liquid times the fullness, which is 0 as soon as there is a free surface, and 0 for one liquid. No pressure
+// balances the weight along a periodic direction: here g is without it (Setup::gravity_across). Derivation:
 // docs/theory/liquids.md.
 #pragma once
 

@@ -18,11 +18,12 @@ void find_gradient_beside(const Flow<Dim>& flow, double balanced, const std::vec
                           std::span<Vec<Dim>> gradient) {
   const Interfaces& interfaces = flow.surroundings.interfaces;
   const std::vector<double> rest = without_balanced_pressure(flow, balanced, pressure);
+  const Vec<Dim> across = flow.setup.gravity_across();
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
     gradient[i] = gradient_over_density<Dim>(flow.pairs(), i, flow.state.particles.volume, interfaces,
                                              flow.surroundings.pair_vectors, rest) +
-                  balanced / interfaces.density[i] * flow.setup.gravity;
+                  balanced / interfaces.density[i] * across;
   });
 }
 

@@ -59,7 +59,7 @@ void add_error_of_balanced_pressure(const Flow<Dim>& flow, std::span<double> sou
       const Lanes share = share_of_morris_weight(batch.squared_over_spacing(place.d.dot(place.d)), spacing);
       sum += (2.0F * share * place.volume() * batch.F(place.d)) * place.d;
     });
-    source[i] += density * flow.setup.gravity.dot(sum.total());
+    source[i] += density * flow.setup.gravity_across().dot(sum.total());
   });
 }
 

@@ -101,6 +101,26 @@ TEST(Layers, RestInThreeDimensions) {
   EXPECT_LT(rest.error, std::max(0.003, 1.1 * of_water.error));
 }
 
+// A pressure cannot balance the weight along a period: it accelerates all liquid there.
+TEST(Layers, FallAlongAPeriod) {
+  CaseSpec spec = channel_case(newtonian(1e-3), 0.1, 1.0, 0.0);
+  spec.physics.gravity[1] = -g;
+  for (WallTable& wall : spec.walls) wall.slip = Slip::free;
+  fill_with_layers(spec, 0.5, 1100.0, 1000.0);
+  Flow<2> flow = make_flow<2>(spec);
+  while (flow.state.time < 0.1) step(flow);
+  const Particles<2>& particles = flow.state.particles;
+  double momentum = 0.0;
+  double mass = 0.0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (!particles.is_fluid(i)) continue;
+    const double mass_of_one = flow.density_of(i) * particles.volume[i];
+    momentum += mass_of_one * particles.velocity[i][0];
+    mass += mass_of_one;
+  }
+  EXPECT_NEAR(momentum / mass, flow.state.time, 0.01 * flow.state.time);
+}
+
 /// Two layers of the depth h = 0.25 m between two lids, half a wavelength of 2 m, with the velocity of the potentials:
 /// sinh(k y) and sinh(k (2 h - y)) cos(k x) times V/sinh(k h). Disordered: water on a lattice that strain changes is
 /// not in balance under pressure.
