@@ -153,6 +153,9 @@ Findings check_bodies(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   return findings;
 }
 
+/// Initial tension of a line over the weight of its body, above which it is most likely a mistake.
+constexpr double most_tension = 10.0;
+
 template <int Dim>
 Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   Findings findings;
@@ -169,8 +172,22 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
         {"give `at` as a place on the first body as drawn, and `anchor` as the other end of the line, on the second "
          "body if there is one"}));
   };
+  const double gravity = gravity_of<Dim>(spec).norm();
+  const auto check_tension = [&](const std::string& name, const Mooring<Dim>& line) {
+    const double distance = (line.anchor - line.at).norm();
+    const double weight = gravity * bodies[line.body].mass;
+    const double times = weight > 0.0 ? line.stiffness * (distance - line.length) / weight : 0.0;
+    if (times <= most_tension) return;
+    findings.push_back(Finding::warning(
+        "mooring-taut-at-start",
+        {"{} is {:.4g} long and spans {:.4g} at the start: it pulls with {:.2g} times the weight of {}",
+         CaseLabel("mooring", name), Amount{line.length, "m"}, Amount{distance, "m"}, times,
+         CaseLabel("body", bodies[line.body].name)},
+        {"give a length near {:.4g} m, or less stiffness", distance}));
+  };
   const std::vector<Mooring<Dim>> moorings = make_moorings<Dim>(spec);
   for (std::size_t m = 0; m < moorings.size(); ++m) {
+    check_tension(spec.moorings[m].name, moorings[m]);
     check_end(spec.moorings[m].name, moorings[m].body, moorings[m].at);
     if (moorings[m].to_body >= 0) check_end(spec.moorings[m].name, moorings[m].to_body, moorings[m].anchor);
   }

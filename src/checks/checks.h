@@ -119,7 +119,7 @@ Findings check_body_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_springs(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
-/// Error: a mooring that is fastened far from its body.
+/// Error: a mooring that is fastened far from its body. Warning: one that pulls with many times the body's weight.
 template <int Dim>
 Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary);
 

@@ -1,4 +1,9 @@
+#include <algorithm>
+#include <numbers>
+
 #include "base/fp_traps.h"
+#include "case/named_numbers.h"
+#include "case/time_function.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
 #include "geometry/wall_label.h"
@@ -52,6 +57,27 @@ void check_turns_in_period(const CaseSpec& spec, const CaseLabel& label, int wal
   }
 }
 
+/// Adds a warning for a wall that swings back and forth by more than half a turn: its angle is most likely in degrees.
+void check_swing(const CaseSpec& spec, const CaseLabel& label, int wall, Findings& findings) {
+  constexpr int looks = 1000;
+  if (!std::holds_alternative<std::string>(spec.walls[wall].rotation)) return;
+  const TimeFunction rotation(spec.walls[wall].rotation, named_numbers(spec));
+  double lowest = 0.0, highest = 0.0, rise = 0.0, fall = 0.0;  // rad
+  for (int k = 0; k <= looks; ++k) {
+    const double angle = rotation.at(spec.time.end * k / looks);
+    lowest = std::min(lowest, angle);
+    highest = std::max(highest, angle);
+    rise = std::max(rise, angle - lowest);
+    fall = std::max(fall, highest - angle);
+  }
+  const double swing = std::min(rise, fall);
+  if (swing <= std::numbers::pi) return;
+  findings.push_back(Finding::warning(
+      "swing-beyond-half-turn",
+      {"{} swings back and forth by {:.3g}, more than half a turn", label.with_key("rotation"), Amount{swing, "rad"}},
+      {"give the angle in rad: a degree is pi/180"}));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -61,6 +87,7 @@ Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, co
   std::vector<int> moving;
   for (int wall = 0; wall < static_cast<int>(spec.walls.size()); ++wall) {
     check_turns_in_period(spec, wall_label(drawn, wall), wall, findings);
+    check_swing(spec, wall_label(drawn, wall), wall, findings);
     if (starts_where_it_is_drawn(spec, drawn, wall, findings) && drawn.walls[wall].moves()) moving.push_back(wall);
   }
   if (moving.empty()) return findings;

@@ -513,6 +513,15 @@ TEST(CheckMotion, ATankThatMovesAsAWholeIsGood) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+TEST(CheckMotion, ASwingInDegreesIsTold) {
+  CaseSpec spec = gate_case({0.0, 0.0});
+  spec.time.end = 5.0;
+  spec.walls.back().rotation = "4*sin(3*t)";
+  expect_among(check(spec), Severity::warning, {"wall 'gate'", "rotation swings back and forth by 8 rad"});
+  spec.walls.back().rotation = "4*t";
+  for (const Finding& finding : check(spec)) EXPECT_EQ(finding.message().find("swings"), std::string::npos);
+}
+
 TEST(CheckMotion, NotWhereItIsDrawn) {
   expect_only(check(gate_case({0.0, "0.2 + t"})), Severity::error, {"wall 'gate'", "t = 0", "(0, 0.2)", "subtract"});
   expect_only(check(gate_case({0.1, 0.0})), Severity::error, {"wall 'gate'", "(0.1, 0)"});
@@ -777,6 +786,13 @@ TEST(Check, AMooringIsFastenedToItsBody) {
   EXPECT_FALSE(told()) << listed(check(spec));
   spec.moorings[0].at = {56.7, 0.4};
   expect_among(check(spec), Severity::error, {"mooring 'chain' is fastened at (56.7, 0.4), 56 m from body 'boat'"});
+  spec.moorings[0].at = {0.3, 0.1};
+  spec.moorings[0].anchor = {0.0, 0.1};
+  spec.moorings[0].length = 0.1;
+  spec.moorings[0].stiffness = 60.0 * 9.81 * body.mass;  // N/m; the line is 0.2 m too short
+  expect_among(check(spec), Severity::warning,
+               {"mooring 'chain' is 0.1 m long and spans 0.3 m at the start: it pulls with 12 times the weight"});
+  spec.moorings[0].at = {56.7, 0.4};
   box = box_wall({0.75, 0.3}, {0.95, 0.5}, {}, FluidSide::outside);
   box.name = body.name = "buoy";
   box.drive = {Drive::By::body, 1};
@@ -1129,6 +1145,10 @@ TEST(Check, TimesAfterTheEndAreTold) {
   probe.averaging_time = 2.0;
   spec.probes = {probe};
   expect_only(check(spec), Severity::warning, {"probe 'surface': averaging_time = 2 s is longer than the run of 1 s"});
+  probe.averaging_time = 0.0;
+  probe.interval = 10.0;
+  spec.probes = {probe};
+  expect_only(check(spec), Severity::warning, {"probe 'surface': interval = 10 s is longer than the run of 1 s"});
 }
 
 // A hundred walls that shake for a quarter of an hour: their way is 190 km.
@@ -1274,7 +1294,7 @@ TEST(Check, AnOutletThatCutsThroughWaterIsAnError) {
   expect_among(check(spec), Severity::error, {"'outlet1' cuts through fluid 'fluid1': 12 particles", "(2.05, 0.05)"});
   CaseSpec backward = open_channel();
   backward.outlets[0].direction = {-1.0, 0.0};
-  expect_only(check(backward), Severity::error, {"40 particles lie beyond it", "the opposite direction"});
+  expect_only(check(backward), Severity::error, {"40 particles lie beyond it", "reverse its direction"});
 }
 
 TEST(Check, AnOutletOffTheWallsIsAnError) {
