@@ -25,7 +25,7 @@ from tailwater_validation import floating  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 # Guides, and the folder of the first sweep of each.
-GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge", "sloshing": "tank", "overtopping": "dike",
+GUIDES = {"waves_on_a_wall": "wall", "floating_box": "barge", "sloshing": "tank", "overtopping": "seawall",
           "gate_and_basin": "basin"}
 
 

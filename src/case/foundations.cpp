@@ -79,7 +79,8 @@ class NamedNumbersReader {
         continue;
       }
       report("parameter-name", name, value,
-             "cannot be a parameter's name; use letters, digits and _, not x, y, z, t, dx, g, pi or a function's name");
+             "cannot be a parameter's name; use letters, digits and _, and another name than x, y, z, t, dx, g, pi or "
+             "that of a function");
     }
   }
 

@@ -68,7 +68,8 @@ void TableReader::integer(std::string_view key, int& value, std::string_view uni
     value = static_cast<int>(*given);
   } else {
     wrong("whole-number-expected", key, *node,
-          fmt::format("give a whole number, {}{}", range_text(range), in_unit(unit)));
+          fmt::format("not a whole number in the permitted range; give a whole number, {}{}", range_text(range),
+                      in_unit(unit)));
   }
 }
 

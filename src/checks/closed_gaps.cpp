@@ -233,7 +233,7 @@ Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx
   return Finding::warning(
       "gap-few-rows",
       {"the gap of {:.3g} between {} and {} at {} is {:.1f} spacings wide, so too little water "
-       "passes: under a plate on a bed about 20 % less at half a spacing, 9 % at one and 4 % at four",
+       "passes: under a plate above a bed about 20 % less with half a spacing, 9 % with one and 4 % with four",
        width, a, b, place(gap.where), gap.width / local},
       {"use a spacing of at most {:.3g} m", good_spacing});
 }

@@ -58,9 +58,9 @@ void check_space_of(const ChannelEnd<Dim>& end, const CellSpace<Dim>& space, con
   }
   findings.push_back(Finding::error(
       "closed-space-overfilled",
-      {"{} adds {:.3g} by t = {:.6g} s to a space without an outlet, which can hold at most {:.3g} m^{} more, closed "
-       "by {}",
-       end.opening.label(), Amount{inflow, fmt::format("m^{}", Dim)}, last, room, Dim, fmt::join(walls, " and ")},
+      {"{} adds {:.3g} by t = {:.6g} s to the space closed by {}, which has no outlet: it can hold at most {:.3g} m^{} "
+       "more",
+       end.opening.label(), Amount{inflow, fmt::format("m^{}", Dim)}, last, fmt::join(walls, " and "), room, Dim},
       {"open it (of a box: open = [...]), give it an outlet, or let less enter"}));
 }
 

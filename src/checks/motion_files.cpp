@@ -69,7 +69,7 @@ class FileWalk {
     return Finding::error(
         "motion-file-jumps",
         {"{} jumps between lines {} and {} of {}: it moves {:.3g} m in {:.3g} s, at {:.3g}, which is more than {:.0f} "
-         "times as fast as the water falls ({:.3g} m/s)",
+         "times the speed of a fall from the height of the water ({:.3g} m/s)",
          label_, series_.line[k], series_.line[k + 1], series_.file, displacement, duration,
          Amount{displacement / duration, "m/s"}, fastest_over_water, fastest / fastest_over_water},
         {"correct the lines, or the units in the file's header"});

@@ -258,7 +258,7 @@ bool check_fluid_beyond(const CaseSpec& spec, const ChannelEnd<Dim>& channel_end
   findings.push_back(Finding::error("opening-cuts-water",
                                     {"{} cuts through {}: {} particles lie beyond it at the start, the first at {}",
                                      end.label(), fluid_label(spec, first[0].block), beyond, place(first[0].place)},
-                                    {"end the block there, move the open end, or give it the opposite direction"}));
+                                    {"end the block at the opening, move the opening, or reverse its direction"}));
   return false;
 }
 

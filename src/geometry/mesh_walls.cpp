@@ -118,8 +118,8 @@ std::vector<TriangleEdge> require_neighbours_that_agree(const std::vector<Triang
     const TriangleEdge& edge = edges[k];
     if (end - k > 2) {
       refuse("mesh-edge-of-many-triangles",
-             {"{} belongs to {} triangles, {} among them: an edge may have two", refuse.edge(edge), end - k,
-              refuse.triangle(edge.triangle)},
+             {"{} belongs to {} triangles, {} among them: an edge can belong to two at most", refuse.edge(edge),
+              end - k, refuse.triangle(edge.triangle)},
              {"separate bodies that touch there, or remove inner walls"});
     }
     if (end - k == 2 && edge.runs_up == edges[k + 1].runs_up) {

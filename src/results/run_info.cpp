@@ -40,7 +40,8 @@ std::string water_line(const Json& summary) {
   std::string line =
       fmt::format("{:.6g} kg{} at the start", number_of(water.at("start"), "mass_kg"), per_metre(summary));
   for (const char* part : {"in", "inside", "outside", "out"}) {
-    line += fmt::format(", {:.6g} {}", number_of(water.at(part), "mass_kg"), part);
+    const std::string_view word = std::string_view(part) == "outside" ? "spilled" : part;
+    line += fmt::format(", {:.6g} {}", number_of(water.at(part), "mass_kg"), word);
   }
   return line;
 }

@@ -371,7 +371,7 @@ class Info(ProgramTest):
         self.assertEqual(json.loads(self.call("info", "run", "--json").stdout), self.summary("run"))
         digest = self.call("info", "run").stdout
         for part in ("Small dam break\nstatus:    done\nwarnings:  none\n", "particles: 50 fluid, 246 wall",
-                     "water:     500 kg per m at the start, 0 in, 500 inside, 0 outside, 0 out"):
+                     "water:     500 kg per m at the start, 0 in, 500 inside, 0 spilled, 0 out"):
             self.assertIn(part, digest)
 
     def test_shows_warnings_and_why_a_run_failed(self):

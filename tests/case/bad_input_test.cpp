@@ -384,8 +384,11 @@ const std::vector<BadInput> table{
          "[[pocket]]\nat = [0, 1]\noverpressure = -1000\n",
      "11:16",
      {"pocket[0].overpressure = -1000", "1000 Pa", "air.pressure", "more than -1000 Pa"}},
-    {"time_as_a_parameter", "parameters.t = 1\n" + required_keys + water, "1:16", {"parameters.t", "not x, y, z, t"}},
-    {"position_as_a_parameter", "parameters.x = 1\n" + required_keys + water, "1:16", {"parameters.x", "not x, y, z"}},
+    {"time_as_a_parameter",
+     "parameters.t = 1\n" + required_keys + water,
+     "1:16",
+     {"parameters.t", "x, y, z, t, dx, g, pi"}},
+    {"position_as_a_parameter", "parameters.x = 1\n" + required_keys + water, "1:16", {"parameters.x", "x, y, z"}},
     // Numbers
     {"range_low",
      "particles.spacing = -0.1\ntime.end = 1\n" + water,
