@@ -1,6 +1,7 @@
 #include "geometry/rim_ends.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/mesh_surface.h"
@@ -32,6 +33,15 @@ bool is_at_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int 
     }
   }
   return false;
+}
+
+/// Whether another wall, other than a plate, lies along an edge of a mesh: the two meet in a corner, whatever its
+/// angle.
+bool goes_on_in_wall(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, int own,
+                     const Lengths& lengths) {
+  return std::ranges::all_of(std::array{0.0, 0.5, 1.0}, [&](double share) {
+    return wall_beside_plate(boundary, Vec<3>(from + share * (to - from)), own).distance <= lengths.gap();
+  });
 }
 
 }  // namespace
@@ -103,7 +113,8 @@ void find_free_edges(const Boundary<3>& boundary, const Lengths& lengths, WallMe
       const Vec<3>& from = triangles.corner(t, e);
       const Vec<3>& to = triangles.corner(t, (e + 1) % 3);
       const Vec<3> out = (to - from).cross(triangles.area_normal(t)).normalized();
-      const bool is_free = end_along(boundary, from, to, out, mesh.wall, lengths) == RimEnd::free;
+      const bool is_free = end_along(boundary, from, to, out, mesh.wall, lengths) == RimEnd::free &&
+                           !goes_on_in_wall(boundary, from, to, mesh.wall, lengths);
       const auto bit = static_cast<std::uint8_t>(1U << e);
       if (is_free) {
         mesh.free_edges.resize(triangles.triangles.size(), 0);

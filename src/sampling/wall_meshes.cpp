@@ -3,10 +3,13 @@
 // part. Kernel sums over the wall are thus integrals over the space behind it, whatever its shape.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "base/error.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
+#include "geometry/some_walls.h"
 #include "geometry/wall_label.h"
 #include "sampling/cut_cells.h"
 #include "sampling/nodes_near.h"
@@ -29,12 +32,36 @@ bool ends_at_plate(const WallMesh& mesh, const SurfacePlace& place) {
   });
 }
 
-bool is_beyond_rim(const WallMesh& mesh, const Vec<3>& x, const SurfacePlace& place) {
-  if (!place.is_on_rim) return false;
-  if (ends_at_plate(mesh, place)) return true;
-  const Vec<3> normal = mesh.surface->mesh().area_normal(place.triangle).normalized();
-  return normal.dot(x - place.point) > min_behind * place.signed_distance;
-}
+/// The space behind a mesh.
+class SpaceBehind {
+ public:
+  SpaceBehind(const Boundary<3>& body, const WallMesh& mesh, double spacing)
+      : body_(body), mesh_(mesh), is_other_(body.walls.size(), 1), gap_(0.5 * spacing) {
+    is_other_[static_cast<std::size_t>(mesh.wall)] = 0;
+  }
+
+  const WallMesh& mesh() const { return mesh_; }
+
+  /// Whether `x`, whose nearest place of the mesh is `place`, is beside the rim and not behind the mesh.
+  bool is_beyond_rim(const Vec<3>& x, const SurfacePlace& place) const {
+    if (!place.is_on_rim) return false;
+    if (ends_at_plate(mesh_, place)) return true;
+    const Vec<3> normal = mesh_.surface->mesh().area_normal(place.triangle).normalized();
+    return normal.dot(x - place.point) > min_behind * place.signed_distance || is_before_another(x, place);
+  }
+
+ private:
+  /// Whether another wall begins at the rim, such as that of a pipe behind a hole, and `x` is in front of it.
+  bool is_before_another(const Vec<3>& x, const SurfacePlace& place) const {
+    const NearestWall<3> other = nearest_among<3>(body_, is_other_, x, (x - place.point).norm() + gap_);
+    return other.face >= 0 && other.signed_distance > 0.0;
+  }
+
+  const Boundary<3>& body_;
+  const WallMesh& mesh_;
+  std::vector<std::uint8_t> is_other_;
+  double gap_;
+};
 
 /// The part of a cell that is behind a surface.
 struct Behind {
@@ -42,12 +69,12 @@ struct Behind {
   Vec<3> offset = Vec<3>::Zero();  ///< m; of its centre from the cell's
 };
 
-Behind part_behind(const WallMesh& mesh, const Vec<3>& centre, const Vec<3>& edge) {
-  const MeshSurface& surface = *mesh.surface;
+Behind part_behind(const SpaceBehind& space, const Vec<3>& centre, const Vec<3>& edge) {
+  const MeshSurface& surface = *space.mesh().surface;
   Behind behind;
   for_each_part<3>(centre, edge, [&](const Vec<3>& x, const Vec<3>& part) {
     const SurfacePlace place = surface.nearest(x, 2.0 * edge.norm());
-    if (place.triangle < 0 || is_beyond_rim(mesh, x, place)) return;
+    if (place.triangle < 0 || space.is_beyond_rim(x, place)) return;
     const bool is_on_surface = std::abs(place.signed_distance) < corner_tolerance * part.norm();
     const Vec<3> n = is_on_surface ? surface.mesh().area_normal(place.triangle).normalized()
                                    : Vec<3>((x - place.point) / place.signed_distance);
@@ -103,15 +130,16 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
   std::vector<Proposal> proposals;
   for (const WallMesh& mesh : body.meshes) {
     const MeshSurface& surface = *mesh.surface;
+    const SpaceBehind space(body, mesh, layers.spacing);
     const auto propose = [&](const Vec<3>& x, const SurfacePlace& place) {
       const std::int64_t number = collector.take_number();
       if (!collector.wants(x)) return;
       Vec<3> edge;
       for (int axis = 0; axis < 3; ++axis) edge[axis] = lattice[axis].width(lattice[axis].cell_at(x[axis]));
       const double half_diagonal = 0.5 * edge.norm();
-      if (place.signed_distance >= half_diagonal || is_beyond_rim(mesh, x, place)) return;
+      if (place.signed_distance >= half_diagonal || space.is_beyond_rim(x, place)) return;
       Behind behind{.share = 1.0};
-      if (place.signed_distance > -half_diagonal) behind = part_behind(mesh, x, edge);
+      if (place.signed_distance > -half_diagonal) behind = part_behind(space, x, edge);
       if (behind.share < min_cell_share) return;
       const SurfacePlace near = surface.nearest(x + behind.offset, layers.count * layers.spacing + edge.norm());
       proposals.push_back({{.position = x,

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "geometry/cases.h"
 #include "geometry/meshes.h"
@@ -193,6 +195,55 @@ TEST(Ducts, OfADiscAreTubes) {
   for (const double x : {1.5, 2.0, 2.3}) {
     EXPECT_GT(boundary.nearest({x, 0.0, 0.4}, 1.0).signed_distance, 0.0) << x;
     EXPECT_LT(boundary.nearest({x, 0.0, 0.6}, 1.0).signed_distance, 0.0) << x;
+  }
+}
+
+/// The upright plane x = 1 around a square hole of 6 dx, its front towards -x.
+TriangleMesh dam_with_hole() {
+  TriangleMesh mesh;
+  const std::array<double, 4> cuts{-0.4, 0.2, 0.8, 1.4};
+  for (const double z : cuts) {
+    for (const double y : cuts) mesh.points.emplace_back(1.0, y, z);
+  }
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      if (i != 1 || j != 1) add_quad(mesh, 4 * j + i, 4 * (j + 1) + i, 4 * (j + 1) + i + 1, 4 * j + i + 1);
+    }
+  }
+  return mesh;
+}
+
+/// The four walls of a square pipe behind that hole, their fronts inside.
+TriangleMesh square_pipe() {
+  TriangleMesh mesh;
+  for (const double x : {1.0, 1.5}) {
+    for (const auto& [y, z] : {std::pair(0.2, 0.2), std::pair(0.8, 0.2), std::pair(0.8, 0.8), std::pair(0.2, 0.8)}) {
+      mesh.points.emplace_back(x, y, z);
+    }
+  }
+  for (int k = 0; k < 4; ++k) add_quad(mesh, k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4);
+  return mesh;
+}
+
+/// Behind the rim of a hole in a mesh begins another wall, that of a duct or a pipe, and in front of it is water.
+TEST(Ducts, OfAHoleInAMeshHaveNoWallInside) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {folder.wall(dam_with_hole(), FluidSide::front)};
+  CaseSpec with_pipe = spec;
+  spec.outlets = {outlet({1.0, 0.2, 0.2}, {1.0, 0.8, 0.8})};
+  spec.outlets[0].level = 1.0;
+  with_pipe.walls.push_back(folder.wall(square_pipe(), FluidSide::front));
+  with_pipe.walls.back().name = "pipe";
+  for (const CaseSpec& one : {spec, with_pipe}) {
+    const WallParticles<3> dummies = make_dummy_particles<3>(with_ducts<3>(one), 0.1, 3);
+    double volume = 0.0;
+    for (std::size_t i = 0; i < dummies.size(); ++i) {
+      const Vec<3>& x = dummies.position[i];
+      const bool is_inside = x[0] > 1.0 && x[0] < 1.4 && x[1] > 0.2 && x[1] < 0.8 && x[2] > 0.2 && x[2] < 0.8;
+      if (is_inside) volume += dummies.share[i];
+    }
+    EXPECT_NEAR(volume, 0.0, 1e-9) << one.outlets.size();
   }
 }
 
