@@ -50,7 +50,9 @@ ConnectedWater follow(const CellSpace<Dim>& space, std::size_t first, const Vec<
       }
       const auto beside = space.next(c, axis, step);
       if (!beside || !is_wet[space.index(*beside)]) {
-        water.surface = std::max(water.surface, height);
+        // A single dry cell before a wall is the rest of one that the wall cuts.
+        const bool is_cut = beside && space.face_beside(*beside, axis, step) >= 0;
+        if (!is_cut) water.surface = std::max(water.surface, height);
       } else if (!is_known[space.index(*beside)]) {
         is_known[space.index(*beside)] = true;
         found.push_back(space.index(*beside));

@@ -76,6 +76,7 @@ class PathWalk {
         faces_of_(drawn.walls.size()),
         boxes_(drawn.walls.size()) {
     for (const int wall : moving) movers_.push_back(make_mover(spec, drawn, wall));
+    for (const WallTable& wall : spec.walls) floats_.push_back(wall.drive.by == Drive::By::body);
     for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
       faces_of_[faces_[f].wall].push_back(f);
       boxes_[faces_[f].wall].extend(faces_[f].box());
@@ -197,6 +198,7 @@ class PathWalk {
       const int wall = mover.wall;
       for (int other = 0; other < static_cast<int>(boxes_.size()); ++other) {
         if (drawn_.walls[wall].body == drawn_.walls[other].body) continue;
+        if (time > 0.0 && (floats_[wall] || floats_[other])) continue;  // a floating body gives way
         if (boxes_[other].isEmpty() || boxes_[wall].exteriorDistance(boxes_[other]) > dx_) continue;
         if (!collided_.contains(std::minmax(wall, other))) look_for_collision(wall, other, time);
       }
@@ -263,6 +265,7 @@ class PathWalk {
   std::vector<WallFace<Dim>> faces_;         ///< at the last check
   std::vector<WallFace<Dim>> faces_before_;  ///< at the check before it
   std::vector<std::vector<int>> faces_of_;   ///< by wall
+  std::vector<bool> floats_;                 ///< by wall; whether it is of a floating body
   std::vector<Box<Dim>> boxes_;              ///< around each wall at the last check
   std::set<std::pair<int, int>> collided_;   ///< walls whose collision is reported
   std::optional<RoomForWater<Dim>> room_;    ///< none if the space is unknown

@@ -123,6 +123,46 @@ Findings check_level(const CaseSpec& spec, const DampingTable& zone, const Fluid
                          {"set level to the height of the surface, or change the water"})};
 }
 
+/// Warns of a zone that damps most on its side towards the water, and of one that leaves out water near the surface.
+template <int Dim>
+Findings check_place(const CaseSpec& spec, const DampingTable& zone, const FluidParticles<Dim>& fluid) {
+  const CaseLabel owner("damping", zone.name);
+  const auto axis = static_cast<int>(zone.towards) / 2;
+  const bool is_upwards = static_cast<int>(zone.towards) % 2 == 1;
+  const Box<Dim> water = fluid.box();
+  if (water.isEmpty() || axis >= Dim || !periodic_range(spec.domain, axis).empty()) return {};
+  Findings findings;
+  const double higher = std::max(water.max()[axis] - zone.max[axis], 0.0);
+  const double lower = std::max(zone.min[axis] - water.min()[axis], 0.0);
+  if (is_upwards ? higher > lower : lower > higher) {
+    findings.push_back(Finding::warning(
+        "damping-turned-to-water",
+        {"{} damps most at its {}{} side, and most of the water is on that side: its waves meet the full damping at "
+         "once and are reflected",
+         owner, is_upwards ? '+' : '-', "xyz"[axis]},
+        {"give towards = \"{}{}\"", is_upwards ? '-' : '+', "xyz"[axis]}));
+  }
+  if (axis == Dim - 1 || gravity_of<Dim>(spec)[Dim - 1] >= 0.0) return findings;
+  const auto is_in_plan = [&](const Vec<Dim>& x) {
+    for (int d = 0; d < Dim - 1; ++d) {
+      if (x[d] < zone.min[d] || x[d] > zone.max[d]) return false;
+    }
+    return true;
+  };
+  double above = std::numeric_limits<double>::lowest();  // m; of the water in plan, above the zone
+  for (const Vec<Dim>& x : fluid.position) {
+    if (is_in_plan(x)) above = std::max(above, x[Dim - 1] - zone.max.back());
+  }
+  above = fluid.ranks.largest(above);
+  if (above > spec.particles.spacing) {
+    findings.push_back(Finding::warning(
+        "damping-below-surface",
+        {"{} ends {:.3g} below the surface, and waves move the water most there", owner, Amount{above, "m"}},
+        {"let `max` reach above the crests"}));
+  }
+  return findings;
+}
+
 /// Warns of a zone that brakes the flow from an inlet to an outlet.
 template <int Dim>
 Findings check_current(const CaseSpec& spec, const DampingTable& zone) {
@@ -178,6 +218,7 @@ Findings check_wave_zones(const CaseSpec& spec, const FluidParticles<Dim>& fluid
     const CaseLabel owner("damping", zone.name);
     append(findings, check_height(zone, owner, spec.particles.spacing));
     append(findings, check_focus(zone, owner, zone.depth, gravity));
+    append(findings, check_place(spec, zone, fluid));
     append(findings, check_current<Dim>(spec, zone));
     if (zone.waves != WaveKind::none) append(findings, check_level(spec, zone, fluid));
     const WaveZone<Dim> made(spec, zone);  // throws where the waves break

@@ -684,6 +684,13 @@ CaseSpec tank_with_boat() {
   return spec;
 }
 
+TEST(CheckMotion, ATankMayCarryAFloatingBody) {
+  CaseSpec spec = tank_with_boat();
+  spec.time.end = 2.0;
+  spec.walls[0].displacement = {"t", 0.0};
+  for (const Finding& finding : check(spec)) EXPECT_EQ(finding.message().find("comes closer"), std::string::npos);
+}
+
 TEST(Check, WhatIsFasterThanWaterCanBeIsRefused) {
   CaseSpec spec = tank_with_boat();
   spec.bodies[0].velocity = {0.0, 200.0};
@@ -859,6 +866,21 @@ TEST(Check, ADampingZoneWhereNoWaterComesIsRefused) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec.damping[0].min[0] = 1.1;
   expect_only(check(spec), Severity::error, {"damping from (1.1, 0) to (1.5, 1) is outside of the case"});
+}
+
+TEST(Check, AZoneThatIsTurnedOrTooLowIsReported) {
+  CaseSpec spec = tank();  // 1 m x 0.6 m
+  DampingTable zone;
+  zone.min = {0.6, 0.0};
+  zone.max = {1.0, 1.0};
+  zone.strength = 1.0;
+  spec.damping = {zone};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.damping[0].towards = AxisDirection::minus_x;
+  expect_only(check(spec), Severity::warning, {"damping damps most at its -x side", "towards = \"+x\""});
+  spec.damping[0] = zone;
+  spec.damping[0].max[1] = 0.1;
+  expect_only(check(spec), Severity::warning, {"damping ends 0.", "below the surface"});
 }
 
 TEST(Check, AZoneThatReflectsIsReported) {
