@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "air/contact_lines.h"
 #include "air/pocket_pressure.h"
 #include "air/space_of_run.h"
 #include "base/finding.h"
@@ -233,8 +234,14 @@ void EnclosedAir<Dim>::subtract_pressure(std::span<double> pressure) const {
 }
 
 template <int Dim>
+void EnclosedAir<Dim>::stay(Flow<Dim>& flow) {
+  remove_push_along_walls(flow, step);
+}
+
+template <int Dim>
 void EnclosedAir<Dim>::correct(Flow<Dim>& flow, double dt) {
   push_by_pockets(flow, *this, dt);
+  remove_push_along_walls(flow, step);
   state.brought = brought_by_ends(flow);
   count_displacement(flow, dt);
 }

@@ -56,6 +56,7 @@ class EnclosedAir final : public Part<Dim> {
   void finish_solve(Flow<Dim>& flow, double dt) override;
   bool add_pressure(std::span<double> pressure) const override;
   void subtract_pressure(std::span<double> pressure) const override;
+  void stay(Flow<Dim>& flow) override;
   void correct(Flow<Dim>& flow, double dt) override;
   void subtract_from_walls(const Flow<Dim>& flow, std::vector<double>& pressure) const override;
   void add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt, Works& works) const override;

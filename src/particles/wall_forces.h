@@ -19,6 +19,9 @@ struct ForceBesideWall {
   Vec<Dim == 2 ? 1 : 3> moment;  ///< N m; about the centre
 };
 
+/// Fraction of a pair's force that acts through its fluid particle; along the normal of a wall in a narrow gap it is 0.
+inline constexpr double share_of_water = 0.5;
+
 /// Forces between water and walls, one entry per owned particle. Entry of a wall particle: the force of its pairs with
 /// fluid particles, without the part of the pressure that acts through the fluid particles. Entry of a fluid particle:
 /// that part for its own pairs, and the reaction of the last guard that kept it in front of a wall. The sum of all

@@ -10,9 +10,6 @@
 namespace tailwater {
 namespace {
 
-/// Fraction of a pair's force that acts through its fluid particle; along the normal of a wall in a narrow gap it is 0.
-constexpr double share_of_water = 0.5;
-
 /// The normal of each wall particle's wall in a narrow gap, ghosts included; 0 elsewhere, at fluid and at dry walls.
 template <int Dim>
 std::vector<Vec<Dim>> normals_in_gaps(const Flow<Dim>& flow) {
