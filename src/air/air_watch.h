@@ -78,6 +78,9 @@ struct PocketStep {
   std::vector<double> flow_before;      ///< m^Dim/s; growth of each by the velocity at the start of the step
   std::vector<double> inflow;           ///< m^Dim/s; growth of each by the water of open ends
   std::vector<double> inflow_of_pairs;  ///< m^Dim/s; the part of inflow by pairs of that water and other water
+  /// m^Dim/s; growth of each by the velocity of a tank that moves as a whole, for water and walls. The surface of a
+  /// pocket is closed only up to an error of the order of dx, and this growth is that error. Empty without such a tank.
+  std::vector<double> unclosed;
   /// Pa, of owned particles: absolute difference between the pressure that the air alone makes there and that of the
   /// air beside them, at the start of the step.
   std::vector<double> response_deficit;

@@ -29,6 +29,19 @@ std::vector<double> growth(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, V
   return growth;
 }
 
+/// The growth of each pocket if water and walls have the common velocity of the walls. Collective.
+template <int Dim>
+std::vector<double> find_unclosed(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, const PocketStep<Dim>& step,
+                                  double dt) {
+  const AffineMap<Dim> common = common_velocity(flow, dt);
+  if (common.linear.norm() + common.constant.norm() == 0.0) return {};
+  std::vector<double> unclosed =
+      growth(flow, air, [&](std::size_t i) { return common(flow.state.particles.position[i]); });
+  const std::vector<double> by_walls = growth_of_all_walls(flow, step, common, unclosed.size());
+  for (std::size_t k = 0; k < unclosed.size(); ++k) unclosed[k] += by_walls[k];
+  return unclosed;
+}
+
 /// The water beside pockets.
 template <int Dim>
 std::vector<PocketSide<Dim>> find_sides(const Flow<Dim>& flow, const EnclosedAir<Dim>& air) {
@@ -164,6 +177,7 @@ PocketStep<Dim> pose_pockets(Flow<Dim>& flow, EnclosedAir<Dim>& air, std::span<c
   }
   std::ranges::copy(sources, flow.equation->rows.rhs().begin());
   if (walls_move) step.wall_pair_forces = find_wall_pair_forces<Dim>(flow, air, step.air_fractions);
+  step.unclosed = find_unclosed(flow, air, step, dt);
   step.response_deficit = find_response_deficit<Dim>(flow, air, step.water);
   step.answers = find_answers(flow, air, dt);
   const Vec<Dim> gravity =

@@ -54,6 +54,16 @@ template <int Dim>
 std::vector<PocketPairs<Dim>> find_wall_pair_forces(const Flow<Dim>& flow, const EnclosedAir<Dim>& air,
                                                     std::span<const std::pair<std::size_t, PocketShare>> air_fractions);
 
+/// m/s; the velocity, halfway through a step of dt, of all walls of a case that moves as one: a tank with its
+/// partitions. 0 if walls rest or move differently.
+template <int Dim>
+AffineMap<Dim> common_velocity(const Flow<Dim>& flow, double dt);
+
+/// m^Dim/s; growth of each of the pockets by walls that all have this velocity.
+template <int Dim>
+std::vector<double> growth_of_all_walls(const Flow<Dim>& flow, const PocketStep<Dim>& step,
+                                        const AffineMap<Dim>& velocity, std::size_t pockets);
+
 /// m^Dim/s; growth of each pocket in a step of dt from now on by moving walls, through the direct force of the air on
 /// them. Driven walls count by their displacement, bodies by the mean of their velocities at both ends of the step.
 template <int Dim>

@@ -1,6 +1,9 @@
 // Walls that move beside pockets. The volume that a wall leaves to a pocket is computed from the force of the pocket on
 // the wall. The first part of the force is that of the air itself, on the pieces of the faces according to their
 // fractions. The second is that of the pairs of water and wall, in which the pressure is relative to that of the air.
+#include <algorithm>
+#include <optional>
+
 #include "air/pocket_pressure.h"
 #include "base/for_each.h"
 #include "motion/wall_motion.h"
@@ -82,7 +85,9 @@ std::vector<PocketPairs<Dim>> find_wall_pair_forces(
   return all;
 }
 
-/// Calls visit(wall, velocity) for each wall that moves, with its velocity [m/s] as a function of the place, halfway
+namespace {
+
+/// Calls visit(moving, velocity) for each wall that moves, with its velocity [m/s] as a function of the place, halfway
 /// through the step. A turning wall then has a velocity without divergence, so a closed surface leaves no volume.
 template <int Dim, class Visit>
 void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
@@ -96,20 +101,72 @@ void visit_moving(const Flow<Dim>& flow, double dt, Visit&& visit) {
     const Mat<Dim> forward = drawn.linear * now.linear.transpose();  // by the present place
     const Vec<Dim> constant = drawn.constant - forward * now.constant;
     const Mat<Dim> linear = forward * (Mat<Dim>::Identity() + 0.5 * dt * forward).inverse();
-    visit(moving.wall, AffineMap<Dim>{linear, constant - 0.5 * dt * linear * constant});
+    visit(moving, AffineMap<Dim>{linear, constant - 0.5 * dt * linear * constant});
   }
+}
+
+template <int Dim>
+bool are_equal(const AffineMap<Dim>& a, const AffineMap<Dim>& b) {
+  constexpr double rounding = 1e-9;
+  return (a.constant - b.constant).norm() <= rounding * a.constant.norm() &&
+         (a.linear - b.linear).norm() <= rounding * a.linear.norm();
+}
+
+/// m^(Dim-1) times m/s; growth of each pocket by the direct force of the air on a wall with this velocity.
+template <int Dim>
+void add_growth_at_wall(const PocketStep<Dim>& step, int wall, const AffineMap<Dim>& velocity,
+                        std::vector<double>& growth) {
+  for (const PocketWall<Dim>& piece : step.walls) {
+    if (piece.wall != wall) continue;
+    const double flux = piece.area.dot(velocity(piece.x)) + piece.couple.dot(angular_velocity_of<Dim>(velocity));
+    for (const PocketShare& share : piece.shares) growth[share.pocket] += share.share * flux;
+  }
+}
+
+/// Growth of each pocket by the pairs of water and a wall with this velocity.
+template <int Dim>
+void add_growth_by_pairs(const PocketStep<Dim>& step, int wall, const AffineMap<Dim>& velocity,
+                         std::vector<double>& growth) {
+  for (const PocketPairs<Dim>& pairs : step.wall_pair_forces) {
+    if (pairs.wall == wall) growth[pairs.pocket] += pairs.growth(velocity);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+AffineMap<Dim> common_velocity(const Flow<Dim>& flow, double dt) {
+  const AffineMap<Dim> none{Mat<Dim>::Zero(), Vec<Dim>::Zero()};
+  const auto rests = [](const WallProperties& wall) { return !wall.moves(); };
+  if (std::ranges::any_of(flow.walls.boundary.walls, rests)) return none;
+  std::optional<AffineMap<Dim>> common;
+  bool is_common = true;
+  visit_moving(flow, dt, [&](const auto& moving, const AffineMap<Dim>& velocity) {
+    if (moving.body >= 0) return;
+    if (!common) common = velocity;
+    is_common = is_common && are_equal(*common, velocity);
+  });
+  return common && is_common ? *common : none;
+}
+
+template <int Dim>
+std::vector<double> growth_of_all_walls(const Flow<Dim>& flow, const PocketStep<Dim>& step,
+                                        const AffineMap<Dim>& velocity, std::size_t pockets) {
+  std::vector<double> growth(pockets, 0.0);
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
+    add_growth_at_wall(step, moving.wall, velocity, growth);
+    add_growth_by_pairs(step, moving.wall, velocity, growth);
+  }
+  return growth;
 }
 
 template <int Dim>
 std::vector<double> growth_at_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
   std::vector<double> growth(air.state.pockets.size(), 0.0);
-  visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
-    for (const PocketWall<Dim>& piece : air.step.walls) {
-      if (piece.wall != wall) continue;
-      const double flux = piece.area.dot(velocity(piece.x)) + piece.couple.dot(angular_velocity_of<Dim>(velocity));
-      for (const PocketShare& share : piece.shares) growth[share.pocket] += share.share * flux;
-    }
+  visit_moving(flow, dt, [&](const auto& moving, const AffineMap<Dim>& velocity) {
+    add_growth_at_wall(air.step, moving.wall, velocity, growth);
   });
+  for (std::size_t k = 0; k < air.step.unclosed.size(); ++k) growth[k] -= air.step.unclosed[k];
   return growth;
 }
 
@@ -183,10 +240,8 @@ template <int Dim>
 std::vector<double> growth_by_walls(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
   std::vector<double> growth = growth_at_walls(flow, air, dt);
   for (std::size_t k = 0; k < growth.size(); ++k) growth[k] += air.step.inflow[k];
-  visit_moving(flow, dt, [&](int wall, const AffineMap<Dim>& velocity) {
-    for (const PocketPairs<Dim>& pairs : air.step.wall_pair_forces) {
-      if (pairs.wall == wall) growth[pairs.pocket] += pairs.growth(velocity);
-    }
+  visit_moving(flow, dt, [&](const auto& moving, const AffineMap<Dim>& velocity) {
+    add_growth_by_pairs(air.step, moving.wall, velocity, growth);
   });
   return growth;
 }
@@ -199,6 +254,8 @@ void subtract_seen_air(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, std::
 
 TAILWATER_IN_2D_AND_3D(pressure_at);
 TAILWATER_IN_2D_AND_3D(find_wall_pair_forces);
+TAILWATER_IN_2D_AND_3D(common_velocity);
+TAILWATER_IN_2D_AND_3D(growth_of_all_walls);
 TAILWATER_IN_2D_AND_3D(growth_at_walls);
 TAILWATER_IN_2D_AND_3D(brought_by_ends);
 TAILWATER_IN_2D_AND_3D(find_inflow);

@@ -9,6 +9,7 @@
 #include "flow/measure.h"
 #include "flow/stages.h"
 #include "schemes/cases.h"
+#include "schemes/force_reader.h"
 #include "schemes/open_ends.h"
 #include "support/dimensions.h"
 
@@ -75,6 +76,48 @@ TYPED_TEST(SealedAir, HasTheVolumeThatInflowLeaves) {
     EXPECT_NEAR(air_of(flow).measures().pressure, atmosphere * (gas / left - 1.0), 0.003 * atmosphere);
   }
   EXPECT_NEAR(gas_of(flow), gas, 1e-12 * gas);
+}
+
+/// The closed tank in 2D with air at this pressure [Pa] above the atmosphere's.
+CaseSpec tank_under_pressure(double pressure) {
+  CaseSpec spec = closed_tank<2>(0.025, AirPockets::isothermal);
+  PocketTable pocket;
+  pocket.at = {0.1, 0.4};
+  pocket.overpressure = pressure;
+  spec.pockets = {pocket};
+  return spec;
+}
+
+// The air presses on all walls, and the water adds its weight: the whole force is that weight.
+TEST(SealedAir, PressesOnWallsAlongTheirNormalsOnly) {
+  CaseSpec spec = tank_under_pressure(50000.0);
+  spec.probes = {force_probe({0.0, 0.0})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  double dt = 0.0;
+  for (int n = 0; n < 3; ++n) dt = step(flow).dt;
+  const double weight = 1000.0 * g * 0.5 * 0.1;
+  EXPECT_NEAR(Reader<2>(spec, flow).force(dt)[1], -weight, 0.1 * weight);  // 1.3 with the force along the walls
+}
+
+// A tank with a plate between two pockets moves as a whole, and its water with it: no gas passes the plate.
+TEST(SealedAir, StaysInItsPocketInATankThatMoves) {
+  CaseSpec spec = tank_under_pressure(0.0);
+  spec.fluid[0].max[1] = 0.3;
+  spec.fluid[0].velocity = {1.0, 0.0};
+  spec.time.end = 0.3;
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.points = {{0.25, 0.5}, {0.25, 0.1}};
+  spec.walls.push_back(plate);
+  for (WallTable& wall : spec.walls) wall.displacement = {"t", 0.0};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 2U);
+  const double gas = air_of(flow).state.pockets[0].gas;
+  while (flow.state.time < 0.3) step(flow);
+  ASSERT_EQ(air_of(flow).state.pockets.size(), 2U);
+  EXPECT_NEAR(air_of(flow).state.pockets[0].gas, gas, 0.01 * gas);
 }
 
 /// A lid between side walls that go on above it.
