@@ -125,7 +125,7 @@ Findings check_level(const CaseSpec& spec, const DampingTable& zone, const Fluid
 
 /// Warns of a zone that damps most on its side towards the water, and of one that leaves out water near the surface.
 template <int Dim>
-Findings check_place(const CaseSpec& spec, const DampingTable& zone, const FluidParticles<Dim>& fluid) {
+Findings check_side_and_top(const CaseSpec& spec, const DampingTable& zone, const FluidParticles<Dim>& fluid) {
   const CaseLabel owner("damping", zone.name);
   const auto axis = static_cast<int>(zone.towards) / 2;
   const bool is_upwards = static_cast<int>(zone.towards) % 2 == 1;
@@ -218,7 +218,7 @@ Findings check_wave_zones(const CaseSpec& spec, const FluidParticles<Dim>& fluid
     const CaseLabel owner("damping", zone.name);
     append(findings, check_height(zone, owner, spec.particles.spacing));
     append(findings, check_focus(zone, owner, zone.depth, gravity));
-    append(findings, check_place(spec, zone, fluid));
+    append(findings, check_side_and_top(spec, zone, fluid));
     append(findings, check_current<Dim>(spec, zone));
     if (zone.waves != WaveKind::none) append(findings, check_level(spec, zone, fluid));
     const WaveZone<Dim> made(spec, zone);  // throws where the waves break

@@ -15,8 +15,8 @@ constexpr double min_reduced_gravity = 1e-3;
 }  // namespace
 
 template <int Dim>
-double find_fullness(const Flow<Dim>& flow) {
-  if (!flow.setup.has_air() || flow.is_open()) return 0.0;
+double find_fullness_between_openings(const Flow<Dim>& flow) {
+  if (!flow.setup.has_air()) return 0.0;
   const Vec<2> nothing = Vec<2>::Zero();
   Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
     const double weight = flow.setup.weight_in_statistics(flow.state.particles.volume[i]);
@@ -27,19 +27,33 @@ double find_fullness(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
+double find_fullness(const Flow<Dim>& flow) {
+  return flow.is_open() ? 0.0 : find_fullness_between_openings(flow);
+}
+
+template <int Dim>
+bool may_be_balanced(const Flow<Dim>& flow) {
+  return flow.setup.liquids.are_several() || flow.is_open();
+}
+
+template <int Dim>
 double balanced_density(const Flow<Dim>& flow) {
+  if (!may_be_balanced(flow)) return 0.0;
   const ParticleLiquids& liquids = flow.setup.liquids;
-  return liquids.are_several() ? flow.state.last_step.fullness * *std::ranges::min_element(liquids.density) : 0.0;
+  const double lightest =
+      liquids.are_several() ? *std::ranges::min_element(liquids.density) : flow.setup.liquid.density;
+  return flow.state.last_step.fullness * lightest;
 }
 
 template <int Dim>
 TimeStepRule time_step_rule(const Flow<Dim>& flow) {
   TimeStepRule rule = flow.setup.time_step_rule;
-  const ParticleLiquids& liquids = flow.setup.liquids;
-  if (!liquids.are_several()) return rule;
   const double balanced = balanced_density(flow);
   if (balanced == 0.0) return rule;
-  const double reduced = *std::ranges::max_element(liquids.density) / balanced - 1.0;
+  const ParticleLiquids& liquids = flow.setup.liquids;
+  const double heaviest =
+      liquids.are_several() ? *std::ranges::max_element(liquids.density) : flow.setup.liquid.density;
+  const double reduced = heaviest / balanced - 1.0;
   rule.reference_speed *= std::sqrt(std::clamp(reduced, min_reduced_gravity, 1.0));
   return rule;
 }
@@ -64,6 +78,20 @@ std::vector<double> without_balanced_pressure(const Flow<Dim>& flow, double dens
   return rest;
 }
 
+template <int Dim>
+std::vector<double> balanced_pressure(const Flow<Dim>& flow) {
+  const double density = flow.is_open() ? balanced_density(flow) : 0.0;
+  if (density == 0.0) return {};
+  const std::vector<double>& pressure = flow.state.particles.pressure;
+  const std::vector<double> rest = without_balanced_pressure(flow, density, pressure);
+  std::vector<double> balanced(flow.state.particles.owned);
+  for_each(balanced.size(), [&](std::size_t i) { balanced[i] = pressure[i] - rest[i]; });
+  return balanced;
+}
+
+TAILWATER_IN_2D_AND_3D(find_fullness_between_openings);
+TAILWATER_IN_2D_AND_3D(may_be_balanced);
+TAILWATER_IN_2D_AND_3D(balanced_pressure);
 TAILWATER_IN_2D_AND_3D(find_fullness);
 TAILWATER_IN_2D_AND_3D(balanced_density);
 TAILWATER_IN_2D_AND_3D(time_step_rule);

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "base/for_each.h"
+#include "flow/buoyancy.h"
 #include "flow/pressure_equation.h"
 #include "pressure/full_water.h"
 #include "pressure/stages.h"
@@ -20,6 +21,19 @@ std::vector<double> target_divergence(const Flow<Dim>& flow, std::vector<Mat<Dim
   return target;
 }
 
+/// The terms that close rows draw the pressure towards 0. In a conduit they draw it towards the balanced one instead:
+/// its level moves nothing.
+template <int Dim>
+void add_closing_of_balanced_pressure(const Flow<Dim>& flow, std::vector<double>& source) {
+  const std::vector<double> balanced = balanced_pressure(flow);
+  if (balanced.empty() || flow.surroundings.interfaces.are_any()) return;
+  const std::vector<std::size_t> water =
+      indices_where(balanced.size(), [&](std::size_t i) { return flow.role[i] == Role::water; });
+  std::vector<double> weight(water.size());
+  flow.discretisation().find_air_weights(flow, water, weight);
+  for_each(water.size(), [&](std::size_t n) { source[water[n]] += weight[n] * balanced[water[n]]; });
+}
+
 template <int Dim>
 PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::span<const double> target,
                        const WallDrive<Dim>& drive, double dt) {
@@ -31,6 +45,7 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
   take_out_mean(flow, equation.fullness, source.density);
   equation.density_source = std::move(source.density);
   equation.fallback_rows = assemble_weights(flow, drive);
+  add_closing_of_balanced_pressure(flow, source.rows);
   const std::vector<double>& beside = equation.density_source;
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (!is_solved_for(flow.role[i])) return;

@@ -21,9 +21,12 @@ void find_gradient_beside(const Flow<Dim>& flow, double balanced, const std::vec
   const Vec<Dim> across = flow.setup.gravity_across();
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    gradient[i] = gradient_over_density<Dim>(flow.pairs(), i, flow.state.particles.volume, interfaces,
-                                             flow.surroundings.pair_vectors, rest) +
-                  balanced / interfaces.density[i] * across;
+    const std::vector<double>& volume = flow.state.particles.volume;
+    const PairVectorField<Dim>& vectors = flow.surroundings.pair_vectors;
+    gradient[i] = interfaces.are_any()
+                      ? gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, vectors, rest) +
+                            balanced / interfaces.density[i] * across
+                      : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, rest) + balanced * across;
   });
 }
 

@@ -43,7 +43,7 @@ void start(Flow<Dim>& flow) {
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
   flow.state.last_step.approach = largest_approach(flow);
-  if (flow.setup.liquids.are_several()) flow.state.last_step.fullness = find_fullness(flow);
+  if (may_be_balanced(flow)) flow.state.last_step.fullness = find_fullness_between_openings(flow);
   if (flow.walls.forces.are_requested) flow.walls.forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   flow.setup.formulation.find_first_pressure(flow, start, dt);
