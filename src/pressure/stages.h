@@ -36,8 +36,8 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 template <int Dim>
 PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<Dim>& drive);
 
-/// Updates walls and ghosts after a change of the water's pressure. `allowed` is the tension [Pa] that particles keep
-/// in full (tension.h).
+/// Updates walls and ghosts after a change of the water's pressure, and sets the walls' `acceleration`. `allowed` is
+/// the tension [Pa] that particles keep in full (tension.h).
 template <int Dim>
 void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive, const std::vector<double>& allowed);
 
