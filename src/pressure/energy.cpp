@@ -1,6 +1,8 @@
 // The balance of the energy, and the resulting fraction of the density source.
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
@@ -55,10 +57,12 @@ double density_work(const Flow<Dim>& flow, const PosedEquation& equation, double
 }
 
 /// Work [J] of the pressure of moving walls on this rank's water. The force changes the velocity of the water from that
-/// of the last step to that of this one, so its work has the mean of both; the velocity of this step alone would bring
-/// half of m a dt more in each step to water that follows the accelerations of its walls.
+/// of the last step, when walls had the velocities `from`, to that of this one, so its work has the mean of both; the
+/// velocity of this step alone would bring half of m a dt more in each step to water that follows the accelerations of
+/// its walls.
 template <int Dim>
-double wall_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const std::vector<double>& pressure, double dt) {
+double wall_work(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, const std::vector<double>& pressure,
+                 double dt) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<std::size_t> walls = indices_where(
       particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.surroundings.is_wet[i]; });
@@ -66,7 +70,7 @@ double wall_work(const Flow<Dim>& flow, const StepStart<Dim>& start, const std::
   return sum_over(walls.size(), 0.0, [&](std::size_t n) {
     const std::size_t i = walls[n];
     const std::int32_t row = particles.wall_row[i];
-    const Vec<Dim> before = entry_of<Dim>(start.wall_velocity, row);
+    const Vec<Dim> before = entry_of<Dim>(from, row);
     const Vec<Dim> mean = 0.5 * (before + entry_of<Dim>(flow.state.wall_velocity, row));
     return dt * particles.volume[i] * pushes[n].dot(mean);
   });
@@ -87,13 +91,13 @@ double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
 }  // namespace
 
 template <int Dim>
-Works work_of_boundaries(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
+Works work_of_boundaries(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, double dt) {
   Works works;
   std::vector<double> on_walls;
   if (!flow.setup.wall_motion->moving().empty()) {
     on_walls = flow.state.particles.pressure;
     for (const auto& part : flow.parts) part->subtract_from_walls(flow, on_walls);
-    works.walls = wall_work(flow, start, on_walls, dt);
+    works.walls = wall_work(flow, from, on_walls, dt);
   }
   for (const auto& part : flow.parts) part->add_work(flow, on_walls, dt, works);
   return works;
@@ -102,7 +106,7 @@ Works work_of_boundaries(const Flow<Dim>& flow, const StepStart<Dim>& start, dou
 template <int Dim>
 Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Prediction<Dim>& predicted,
                    const PosedEquation& equation, double dt) {
-  Works works = work_of_boundaries(flow, start, dt);
+  Works works = work_of_boundaries<Dim>(flow, start.wall_velocity, dt);
   works.density = density_work(flow, equation, dt);
   works.viscous += viscous_work(flow, start, predicted, dt);
   return works;

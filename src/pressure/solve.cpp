@@ -63,6 +63,7 @@ std::vector<double> limit_tension(Flow<Dim>& flow, const std::vector<double>& al
 template <int Dim>
 void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive, const std::vector<double>& allowed) {
   std::vector<double>& pressure = flow.state.particles.pressure;
+  flow.walls.acceleration = drive.acceleration;
   flow.halo().exchange(pressure);
   if (!flow.setup.has_air()) return;
   TAILWATER_ASSERT(allowed.empty() || allowed.size() == pressure.size(), "each present particle has its tension");

@@ -3,6 +3,7 @@
 // positions of the particles.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "flow/stages.h"
@@ -36,8 +37,8 @@ PosedEquation assemble(Flow<Dim>& flow, const Prediction<Dim>& predicted, std::s
 template <int Dim>
 PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<Dim>& drive);
 
-/// Updates walls and ghosts after a change of the water's pressure. `allowed` is the tension [Pa] that particles keep
-/// in full (tension.h).
+/// Updates walls and ghosts after a change of the water's pressure, and sets the walls' `acceleration`. `allowed` is
+/// the tension [Pa] that particles keep in full (tension.h).
 template <int Dim>
 void finish_pressure(Flow<Dim>& flow, const WallDrive<Dim>& drive, const std::vector<double>& allowed);
 
@@ -70,9 +71,10 @@ Works work_of_step(const Flow<Dim>& flow, const StepStart<Dim>& start, const Pre
                    const PosedEquation& equation, double dt);
 
 /// Works [J] on this rank's water, in a step of dt, of the pressure of moving walls and of the parts; the others are 0.
-/// Needs the pressure of this step and the velocity of walls after `correct`.
+/// Needs the pressure of this step and the velocity of walls after `correct`. `from` is the velocity [m/s] of each row
+/// of moving walls before the step, with its direction at the present place of the row.
 template <int Dim>
-Works work_of_boundaries(const Flow<Dim>& flow, const StepStart<Dim>& start, double dt);
+Works work_of_boundaries(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, double dt);
 
 /// Sums the works of all ranks in `report`, balances the energy of the step, and sets the fraction of the density
 /// source for the next step. Lifting water whose particles had come too close needs energy that the scheme must have

@@ -22,6 +22,7 @@
 #include "particles/liquids.h"
 #include "particles/particles.h"
 #include "particles/wall_forces.h"
+#include "particles/wall_inertia.h"
 #include "refinement/spacing_field.h"
 
 namespace tailwater {
@@ -67,7 +68,9 @@ struct ProbeContext {
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe needs them
-  std::span<const BodyState<Dim>> bodies = {};   ///< floating bodies
+  /// In this step; null where no wall moves or is curved. The same on all ranks.
+  const WallInertia<Dim>* wall_inertia = nullptr;
+  std::span<const BodyState<Dim>> bodies = {};  ///< floating bodies
   /// Pa; pressure of the air at a place, above the atmosphere's. The same on all ranks; empty without pockets.
   std::function<double(const Vec<Dim>&)> air_pressure = {};
   /// Where particles are finer than `spacing`; null: nowhere.

@@ -20,6 +20,8 @@ struct Sample {
   double volume;
   ParticleKind kind;
   std::int32_t plate;
+  std::array<double, Dim * Dim> blocked;
+  std::array<double, Dim> acceleration;
 
   /// Copies of a particle on several ranks have equal keys; periodic images differ in position.
   auto key() const { return std::tie(id, position); }
@@ -29,6 +31,13 @@ template <int Dim>
 std::array<double, Dim> to_array(const Vec<Dim>& v) {
   std::array<double, Dim> values;
   std::copy(v.begin(), v.end(), values.begin());
+  return values;
+}
+
+template <int Dim>
+std::array<double, Dim * Dim> to_array(const Mat<Dim>& m) {
+  std::array<double, Dim * Dim> values;
+  std::copy(m.data(), m.data() + values.size(), values.begin());
   return values;
 }
 
@@ -48,10 +57,14 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
     return false;
   };
   std::vector<Sample<Dim>> near;
+  const WallInertia<Dim>* inertia = context.wall_inertia;
   for (const std::size_t i : indices_where(particles.size(), is_near)) {
+    const bool has_inertia = inertia != nullptr && !particles.is_fluid(i);
     near.push_back({particles.id[i], to_array<Dim>(particles.position[i]), to_array<Dim>(particles.velocity[i]),
                     particles.pressure[i], particles.volume[i], particles.kind[i],
-                    context.felt_through.empty() ? -1 : context.felt_through[i]});
+                    context.felt_through.empty() ? -1 : context.felt_through[i],
+                    to_array<Dim>(has_inertia ? inertia->blocked[particles.wall_row[i]] : Mat<Dim>(Mat<Dim>::Zero())),
+                    to_array<Dim>(has_inertia ? inertia->acceleration_at(particles, i) : Vec<Dim>(Vec<Dim>::Zero()))});
   }
   near = context.ranks.gather(near);
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
@@ -60,6 +73,10 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
 
   GatheredParticles<Dim> result;
   result.felt_through.resize(near.size());
+  if (inertia != nullptr) {
+    result.blocked.resize(near.size());
+    result.acceleration.resize(near.size());
+  }
   Particles<Dim>& gathered = result.particles;
   gathered.resize(near.size());
   gathered.owned = near.size();
@@ -69,9 +86,12 @@ GatheredParticles<Dim> gather_near(const ProbeContext<Dim>& context, const std::
     gathered.pressure[i] = near[i].pressure;
     gathered.volume[i] = near[i].volume;
     gathered.kind[i] = near[i].kind;
-    gathered.wall_row[i] = -1;
+    gathered.wall_row[i] = near[i].kind == ParticleKind::fluid ? -1 : static_cast<std::int32_t>(i);
     result.felt_through[i] = near[i].plate;
     gathered.id[i] = near[i].id;
+    if (inertia == nullptr) return;
+    result.blocked[i] = Mat<Dim>::Map(near[i].blocked.data());
+    result.acceleration[i] = Vec<Dim>::Map(near[i].acceleration.data());
   });
   return result;
 }

@@ -116,25 +116,26 @@ struct PressureMap {
   }
 
   std::vector<PressureOnWall> pressures(const ProbeContext<Dim>& context) const {
-    std::vector<double> sums(3 * patches.size());
+    std::vector<WallPressureSums<Dim>> sums(patches.size());
     std::vector<double> least(patches.size());
     const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
     for_each(patches.size(), [&](std::size_t k) {
       const Vec<Dim> centre = patches[k].centre(context.boundary);
-      WallPressureSums<Dim> here;
-      for (const Vec<Dim>& shift : shifts) here.add_owned(context, centre, shift);
-      sums[3 * k] = here.water;
-      sums[3 * k + 1] = here.wall;
-      sums[3 * k + 2] = here.pressure;
-      least[k] = here.least;
+      for (const Vec<Dim>& shift : shifts) sums[k].add_owned(context, centre, shift);
+      least[k] = sums[k].least;
     });
-    context.ranks.sum_of_each(sums);
+    const bool has_inertia = context.wall_inertia != nullptr;
+    std::vector<double> entries;
+    for (auto& here : sums) here.for_each_sum(has_inertia, [&](double entry) { entries.push_back(entry); });
+    context.ranks.sum_of_each(entries);
     context.ranks.min_of_each(least);
+    std::size_t next = 0;
+    for (auto& here : sums) here.for_each_sum(has_inertia, [&](double& entry) { entry = entries[next++]; });
     std::vector<PressureOnWall> pressure(patches.size());
     for_each(patches.size(), [&](std::size_t k) {
+      sums[k].least = least[k];
       pressure[k] = wall_pressure<Dim>(context, patches[k].centre(context.boundary),
-                                       context.boundary.faces[patches[k].face].normal,
-                                       {sums[3 * k], sums[3 * k + 1], sums[3 * k + 2], least[k]});
+                                       context.boundary.faces[patches[k].face].normal, sums[k]);
     });
     return pressure;
   }

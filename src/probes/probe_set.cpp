@@ -259,6 +259,8 @@ void ProbeSet<Dim>::record(const ProbeContext<Dim>& context) {
   const CellGrid<Dim> grid(gathered.particles.position, kernel_radius(context.kernel));
   ProbeContext<Dim> near = context.of(gathered.particles, grid);
   near.felt_through = gathered.felt_through;
+  const WallInertia<Dim> inertia_near = gathered.wall_inertia();
+  if (context.wall_inertia != nullptr) near.wall_inertia = &inertia_near;
 
   std::vector<std::vector<Row>> rows;
   for (const Instrument* instrument : read) {

@@ -30,6 +30,12 @@ namespace {
 /// Relative weight of patches that take no part in a force. It matters only where there are no other patches.
 constexpr double weight_of_others = 1e-6;
 
+/// Time from the instant when forces act to the end of the step, over its length. The pressure of the explicit step
+/// acts where the step begins, that of two projections in about equal parts where it begins and where it ends.
+double age_of_forces(const CaseSpec& spec) {
+  return spec.scheme.integrator == Integrator::implicit_projection ? 0.5 : 1.0;
+}
+
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
 constexpr double patch_margin = 1.0;
 
@@ -56,6 +62,7 @@ class WallForceProbe {
         takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
         about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
                                           : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
+        age_(age_of_forces(spec)),
         reach_((1.5 * dummy_layers(spec) + patch_margin) * spacing_),
         paths_(boundary.walls.size()),
         body_of_(boundary.walls.size(), -1),
@@ -168,8 +175,8 @@ class WallForceProbe {
     return loads;
   }
 
-  /// For each wall, the map from a place on it to its velocity there at the beginning of the step, when the forces act:
-  /// the mean over a time of the step's length around it.
+  /// For each wall, the map from a place on it to its velocity there when the forces act: the mean over a time of the
+  /// step's length around that instant.
   std::vector<AffineMap<Dim>> find_velocities(const ProbeContext<Dim>& context) const {
     std::vector<AffineMap<Dim>> maps(paths_.size(), {Mat<Dim>::Zero(), Vec<Dim>::Zero()});
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
@@ -182,8 +189,8 @@ class WallForceProbe {
       }
       if (!paths_[wall] || context.dt == 0.0) continue;
       const AffineMap<Dim> now = paths_[wall]->at(context.time);
-      const double from = std::max(0.0, context.time - 1.5 * context.dt);
-      const AffineMap<Dim> of_drawn = paths_[wall]->mean_velocity(from, context.time - 0.5 * context.dt);
+      const double from = std::max(0.0, context.time - (age_ + 0.5) * context.dt);
+      const AffineMap<Dim> of_drawn = paths_[wall]->mean_velocity(from, context.time - (age_ - 0.5) * context.dt);
       maps[wall].linear = of_drawn.linear * now.linear.transpose();
       maps[wall].constant = of_drawn.constant - maps[wall].linear * now.constant;
     }
@@ -252,7 +259,7 @@ class WallForceProbe {
             share.add(taken[k], weight, n);
             const Vec<Dim> force = share.of_pressure.across() * pressure + share.of_friction.along() * friction;
             loads.power -= force.dot(velocity[wall](x));
-            loads.moment -= moment_of<Dim>(context.dt * velocity[wall](x), force);  // it acts where the step began
+            loads.moment -= moment_of<Dim>(age_ * context.dt * velocity[wall](x), force);  // where the wall was
           });
     }
     loads.moment += moment(x, loads.pressure);
@@ -305,6 +312,7 @@ class WallForceProbe {
   std::vector<double> chosen_;  ///< selected fraction of each patch
   bool takes_all_;
   Vec<Dim> about_;
+  double age_;                                       ///< of forces (age_of_forces)
   double reach_;                                     ///< m; R
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1

@@ -16,6 +16,9 @@
 namespace tailwater {
 namespace {
 
+/// e; relative weight with which the walls impose no acceleration. It matters only in directions that no wall blocks.
+constexpr double weight_of_rest = 1e-3;
+
 /// A point of a wall, which moves with the wall.
 template <int Dim>
 struct PointOnWall {
@@ -189,12 +192,16 @@ void WallPressureSums<Dim>::add(const ProbeContext<Dim>& context, const Vec<Dim>
                                 const Vec<Dim>& x_j, double weight) {
   if (!context.particles.is_fluid(j)) {
     wall += weight;
+    if (context.wall_inertia == nullptr) return;
+    blocked += weight * context.wall_inertia->blocked[context.particles.wall_row[j]];
+    acceleration += weight * context.wall_inertia->acceleration_at(context.particles, j);
     return;
   }
   const double p_j = context.particles.pressure[j];
   least = std::min(least, p_j);
   pressure += weight * (p_j + context.density_of(j) * context.gravity.dot(x_w - x_j));
   water += weight;
+  if (context.wall_inertia != nullptr) offset += weight * context.density_of(j) * (x_w - x_j);
 }
 
 template <int Dim>
@@ -210,7 +217,13 @@ void WallPressureSums<Dim>::add_owned(const ProbeContext<Dim>& context, const Ve
 template <int Dim>
 std::optional<double> WallPressureSums<Dim>::value() const {
   if (water_share<Dim>(water, wall) <= surface_share) return std::nullopt;
-  return std::max(pressure / water, least);
+  return std::max((pressure - acceleration_of_water().dot(offset)) / water, least);
+}
+
+template <int Dim>
+Vec<Dim> WallPressureSums<Dim>::acceleration_of_water() const {
+  if (acceleration.isZero(0.0)) return acceleration;
+  return (blocked + weight_of_rest * wall * Mat<Dim>::Identity()).inverse() * acceleration;
 }
 
 template <int Dim>

@@ -1,10 +1,16 @@
 // Pressure on the wall itself, read from the fluid beside it: probes "wall-pressure" and "wall-pressure-mean".
 //
-//   p(x_w) = sum w W(x_w - x_j) (p_j + rho g . (x_w - x_j)) / sum w W
+//   p(x_w) = sum w W(x_w - x_j) (p_j + rho (g - a) . (x_w - x_j)) / sum w W
 //
-// The second term extrapolates each particle's pressure to the wall along the hydrostatic gradient. In still water the
-// result is exactly rho g times the depth, at any distance of the particles from the wall. In a falling jet the
-// gradient is not hydrostatic; there the term may not create a tension that no particle has. Where the wall is dry,
+// The second term extrapolates each particle's pressure to the wall along the hydrostatic gradient in the frame of the
+// wall. a is the acceleration that walls impose on the water in the directions M that they block:
+//
+//   a = (sum w W (M + e I))^-1 sum w W M a_w
+//
+// over the wall particles in reach, with the accelerations M a_w of their rows: those of moving walls and of water that
+// turns along curved or rotating walls. In still water, and in water that moves with a tank, the result is exact, at
+// any distance of the particles from the wall. In a falling jet the gradient is not hydrostatic; there the term may not
+// create a tension that no particle has. Where the wall is dry,
 // c(x_w) <= 1/2 (water_share.h), the pressure is that of the air: 0, or that of a pocket. A wall in still water is wet
 // up to the surface; a layer one particle thick wets it, a single particle does not.
 #pragma once
@@ -32,6 +38,22 @@ struct WallPressureSums {
   double wall = 0.0;      ///< S_w
   double pressure = 0.0;  ///< Pa; not yet divided by S_f
   double least = 0.0;     ///< Pa; smallest of 0 and the pressures of fluid particles
+  // With WallInertia:
+  Vec<Dim> offset = Vec<Dim>::Zero();        ///< kg/m^2; sum of w W rho (x_w - x_j) over the water
+  Mat<Dim> blocked = Mat<Dim>::Zero();       ///< sum of w W M
+  Vec<Dim> acceleration = Vec<Dim>::Zero();  ///< m/s^2; sum of w W M a_w
+
+  /// Calls body with each sum but `least`.
+  template <class Body>
+  void for_each_sum(bool has_inertia, Body&& body) {
+    body(water);
+    body(wall);
+    body(pressure);
+    if (!has_inertia) return;
+    for (double& entry : offset) body(entry);
+    for (int k = 0; k < Mat<Dim>::count; ++k) body(blocked.data()[k]);
+    for (double& entry : acceleration) body(entry);
+  }
 
   /// Adds the particle at `x_j` with w_j W = `weight`.
   void add(const ProbeContext<Dim>& context, const Vec<Dim>& x_w, std::int32_t j, const Vec<Dim>& x_j, double weight);
@@ -41,6 +63,9 @@ struct WallPressureSums {
 
   /// Pressure on the wall, Pa; empty where the wall is dry.
   std::optional<double> value() const;
+
+ private:
+  Vec<Dim> acceleration_of_water() const;
 };
 
 /// Pressure at a place of a wall.

@@ -24,6 +24,7 @@
 #include "results/summary_file.h"
 #include "results/unresolved.h"
 #include "run/estimate.h"
+#include "run/inertia_of_walls.h"
 #include "walls/hidden_pairs.h"
 
 namespace tailwater {
@@ -210,6 +211,7 @@ template <int Dim>
 void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt) {
   if (!probes_.is_due(flow.state.time)) return;
   const std::vector<int> felt_through = find_felt_through(flow.walls, flow.state.particles);
+  const InertiaOfWalls<Dim> inertia(flow);
   probes_.record({.particles = flow.state.particles,
                   .grid = flow.neighbourhood->grid(),
                   .kernel = flow.neighbourhood->kernel(),
@@ -231,6 +233,7 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                   .domain = flow.setup.domain,
                   .dt = dt,
                   .wall_forces = &flow.walls.forces,
+                  .wall_inertia = inertia.get(),
                   .bodies = flow.state.motion.bodies.each,
                   .air_pressure = air_of(flow).pressure_field(flow.walls.boundary),
                   .spacing_field = flow.setup.graded == nullptr ? nullptr : &flow.setup.graded->field(),

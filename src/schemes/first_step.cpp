@@ -42,7 +42,7 @@ void add(WallForces<Dim>& forces, const WallForces<Dim>& others, double factor) 
 template <int Dim>
 MissingInertia<Dim> pressure_by(Flow<Dim>& flow, const StepStart<Dim>& start, WallDrive<Dim> drive, double dt) {
   project_in_place(flow, start, std::move(drive), dt);
-  return {flow.state.particles.pressure, flow.walls.forces};
+  return {flow.state.particles.pressure, flow.walls.acceleration, flow.walls.forces};
 }
 
 }  // namespace
@@ -63,6 +63,7 @@ std::optional<MissingInertia<Dim>> find_missing_inertia(Flow<Dim>& flow, const S
   flow.state.particles.velocity = velocity;
   flow.state.particles.pressure = pressure;
   for_each(missing.pressure.size(), [&](std::size_t i) { missing.pressure[i] -= half.pressure[i]; });
+  for_each(missing.acceleration.size(), [&](std::size_t row) { missing.acceleration[row] -= half.acceleration[row]; });
   add(missing.forces, half.forces, -1.0);
   return missing;
 }
@@ -72,6 +73,8 @@ void add_missing_inertia(const MissingInertia<Dim>& missing, Flow<Dim>& flow) {
   std::vector<double>& pressure = flow.state.particles.pressure;
   TAILWATER_ASSERT(pressure.size() == missing.pressure.size(), "the particles are where the inertia was computed");
   for_each(pressure.size(), [&](std::size_t i) { pressure[i] += missing.pressure[i]; });
+  std::vector<Vec<Dim>>& acceleration = flow.walls.acceleration;
+  for_each(acceleration.size(), [&](std::size_t row) { acceleration[row] += missing.acceleration[row]; });
   add(flow.walls.forces, missing.forces, 1.0);
 }
 

@@ -18,8 +18,9 @@ namespace tailwater {
 /// A difference of pressures, and of forces on walls, at the same positions.
 template <int Dim>
 struct MissingInertia {
-  std::vector<double> pressure;  ///< Pa; of all particles
-  WallForces<Dim> forces;        ///< those that pressure exerts
+  std::vector<double> pressure;        ///< Pa; of all particles
+  std::vector<Vec<Dim>> acceleration;  ///< m/s^2; of each row of walls that move
+  WallForces<Dim> forces;              ///< those that pressure exerts
 };
 
 /// The inertia of walls that change their velocity between the middle and the end of the first step; none in later

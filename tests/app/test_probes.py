@@ -146,6 +146,52 @@ class UnresolvedSurfaces(ProgramTest):
         self.assertNotIn("resolved", high)
 
 
+# A tank full of water, which moves with it.
+ACCELERATED_TANK = """
+[particles]
+spacing = 0.05
+[[fluid]]
+min = [0, 0]
+max = [0.6, 0.2]
+[[wall]]
+name = "tank"
+shape = "box"
+min = [0, 0]
+max = [0.6, 0.2]
+displacement = ["5*t^2/2", 0]
+[time]
+end = 0.1
+[[probe]]
+name = "left"
+type = "wall-pressure"
+at = [0, 0.1]
+[[probe]]
+name = "right"
+type = "wall-pressure"
+at = [0.6, 0.1]
+[[probe]]
+name = "map"
+type = "pressure-map"
+walls = ["tank"]
+region_min = [-0.01, 0.05]
+region_max = [0.01, 0.15]
+"""
+
+
+class PressureOnMovingWalls(ProgramTest):
+    def test_the_walls_of_an_accelerated_tank_have_the_pressure_of_its_inertia(self):
+        (self.folder / "tank.toml").write_text(ACCELERATED_TANK)
+        self.call("run", "tank.toml", "--out", "tank")
+        left, right = (self.rows("tank", probe)[-1][1] for probe in ("left", "right"))
+        # rho a L; with the hydrostatic gradient alone the particles beside both walls would give 11 % less.
+        self.assertAlmostEqual(left - right, 1000 * 5 * 0.6, delta=0.01 * 1000 * 5 * 0.6)
+        self.assertAlmostEqual(self.rows("tank", "map")[-1][4], left, delta=0.01 * 1000 * 5 * 0.6)  # their mean
+
+    def rows(self, run, probe):
+        lines = (self.folder / run / "probes" / f"{probe}.csv").read_text().split("\n")[1:]
+        return [[float(number) for number in line.split(",")] for line in lines if line]
+
+
 class ProbeOutput(ProgramTest):
     def page(self, dimension):
         return read_page(self.call("run", "--help-case=probes").stdout, dimension)

@@ -148,6 +148,7 @@ std::vector<double> numbers_in(const std::filesystem::path& path) {
 template <int Dim>
 void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   Tank<Dim> tank = sloping_tank<Dim>();
+  tank.accelerate(5.0);
   tank.spec.probes = all_probes<Dim>();
   // Without ghosts no rank can determine which particles are connected.
   if (!with_ghosts) tank.spec.probes.resize(tank.spec.probes.size() - 2);
@@ -165,6 +166,8 @@ void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   own.totals = totals;
   own.ranks = ranks;
   own.wall_forces = &own_forces;
+  const WallInertia<Dim> inertia{tank.blocked, tank.acceleration, {}};
+  own.wall_inertia = &inertia;
   probes.record(own);
 
   if (!ranks.is_root()) return;
@@ -174,6 +177,7 @@ void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   ProbeContext<Dim> on_one = whole;
   on_one.totals = totals;
   on_one.wall_forces = &all_forces;
+  on_one.wall_inertia = &inertia;
   single.record(on_one);
   for (const ProbeTable& probe : tank.spec.probes) {
     const std::filesystem::path file = std::filesystem::path("probes") / (probe.name + ".csv");

@@ -79,6 +79,22 @@ struct Tank {
   /// To be called after particles were added or moved.
   void locate() { grid = CellGrid<Dim>(particles.position, 3.0 * dx); }
 
+  /// Gives the walls the acceleration (x) of the whole tank, and the water the pressure that belongs to it.
+  void accelerate(double a) {
+    blocked.assign(particles.size(), Mat<Dim>::Zero());
+    acceleration.assign(particles.size(), Vec<Dim>::Zero());
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const Vec<Dim>& x = particles.position[i];
+      particles.pressure[i] += rho * a * (width - x[0]);
+      if (particles.is_fluid(i)) continue;
+      particles.wall_row[i] = static_cast<std::int32_t>(i);
+      for (int d = 0; d < Dim; ++d) blocked[i](d, d) = x[d] < 0.0 || (d < Dim - 1 && x[d] > width) ? 1.0 : 0.0;
+      acceleration[i] = blocked[i] * (a * Vec<Dim>::Unit(0));
+    }
+  }
+  std::vector<Mat<Dim>> blocked;
+  std::vector<Vec<Dim>> acceleration;
+
   ProbeContext<Dim> context(double time = 0.0) const {
     Vec<Dim> gravity = Vec<Dim>::Zero();
     gravity[Dim - 1] = -g;

@@ -43,6 +43,27 @@ TYPED_TEST(WallPressureTest, StillWaterIsReadExactlyAtAnyHeightUpToTheSurface) {
   }
 }
 
+/// A tank accelerated as a whole is a tank at rest in g - a, up to the weight e of rest.
+TYPED_TEST(WallPressureTest, WaterThatMovesWithItsTankIsReadAsStillWater) {
+  using T = typename TestFixture::TankOf;
+  constexpr int dim = TestFixture::dimension;
+  const double level = 0.8, a = 5.0;
+  T tank = T::filled(level);
+  tank.accelerate(a);
+  const WallInertia<dim> inertia{tank.blocked, tank.acceleration, {}};
+  ProbeContext<dim> context = tank.context();
+  context.wall_inertia = &inertia;
+  for (const double z : {0.0, 0.05, 0.3, 0.5}) {
+    for (const double x : {0.0, 1.0}) {
+      const double read =
+          wall_pressure_reading<dim>(probe_at(ProbeType::wall_pressure, T::at(x, z)), tank.spec, tank.boundary)
+              .take(context)
+              .at(0)[0];
+      EXPECT_NEAR(read, T::rho * (T::g * (level - z) + a * (1.0 - x)), 0.003 * T::rho * a * T::dx) << x << ", " << z;
+    }
+  }
+}
+
 /// The air pressure is 0 at the right wall and grows away from it: the probe reads it dx in front of the wall.
 TYPED_TEST(WallPressureTest, OfADryPlaceIsThatOfTheAirInFrontOfIt) {
   using T = typename TestFixture::TankOf;
