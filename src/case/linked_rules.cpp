@@ -132,6 +132,16 @@ void read_linked_files(GateTable& gate, TableReader& reader) {
   });
 }
 
+namespace {
+
+/// Checks that an opening that absorbs waves has a level, whose variation absorbs them.
+void check_absorbing(double absorbing, const Given& level, TableReader& reader) {
+  if (absorbing == 0.0 || level.anywhere() || reader.is_wrong("absorbing") || reader.is_wrong("level")) return;
+  reader.wrong("absorbing-without-level", "absorbing", "has no effect without a level; give a level, or remove it");
+}
+
+}  // namespace
+
 void read_linked_files(InletTable& inlet, TableReader& reader) {
   static constexpr std::array<SeriesColumn, 3> columns{
       {{"discharge", Measure::discharge}, {"velocity", Measure::speed}, {"level"}}};
@@ -154,12 +164,21 @@ void read_linked_files(InletTable& inlet, TableReader& reader) {
     reader.wrong("inlet-profile-without-flow", "profile",
                  "has no effect at an inlet with a level alone; give a discharge or a velocity, or remove it");
   }
+  check_absorbing(inlet.absorbing, level, reader);
+  if (inlet.absorbing > 0.0 && level.anywhere() && (discharge.anywhere() || velocity.anywhere()) &&
+      !reader.is_wrong("absorbing")) {
+    reader.wrong("absorbing-beside-flow", "absorbing",
+                 "has no effect at an inlet with a discharge or a velocity; remove it");
+  }
 }
 
 void read_linked_files(OutletTable& outlet, TableReader& reader) {
   static constexpr std::array<SeriesColumn, 1> columns{{{"level"}}};
   read_series(outlet.file, outlet.checksum, columns, outlet.series, reader);
-  if (!reader.is_wrong("file")) check_given_once(std::array{given("level", outlet.level, outlet.series, 0)}, reader);
+  if (reader.is_wrong("file")) return;
+  const Given level = given("level", outlet.level, outlet.series, 0);
+  check_given_once(std::array{level}, reader);
+  check_absorbing(outlet.absorbing, level, reader);
 }
 
 void read_linked_files(MeasurementTable& measurement, TableReader& reader) {

@@ -87,6 +87,8 @@ Json rules_of_inlets() {
       any_is_given({"discharge", "velocity", "level", "file"}),
       not_both("discharge", "velocity"),
       if_then(is_given("profile"), any_is_given({"discharge", "velocity", "file"})),
+      if_then(is_given("absorbing"), any_is_given({"level", "file"})),
+      if_then(is_given("absorbing"), {{"not", any_is_given({"discharge", "velocity"})}}),
       if_then(is_given("reserve"), is_given("water_from")),
   });
   rules.insert(rules.end(), own.begin(), own.end());
@@ -96,6 +98,7 @@ Json rules_of_inlets() {
 Json rules_of_outlets() {
   Json rules = rules_of_openings();
   rules.push_back(if_then(is("beyond", {"air"}), {{"not", any_is_given({"level", "file"})}}));
+  rules.push_back(if_then(is_given("absorbing"), any_is_given({"level", "file"})));
   return rules;
 }
 

@@ -15,6 +15,12 @@ inline constexpr double lead_over_spacing = 6.0;
 /// m; of a duct with a lead, a whole number of spacings
 double duct_length(const CaseSpec& spec);
 
+/// Whether the duct begins with a lead.
+template <int Dim>
+bool has_lead(const CaseSpec& spec, const Duct<Dim>& duct) {
+  return duct.length > duct_length(spec) - 0.5 * lead_over_spacing * spec.particles.spacing;
+}
+
 /// [dx]; walls at most so far from the rim of an opening are beside it. A polygon may stand for a curve.
 template <int Dim>
 double rim_tolerance(const Opening<Dim>& opening);

@@ -4,6 +4,7 @@
 
 #include "base/for_each.h"
 #include "flow/flow.h"
+#include "flow/pores.h"
 #include "motion/wave_theory.h"
 #include "open_ends/fibres.h"
 #include "open_ends/open_ends.h"
@@ -60,8 +61,8 @@ Reading read_gauge(const OpenEnd<Dim>& end, const Flow<Dim>& flow) {
     const double off = std::abs(end.opening.beyond(x) + end.stretch + end.gauge);
     if (!particles.is_fluid(i) || off >= end.gauge || !end.opening.spans(x)) return {};
     const double volume = (1.0 - off / end.gauge) * particles.volume[i];
-    return {volume, volume * end.opening.normal.dot(particles.velocity[i]), volume * particles.pressure[i],
-            volume * flow.density_of(i)};
+    return {volume, volume * filled_fraction(flow.pores, x) * end.opening.normal.dot(particles.velocity[i]),
+            volume * particles.pressure[i], volume * flow.density_of(i)};
   });
   flow.setup.ranks.sum_each(gauge.volume, gauge.flux, gauge.thrust, gauge.mass);
   return gauge;
@@ -133,11 +134,22 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   return water;
 }
 
+/// Whether there is a porous layer at a height [m] above the floor before the buffer, in the middle of the opening.
+template <int Dim>
+bool is_in_layer(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double height) {
+  if (flow.pores == nullptr) return false;
+  const SectionColumn& middle = end.columns[end.columns.size() / 2];
+  const Vec<Dim> in_opening = end.low + height * end.rise + middle.aside * end.aside;
+  return filled_fraction(flow.pores, Vec<Dim>(in_opening - (end.stretch + end.gauge) * end.opening.normal)) < 1.0;
+}
+
 /// Records the error of the water level before an end, relative to a level `head` [m] above the floor. Inflow has the
-/// energy of this level. Water that falls over a brink, with critical flow above the level, is not affected by it.
+/// energy of this level. Water that falls over a brink, with critical flow above the level, is not affected by it. In a
+/// layer the surface slopes, and water leaves it through a seepage face above the level.
 template <int Dim>
 void watch_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double head, double depth, double dt,
                  OpenEndState& state) {
+  if (is_in_layer(end, flow, head)) return;
   const double fastest = std::sqrt(2.0 / 3.0 * end.gravity * std::max(0.0, head));
   const double in = std::clamp(-state.mean_speed, 0.0, fastest);
   const double error = depth - std::min(head - in * in / (2.0 * end.gravity), end.height);
@@ -307,7 +319,8 @@ void OpenEnds<Dim>::set_velocities(Flow<Dim>& flow, std::size_t e) const {
   Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
     if (end_of_[i] != static_cast<std::int16_t>(e)) return;
-    particles.velocity[i] = ends_[e].velocity_at(states_[e], particles.position[i]);
+    const Vec<Dim>& x = particles.position[i];
+    particles.velocity[i] = ends_[e].velocity_at(states_[e], x) / filled_fraction(flow.pores, x);
   });
 }
 

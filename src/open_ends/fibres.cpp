@@ -5,6 +5,7 @@
 
 #include "base/for_each.h"
 #include "flow/flow.h"
+#include "flow/pores.h"
 
 namespace tailwater {
 namespace {
@@ -77,7 +78,7 @@ std::vector<double> sum_water_before(const OpenEnd<Dim>& end, const Flow<Dim>& f
     const Vec<Dim>& at = particles.position[i];
     const double before = -(end.opening.beyond(at) + end.stretch);
     if (before < 0.0 || before >= length || !end.opening.spans(at)) continue;
-    const Vec<Dim>& velocity = particles.velocity[i];
+    const Vec<Dim> velocity = filled_fraction(flow.pores, at) * particles.velocity[i];
     const double volume = particles.volume[i] * (1.0 - before / length);
     add_to_fits(end, at, -before, end.opening.normal.dot(velocity), volume, sums.data());
     const double height = end.height_in(end.column_at(at), at);
@@ -94,7 +95,8 @@ double speed_into_air(const OpenEnd<Dim>& end, const OpenEndState& state, std::s
   const SectionColumn& of = end.columns[column];
   const double z = of.bottom + (static_cast<double>(row) + 0.5) * end.fibre_height(column);
   const Vec<Dim> at = end.low + z * end.rise + of.aside * end.aside;
-  return -std::sqrt(2.0 * end.pressure_at(state, at, Vec<Dim>(Vec<Dim>::Zero()), 1.0));
+  const Vec<Dim> none = Vec<Dim>::Zero();
+  return -std::sqrt(2.0 * end.pressure_at(state, at, none, none, 1.0));
 }
 
 /// Where there is no water inside, water comes in as the level drives it, with one speed where it has a free surface,

@@ -8,6 +8,7 @@
 #include "flow/distribution.h"
 #include "flow/flow.h"
 #include "flow/ids_of_inflow.h"
+#include "flow/pores.h"
 #include "neighbours/neighbourhood.h"
 #include "open_ends/open_ends.h"
 
@@ -154,8 +155,8 @@ void remove_crowded(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, c
   }
 }
 
-/// The particles that can enter now, of a `volume` [m^Dim], or as large as a cell of the lattice one spacing long. Each
-/// stands the length of its cell before the next in its row. All ranks get the same.
+/// The particles that can enter now, of a `volume` [m^Dim] of water, or as large as a cell of the lattice one spacing
+/// long. Each stands the length of its cell before the next in its row. All ranks get the same.
 template <int Dim>
 std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndState& state, const Flow<Dim>& flow,
                                         const LiquidsBeyond& liquids, const std::optional<double>& volume) {
@@ -165,15 +166,16 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   const std::vector<double> free = free_lengths(end, lattice, flow);
   std::vector<std::optional<Entrant<Dim>>> of_cell(lattice.size());
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
-    const double length = volume ? *volume / lattice.area(cell) : end.spacing;
+    const double fraction = filled_fraction(flow.pores, lattice.middle(cell));
+    const double length = volume ? *volume / (fraction * lattice.area(cell)) : end.spacing;
     const double distance = free[cell] < 2.0 * length ? free[cell] - length : first_entry * length;
     if (distance < (end.holds_level() ? min_entry * length : 0.0)) continue;
     const Vec<Dim> position = lattice.middle(cell) - distance * end.opening.normal;
     const Vec<Dim> velocity = end.velocity_at(state, position);
-    const double pressure =
-        end.pressure_at(state, position, velocity, density_above(flow, end, state, liquids, position));
+    const double pressure = end.pressure_at(state, position, velocity, deceleration(flow.pores, position, velocity),
+                                            density_above(flow, end, state, liquids, position));
     if (end.opening.normal.dot(velocity) >= 0.0 || (end.holds_level() && pressure <= 0.0)) continue;
-    of_cell[cell] = {position, velocity, pressure, volume ? *volume : lattice.area(cell) * length,
+    of_cell[cell] = {position, velocity / fraction, pressure, volume ? *volume / fraction : lattice.area(cell) * length,
                      liquids.at(end.rise.dot(position - end.low))};
   }
   remove_crowded(end, lattice, flow, of_cell);
@@ -252,9 +254,10 @@ bool OpenEnds<Dim>::bring_in(Flow<Dim>& flow) {
     for (const Entrant<Dim>& entrant : entrants) {
       const double density =
           are_several ? setup.liquids.density[static_cast<std::size_t>(entrant.liquid)] : setup.liquid.density;
-      const double mass = density * entrant.volume;
-      state.arrived += {1, entrant.volume, mass,
-                        mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
+      const double volume = filled_fraction(flow.pores, entrant.position) * entrant.volume;
+      const double mass = density * volume;
+      state.arrived +=
+          {1, volume, mass, mass * (0.5 * entrant.velocity.squaredNorm() - setup.gravity.dot(entrant.position))};
     }
   }
   return some_came;

@@ -52,12 +52,13 @@ double OpenEnd<Dim>::depth_in(std::size_t column, const OpenEndState& state) con
 }
 
 /// Hydrostatic below the water's surface at the border, and farther on less by the acceleration of the buffer, which
-/// has inertia as the water before it has. The pressure of a wave that leaves falls with the depth. Below a level that
-/// is above the opening, what comes in has the energy of the water at rest beyond, each fibre for itself.
+/// has inertia as the water before it has, and by the resistance of a layer that continues there. The pressure of a
+/// wave that leaves falls with the depth. Below a level that is above the opening, what comes in has the energy of the
+/// water at rest beyond, each fibre for itself.
 template <int Dim>
 double OpenEnd<Dim>::pressure_at(const OpenEndState& state, const Vec<Dim>& x, const Vec<Dim>& velocity,
-                                 double density) const {
-  const double drop = state.acceleration * behind_border(x);
+                                 const Vec<Dim>& deceleration, double density) const {
+  const double drop = (state.acceleration + this->opening.normal.dot(deceleration)) * behind_border(x);
   if (!state.is_full) {
     const double z = std::clamp(this->up.dot(x) - this->floor, 0.0, state.depth);
     const double k = state.wave.number;

@@ -99,8 +99,10 @@ struct OpenEnd : ChannelEnd<Dim> {
   double behind_border(const Vec<Dim>& x) const { return this->opening.beyond(x) + stretch; }
   /// Depth [m] of the water in a column.
   double depth_in(std::size_t column, const OpenEndState& state) const;
-  /// Pressure [Pa] of the water assumed or prescribed, at a place in the buffer where the water has a velocity.
-  double pressure_at(const OpenEndState& state, const Vec<Dim>& x, const Vec<Dim>& velocity, double density) const;
+  /// Pressure [Pa] of the water assumed or prescribed, at a place in the buffer where the water has a velocity and
+  /// pores slow it down [m/s^2].
+  double pressure_at(const OpenEndState& state, const Vec<Dim>& x, const Vec<Dim>& velocity,
+                     const Vec<Dim>& deceleration, double density) const;
   /// Velocity [m/s] at a place in the buffer.
   Vec<Dim> velocity_at(const OpenEndState& state, const Vec<Dim>& x) const;
 

@@ -12,6 +12,7 @@
 #include "closures/fluid_pairs.h"
 #include "flow/flow.h"
 #include "flow/measure.h"
+#include "flow/pores.h"
 #include "flow/pressure_equation.h"
 #include "operators/graded_sums.h"
 #include "operators/support_operators.h"
@@ -209,6 +210,9 @@ void OpenEnds<Dim>::write_row(Flow<Dim>& flow, std::size_t i) const {
   const Particles<Dim>& particles = flow.state.particles;
   const Pairs<Dim>& pairs = flow.pairs();
   const OpenEnd<Dim>& end = ends_[end_of_[i]];
+  const Vec<Dim>& x = particles.position[i];
+  const Vec<Dim>& velocity = particles.velocity[i];  // the filter velocity, within a projection
+  const Vec<Dim> slowing = deceleration(flow.pores, x, velocity);
   const auto weight = [&](std::size_t k) {
     const auto j = pairs.j[k];
     return particles.is_fluid(j) && !end.holds(particles.position[j]) ? particles.volume[j] * pairs.value(i, k) : 0.0;
@@ -219,15 +223,16 @@ void OpenEnds<Dim>::write_row(Flow<Dim>& flow, std::size_t i) const {
   if (total == 0.0) {
     row.set_weights([](std::size_t) { return 0.0; });
     const auto e = static_cast<std::size_t>(end_of_[i]);
-    row.finish(1.0, end.pressure_at(states_[e], particles.position[i], particles.velocity[i],
-                                    density_above(flow, end, states_[e], liquids_[e], particles.position[i])));
+    row.finish(1.0,
+               end.pressure_at(states_[e], x, velocity, slowing, density_above(flow, end, states_[e], liquids_[e], x)));
     return;
   }
   const double density = flow.density_of(i);
+  const Vec<Dim> force = setup.gravity - slowing;
   double hydrostatic = 0.0;
   const double sum = row.set_weights([&](std::size_t k) {
     const double share = weight(k) / total;
-    hydrostatic += share * density * setup.gravity.dot(pairs.d(i, k));
+    hydrostatic += share * density * force.dot(pairs.d(i, k));
     return share;
   });
   row.finish(sum, hydrostatic);
@@ -257,7 +262,7 @@ double OpenEnds<Dim>::work_of_driven_particle(const Flow<Dim>& flow, std::size_t
     return Vec<Dim>((particles.volume[j] * sum) * flow.surroundings.pair_vectors.at(pairs, i, k));
   });
   const Vec<Dim> weight = flow.density_of(i) * flow.setup.gravity;
-  return dt * particles.volume[i] * (recoil - weight).dot(particles.velocity[i]);
+  return dt * flow.water_volume_of(i) * (recoil - weight).dot(particles.velocity[i]);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include "base/box.h"
 #include "base/finding.h"
 #include "case/named_numbers.h"
+#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "porous/porous_region.h"
 
@@ -50,6 +51,18 @@ PorousMedium medium_as_drawn(const std::vector<PorousRegion<Dim>>& regions, cons
   return sum;
 }
 
+/// The place whose medium counts at `x`: a layer that ends at an opening without a lead, or is drawn beyond it,
+/// continues through the duct as it is before the opening.
+template <int Dim>
+Vec<Dim> place_of_medium(const std::vector<Duct<Dim>>& ducts, const Vec<Dim>& x, double step, double reach) {
+  for (const Duct<Dim>& duct : ducts) {
+    const double beyond = duct.mouth.beyond(x);
+    if (beyond < -0.5 * step || beyond > duct.length + reach || !duct.mouth.spans(x)) continue;
+    return x - (beyond + step) * duct.mouth.normal;
+  }
+  return x;
+}
+
 /// The fraction of the cell around `x` in front of resting walls.
 template <int Dim>
 double fraction_in_front_of_walls(const Boundary<Dim>& boundary, const Vec<Dim>& x, double edge, double reach) {
@@ -75,6 +88,13 @@ PorousField<Dim>::PorousField(const CaseSpec& spec, const Boundary<Dim>& boundar
     box.extend(regions.back().box());
   }
   const double margin = kernel_radius(kernel) + 2.0 * step_;
+  std::vector<Duct<Dim>> ducts;  // through which layers continue
+  const Box<Dim> layers = box;
+  for (const Duct<Dim>& duct : boundary.ducts) {
+    if (has_lead(spec, duct) || !layers.intersects(box_around(duct.mouth.as_faces()))) continue;
+    ducts.push_back(duct);
+    box.extend(box_around(duct.mouth.moved_out(duct.length).as_faces()));
+  }
   for (int axis = 0; axis < Dim; ++axis) {
     if (domain[axis]) {
       box.min()[axis] = domain[axis]->first;
@@ -97,7 +117,8 @@ PorousField<Dim>::PorousField(const CaseSpec& spec, const Boundary<Dim>& boundar
   }
   nodes_.resize(static_cast<std::size_t>(nodes));
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    const PorousMedium m = medium_as_drawn(regions, media, wrapped<Dim>(domain_, place_of(index_of(k))), step_);
+    const Vec<Dim> x = place_of_medium(ducts, wrapped<Dim>(domain_, place_of(index_of(k))), step_, margin);
+    const PorousMedium m = medium_as_drawn(regions, media, x, step_);
     nodes_[k] = {static_cast<float>(m.solid), static_cast<float>(m.linear), static_cast<float>(m.quadratic),
                  static_cast<float>(m.added_mass)};
   }

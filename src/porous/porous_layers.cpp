@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/box.h"
-#include "base/finding.h"
 #include "base/for_each.h"
 #include "flow/flow.h"
 #include "flow/pressure_equation.h"
-#include "geometry/ducts.h"
 #include "geometry/from_spec.h"
 #include "io/messages.h"
 #include "motion/floating_body.h"
 #include "neighbours/neighbourhood.h"
 #include "operators/laplacian_morris.h"
+#include "porous/layer_checks.h"
 #include "porous/porous_region.h"
 #include "pressure/full_water.h"
 
@@ -23,133 +21,12 @@ namespace {
 
 constexpr int lattice_count = 65;
 
-/// Throws CaseError where a layer reaches into the duct of an open end: inflow there fills the whole space. The border
-/// of a layer that ends at the opening is as wide as the kernel's support.
-template <int Dim>
-void require_open_ends_in_open_water(const CaseSpec& spec, const PorousField<Dim>& field) {
-  const double dx = spec.particles.spacing;
-  const double border = traits_of(spec).support * dx;
-  const double zone = duct_length(spec) - border;
-  for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) {
-    double points = std::ceil(zone / dx);
-    for (const Vec<Dim>& edge : opening.edges) points *= std::ceil(edge.norm() / dx);
-    for (double k = 0.0; k < points; ++k) {
-      double rest = k;
-      const auto next_share = [&](double length) {
-        const double count = std::ceil(length / dx);
-        const double share = (std::fmod(rest, count) + 0.5) / count;
-        rest = std::floor(rest / count);
-        return share;
-      };
-      Vec<Dim> x = opening.corner + (border + next_share(zone) * zone) * opening.normal;
-      for (const Vec<Dim>& edge : opening.edges) x += next_share(edge.norm()) * edge;
-      if (field.porosity_at(x) == 1.0) continue;
-      throw CaseError(
-          "porous-layer-beyond-opening",
-          {"{}: a porous layer is at {}, beyond the opening, where water enters and leaves as in open water",
-           opening.label(), place<Dim>(x)},
-          {"end the layer at the opening"});
-    }
-  }
-}
-
-/// Throws CaseError for a layer that no water of the case can reach, or whose grains are larger than it.
-template <int Dim>
-void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  Box<Dim> box = box_around(boundary.faces);
-  if (box.isEmpty()) return;
-  for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
-  for (const PorousTable& table : spec.porous) {
-    const Box<Dim> layer = PorousRegion<Dim>(spec, table).box();
-    if (table.grain_size > layer.sizes().minCoeff()) {
-      throw CaseError("porous-grains-too-large",
-                      {"{} = {:g} is larger than the thickness of the layer, {:.4g}",
-                       CaseLabel("porous", table.name).with_key("grain_size"), Amount{table.grain_size, "m"},
-                       Amount{layer.sizes().minCoeff(), "m"}},
-                      {"give the size of the grains in metres"});
-    }
-    if (box.intersects(layer)) continue;
-    throw CaseError("porous-layer-outside-walls",
-                    {"{} reaches from {} to {}, outside of the walls, which stand between {} and {}",
-                     CaseLabel("porous", table.name), place<Dim>(layer.min()), place<Dim>(layer.max()),
-                     place<Dim>(box.min()), place<Dim>(box.max())},
-                    {"move it"});
-  }
-}
-
-/// The volume [m^Dim] that the faces of these walls enclose; they face the water outside.
-template <int Dim>
-double volume_of(const Boundary<Dim>& boundary, const std::vector<int>& walls, const Vec<Dim>& about) {
-  double volume = 0.0;
-  for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
-    const WallFace<Dim>& face = boundary.faces[f];
-    if (std::ranges::find(walls, face.wall) == walls.end()) continue;
-    volume += face.measure() * face.normal.dot(face.corners[0] - about) / Dim;
-  }
-  return volume;
-}
-
-/// [m]; depth below x at which a layer begins: 0 in the layer, infinite if the next wall below is above it.
-template <int Dim>
-double way_to_layer(const PorousRegion<Dim>& region, const Boundary<Dim>& boundary, const std::vector<int>& own,
-                    const Vec<Dim>& x, const Vec<Dim>& down, double spacing) {
-  const double step = 0.5 * spacing;  // so deep a body may stand in the layer on which it is drawn
-  const Box<Dim>& box = region.box();
-  const double farthest = down.isZero(0.0) ? 0.0 : (box.center() - x).norm() + box.diagonal().norm();
-  for (double way = 0.0; way <= farthest; way += step) {
-    const Vec<Dim> there = x + way * down;
-    if (box.contains(there) && region.depth_inside(there, spacing) > step) return way;
-    const NearestWall<Dim> wall = boundary.nearest(there, step);
-    if (wall.face >= 0 && std::ranges::find(own, boundary.faces[wall.face].wall) == own.end()) break;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-/// Throws CaseError for a body that is drawn in a layer, or sinks to one: stones do not hold bodies.
-template <int Dim>
-void require_bodies_off_layers(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  const Vec<Dim> gravity = gravity_of<Dim>(spec);
-  for (const FloatingBody<Dim>& body : make_bodies<Dim>(spec)) {
-    const bool is_held = !body.springs.isZero(0.0) || std::ranges::any_of(spec.moorings, [&](const MooringTable& line) {
-      return std::ranges::find(line.bodies, body.name) != line.bodies.end();
-    });
-    bool sinks = !is_held && body.mass > spec.physics.density * volume_of(boundary, body.walls, body.drawn.centre);
-    for (int axis = 0; axis < Dim; ++axis) {
-      sinks = sinks && (gravity[axis] == 0.0 || std::ranges::find(body.free, axis) != body.free.end());
-    }
-    const Vec<Dim> down = sinks && !gravity.isZero(0.0) ? gravity.normalized() : Vec<Dim>(Vec<Dim>::Zero());
-    for (const PorousTable& table : spec.porous) {
-      const PorousRegion<Dim> region(spec, table);
-      double way = std::numeric_limits<double>::infinity();
-      for (const WallFace<Dim>& face : boundary.faces) {
-        if (std::ranges::find(body.walls, face.wall) == body.walls.end()) continue;
-        for (const Vec<Dim>& corner : face.corners) {
-          way = std::min(way, way_to_layer(region, boundary, body.walls, corner, down, spec.particles.spacing));
-        }
-      }
-      if (way == 0.0) {
-        throw CaseError("body-in-porous-layer",
-                        {"{} is drawn in {}: the stones of a layer do not hold bodies, which pass through them",
-                         CaseLabel("body", body.name), CaseLabel("porous", table.name)},
-                        {"draw the body outside of the layer, or the surface of the layer as a wall"});
-      }
-      if (way == std::numeric_limits<double>::infinity()) continue;
-      throw CaseError("body-sinks-to-porous-layer",
-                      {"{} is heavy and sinks to {}: the stones of a layer do not hold bodies, which pass through them",
-                       CaseLabel("body", body.name), CaseLabel("porous", table.name)},
-                      {"draw the surface of the layer as a wall, or hold the body with a mooring or `free`"});
-    }
-  }
-}
-
 }  // namespace
 
 template <int Dim>
 PorousLayers<Dim>::PorousLayers(const CaseSpec& spec, const Setup<Dim>& setup, const Boundary<Dim>& boundary)
     : field_(spec, boundary, setup.scale.kernel, setup.domain) {
-  require_layers_in_case(spec, boundary);
-  require_open_ends_in_open_water(spec, field_);
-  require_bodies_off_layers(spec, boundary);
+  require_sound_layers(spec, boundary, field_);
   for (const PorousTable& table : spec.porous) {
     regions_.emplace_back(spec, table);
     region_names_.push_back(table.name);
@@ -198,6 +75,12 @@ template <int Dim>
 PoreSpace PorousLayers<Dim>::at(const Vec<Dim>& x) const {
   const PorousMedium medium = field_.at(x);
   return {medium.porosity(), 1.0 + medium.added_mass};
+}
+
+template <int Dim>
+double PorousLayers<Dim>::resistance_at(const Vec<Dim>& x, double speed) const {
+  const PorousMedium medium = field_.at(x);
+  return medium.linear + medium.quadratic * speed;
 }
 
 template <int Dim>
@@ -337,14 +220,16 @@ int PorousLayers<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predict
   return 0;
 }
 
-/// Multiplies the change of velocity by pressure and gravity in open water by the conductance; then turns v into u.
+/// Multiplies the change of velocity by pressure and gravity in open water by the conductance; then turns v into u. A
+/// prescribed velocity has not changed.
 template <int Dim>
 void PorousLayers<Dim>::finish_projection(Flow<Dim>& flow) {
   Particles<Dim>& particles = flow.state.particles;
   for_each(particles.owned, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return;
-    const Vec<Dim> change = particles.velocity[i] - unprojected_[i];
-    particles.velocity[i] = (unprojected_[i] + conductance_[i] * change) / media_[i].porosity();
+    Vec<Dim>& velocity = particles.velocity[i];
+    if (!is_claimed(flow.role[i])) velocity = unprojected_[i] + conductance_[i] * (velocity - unprojected_[i]);
+    velocity /= media_[i].porosity();
   });
 }
 
@@ -374,7 +259,7 @@ void PorousLayers<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double
                                  Works& works) const {
   const Particles<Dim>& particles = flow.state.particles;
   const double resisted = sum_over(particles.owned, 0.0, [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return 0.0;
+    if (!particles.is_fluid(i) || is_claimed(flow.role[i])) return 0.0;
     const double mobility = conductance_[i] / media_[i].porosity();
     const double slowing = 1.0 / mobility - 1.0 - media_[i].added_mass;  // r dt
     const double mass = flow.setup.liquid.density * flow.water_volume_of(i);

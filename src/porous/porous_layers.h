@@ -47,6 +47,7 @@ class PorousLayers final : public Part<Dim>, public Pores<Dim> {
   void stay(Flow<Dim>& flow) override;
 
   PoreSpace at(const Vec<Dim>& x) const override;
+  double resistance_at(const Vec<Dim>& x, double speed) const override;
   LatticeSums lattice_of(double volume) const override;
   void warn(const Flow<Dim>& flow) override;
 

@@ -34,12 +34,13 @@ FlowFormulation<Dim> make_formulation(const CaseSpec& spec) {
 
 template <int Dim>
 Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
-  // All parts that a flow can have, in the order in which the stages call them.
+  // All parts that a flow can have, in the order in which the stages call them. Porous layers are first: the other
+  // parts see the velocity of the water in the pores, with which it moves.
   static constexpr std::array parts{
-      make_open_ends_part<Dim>, make_domain_floor<Dim>,        make_wave_makers<Dim>,      make_side_walls<Dim>,
-      make_damping_zones<Dim>,  make_boundary_layers<Dim>,     make_floating_bodies<Dim>,  make_fixed_hulls<Dim>,
-      make_enclosed_air<Dim>,   make_voids_under_tension<Dim>, make_section_counters<Dim>, make_porous_layers<Dim>,
-      make_thick_liquid<Dim>,   make_rest_watch<Dim>,          make_refinement<Dim>,
+      make_porous_layers<Dim>, make_open_ends_part<Dim>, make_domain_floor<Dim>,        make_wave_makers<Dim>,
+      make_side_walls<Dim>,    make_damping_zones<Dim>,  make_boundary_layers<Dim>,     make_floating_bodies<Dim>,
+      make_fixed_hulls<Dim>,   make_enclosed_air<Dim>,   make_voids_under_tension<Dim>, make_section_counters<Dim>,
+      make_thick_liquid<Dim>,  make_rest_watch<Dim>,     make_refinement<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

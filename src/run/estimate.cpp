@@ -210,12 +210,14 @@ RunEstimate estimate_run(const CaseSpec& spec, Flow<Dim>& flow, double max_pairs
   const Particles<Dim>& particles = flow.state.particles;
   estimate.particles.fluid =
       static_cast<double>(count_each(particles.owned, [&](std::size_t i) { return particles.is_fluid(i); }));
-  estimate.water =
+  const double space =
       sum_over(particles.owned, 0.0, [&](std::size_t i) { return particles.is_fluid(i) ? particles.volume[i] : 0.0; });
+  estimate.water = sum_over(particles.owned, 0.0,
+                            [&](std::size_t i) { return particles.is_fluid(i) ? flow.water_volume_of(i) : 0.0; });
   // Beside walls that no lattice fits, cells are smaller or larger than dx.
   const double of_a_particle =
-      estimate.particles.fluid > 0.0 ? estimate.water / estimate.particles.fluid : power<Dim>(spec.particles.spacing);
-  const WaterEstimate water = estimate_water(spec, flow.walls.boundary, estimate.water);
+      estimate.particles.fluid > 0.0 ? space / estimate.particles.fluid : power<Dim>(spec.particles.spacing);
+  const WaterEstimate water = estimate_water(spec, flow.walls.boundary, space);
   estimate.largest_fluid = water.largest / of_a_particle;
   const double neighbours = neighbours_in_support<Dim>(traits_of(spec).support);
   estimate.memory = memory_estimate<Dim>({estimate.largest_fluid, estimate.particles.wall}, neighbours);

@@ -241,6 +241,17 @@ void add_open_ends(const CaseSpec& spec, std::vector<std::string>& sentences) {
   }
 }
 
+void add_porous_layers(const CaseSpec& spec, std::vector<std::string>& sentences) {
+  for (const PorousTable& layer : spec.porous) {
+    const std::string law =
+        layer.resistance == PorousResistance::coefficients
+            ? fmt::format("the coefficients a = {:.4g} s/m and b = {:.4g} s^2/m^2", layer.linear, layer.quadratic)
+            : fmt::format("grains of {:.4g} m ({})", layer.grain_size, name_of(layer.resistance));
+    sentences.push_back(
+        fmt::format("Porous layer '{}' has a porosity of {:.3g}, and {}.", layer.name, layer.porosity, law));
+  }
+}
+
 void add_air(const CaseSpec& spec, std::vector<std::string>& sentences) {
   if (spec.air.pockets == AirPockets::none) return;
   sentences.push_back(fmt::format("Air that water and walls enclose is a gas ({}), in an atmosphere of {:.6g} Pa.",
@@ -297,6 +308,7 @@ std::vector<std::string> explain_case(const CaseSpec& spec, const RunEstimate& e
   add_gates(spec, sentences);
   add_waves(spec, sentences);
   add_bodies(spec, sentences);
+  add_porous_layers(spec, sentences);
   add_open_ends(spec, sentences);
   add_air(spec, sentences);
   sentences.push_back(about_physics(spec, estimate.has_implicit_viscosity));

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "flow/measure.h"
 #include "schemes/cases.h"
+#include "schemes/open_ends.h"
 #include "support/dimensions.h"
 
 namespace tailwater {
@@ -212,13 +214,18 @@ TEST(PorousTank2D, RefusesALayerOutsideOfTheCase) {
       << refusal_of(spec);
 }
 
-TEST(PorousTank2D, RefusesALayerBeyondAnOpenEnd) {
+// Beyond a hole in a wall there is a lead of open water.
+TEST(PorousTank2D, RefusesALayerBeyondAHole) {
   CaseSpec spec = tank_case<2>(0.05, 1.0, 0.5);
-  spec.walls[0].open = {"+y", "+x"};
+  WallTable floor;
+  floor.points = {{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}};
+  WallTable above;
+  above.points = {{1.0, 0.3}, {1.0, 1.0}};
+  spec.walls = {floor, above};
   OutletTable outlet;
   outlet.name = "end";
   outlet.from = {1.0, 0.0};
-  outlet.to = {1.0, 1.0};
+  outlet.to = {1.0, 0.3};
   outlet.direction = {1.0, 0.0};
   outlet.level = 0.5;
   spec.outlets = {outlet};
@@ -228,8 +235,90 @@ TEST(PorousTank2D, RefusesALayerBeyondAnOpenEnd) {
   EXPECT_NE(refusal_of(spec).find("outlet 'end': a porous layer is at"), std::string::npos) << refusal_of(spec);
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, PluggedChannel,
-                         testing::Values(Integrator::explicit_projection, Integrator::implicit_projection));
+constexpr double conduit_length = 0.4;  // m
+constexpr double conduit_height = 0.2;  // m
+constexpr double conduit_outlet = 0.4;  // m; level beyond
+constexpr double conduit_head = 0.1;    // m; of the inlet over that
+
+/// A conduit full of a layer, from its inlet to its outlet.
+CaseSpec porous_conduit(double linear, double quadratic, Integrator integrator) {
+  CaseSpec spec;
+  spec.particles.spacing = 0.02;
+  spec.scheme.integrator = integrator;
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {conduit_length, conduit_height};
+  spec.fluid = {water};
+  WallTable bottom;
+  bottom.points = {{0.0, 0.0}, {conduit_length, 0.0}};
+  WallTable top;
+  top.points = {{conduit_length, conduit_height}, {0.0, conduit_height}};
+  spec.walls = {bottom, top};
+  spec.porous = {layer_of(water.min, water.max, 0.4, linear, quadratic)};
+  InletTable inlet;
+  inlet.from = {0.0, 0.0};
+  inlet.to = {0.0, conduit_height};
+  inlet.direction = {1.0, 0.0};
+  inlet.level = conduit_outlet + conduit_head;
+  spec.inlets = {inlet};
+  OutletTable outlet;
+  outlet.from = {conduit_length, 0.0};
+  outlet.to = {conduit_length, conduit_height};
+  outlet.direction = {1.0, 0.0};
+  outlet.level = conduit_outlet;
+  spec.outlets = {outlet};
+  return spec;
+}
+
+/// Mean error [m] of the head in the middle of the conduit, where it falls evenly.
+double head_error(const Flow<2>& flow) {
+  const Particles<2>& particles = flow.state.particles;
+  const Vec<2> nothing = Vec<2>::Zero();
+  const Vec<2> sums = sum_over(particles.owned, nothing, [&](std::size_t i) {
+    const Vec<2>& x = particles.position[i];
+    if (!particles.is_fluid(i) || x[0] < 0.1 || x[0] > 0.3) return nothing;
+    const double head = conduit_outlet + conduit_head * (1.0 - x[0] / conduit_length);
+    return Vec<2>(particles.pressure[i] / (1000.0 * g) + x[1] - head, 1.0);
+  });
+  return sums[0] / sums[1];
+}
+
+class PorousConduit : public testing::TestWithParam<Integrator> {};
+
+// The layer continues beyond both openings, so the flow is uniform and the head falls evenly, which the operators
+// reproduce. The resistance has stopped every other flow after 1/r = 0.02 s.
+TEST_P(PorousConduit, TakesTheHeadOfItsLawBetweenTwoLevels) {
+  struct Law {
+    double linear, quadratic, steady;
+  };
+  for (const Law law : {Law{20.0, 0.0, 0.0125}, Law{0.0, 400.0, 0.025}}) {
+    Flow<2> flow = make_flow<2>(porous_conduit(law.linear, law.quadratic, GetParam()));
+    start(flow);
+    const double before = water_of(flow);
+    while (flow.state.time < 1.0) pass_and_step(flow);
+    EXPECT_NEAR(filter_velocity(flow, 0.1, 0.3) / law.steady, 1.0, 0.01) << law.linear;
+    EXPECT_NEAR(head_error(flow), 0.0, 0.01 * conduit_head) << law.linear;
+    EXPECT_GT(arrived_at(flow, 0).volume, 0.0);
+    const double kept = water_of(flow) - arrived_at(flow, 0).volume + state_of_end(flow, 1).departed.volume;
+    EXPECT_NEAR(kept / before, 1.0, 1e-6) << "water is counted in the pores, in single precision";
+  }
+}
+
+// The discharge varies by 1 % while a column enters.
+TEST_P(PorousConduit, TakesTheHeadOfItsLawWithADischarge) {
+  CaseSpec spec = porous_conduit(20.0, 0.0, GetParam());
+  spec.inlets[0].level.reset();
+  spec.inlets[0].discharge = 0.0125 * conduit_height;
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  while (flow.state.time < 1.0) pass_and_step(flow);
+  EXPECT_NEAR(filter_velocity(flow, 0.1, 0.3) / 0.0125, 1.0, 0.02);
+  EXPECT_NEAR(head_error(flow), 0.0, 0.01 * conduit_head);
+}
+
+constexpr std::array both{Integrator::explicit_projection, Integrator::implicit_projection};
+INSTANTIATE_TEST_SUITE_P(Integrators, PluggedChannel, testing::ValuesIn(both));
+INSTANTIATE_TEST_SUITE_P(Integrators, PorousConduit, testing::ValuesIn(both));
 
 }  // namespace
 }  // namespace tailwater

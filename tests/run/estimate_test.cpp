@@ -108,6 +108,19 @@ TEST(EstimateRun, WaterIsThatOfTheCaseWhereNoLatticeFitsIt) {
   EXPECT_NEAR(estimate.largest_fluid, 30.0, 1e-9);
 }
 
+TEST(EstimateRun, WaterInALayerIsThatInItsPores) {
+  const CaseSpec spec = read_case_text(
+      "particles.spacing = 0.1\ntime.end = 1\n[[fluid]]\nmin = [0, 0]\nmax = [1, 0.3]\n[[wall]]\n"
+      "points = [[0, 1], [0, 0], [1, 0], [1, 1]]\n"
+      "[[porous]]\nmin = [-1, -1]\nmax = [2, 2]\nporosity = 0.4\ngrain_size = 0.02\n",
+      "case.toml");
+  Flow<2> flow = make_flow<2>(spec);
+  const RunEstimate estimate = estimate_run(spec, flow);
+  EXPECT_EQ(estimate.particles.fluid, 30.0);
+  EXPECT_NEAR(estimate.water, 0.4 * 0.3, 1e-6);
+  EXPECT_NEAR(estimate.largest_fluid, 30.0, 1e-9);
+}
+
 TEST(EstimateRun, TriesATankInPlaceOfALargeCase) {
   CaseSpec spec = pond_case<2>();
   Flow<2> tried = make_flow<2>(spec);

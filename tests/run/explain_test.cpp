@@ -71,6 +71,17 @@ TEST(ExplainCase, NamesTheLiquids) {
       tells(sentences_of_case(basin + mud + oil + low + high), "m^3 of 'mud' and 'oil' per metre of width, in"));
 }
 
+TEST(ExplainCase, TellsOfPorousLayers) {
+  const std::vector<std::string> sentences = sentences_of(
+      "[[porous]]\nname = \"core\"\nmin = [0, 0]\nmax = [0.5, 1]\nporosity = 0.4\ngrain_size = 0.02\n"
+      "[[porous]]\nname = \"sand\"\nmin = [0.5, 0]\nmax = [1, 1]\nporosity = 0.35\nresistance = "
+      "\"coefficients\"\nlinear = 20\n");
+  for (const char* text : {"Porous layer 'core' has a porosity of 0.4, and grains of 0.02 m (van-gent).",
+                           "Porous layer 'sand' has a porosity of 0.35, and the coefficients a = 20 s/m and b = 0"}) {
+    EXPECT_TRUE(tells(sentences, text)) << text;
+  }
+}
+
 TEST(ExplainCase, TellsOfEnclosedAir) {
   const std::vector<std::string> sentences = sentences_of(
       "[air]\npockets = \"isothermal\"\n[[pocket]]\nat = [0.5, 0.8]\noverpressure = -300\n[[vent]]\nat = [0.5, 1]\n"
