@@ -35,6 +35,7 @@ struct Entrant {
   double pressure;
   double volume;
   int liquid;
+  double layer_viscosity;
 };
 
 /// The cells at an opening in which particles enter: rows that divide the depth of each column, from the bottom
@@ -132,6 +133,30 @@ std::vector<double> free_volumes(const OpenEnd<Dim>& end, const EntryLattice<Dim
   return volume;
 }
 
+/// Mean of nu~ [m^2/s] in each row of the water before the buffer, over all ranks: that of water which enters with the
+/// profile of a channel that continues beyond the opening. 0 with a uniform profile, whose water has no boundary layer.
+template <int Dim>
+std::vector<double> layers_before(const OpenEnd<Dim>& end, const EntryLattice<Dim>& lattice, const Flow<Dim>& flow) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> mean(lattice.size(), 0.0);
+  if (end.flow.profile.empty()) return mean;
+  std::vector<double> sums(2 * lattice.size(), 0.0);   // of each row: volume, and volume times nu~
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: several may stand in a row
+    const Vec<Dim>& x = particles.position[i];
+    const double before = -end.behind_border(x);
+    if (!particles.is_fluid(i) || before <= 0.0 || before > 2.0 * end.gauge || !end.opening.spans(x)) continue;
+    lattice.for_rows_around(x, [&](std::size_t cell, double share) {
+      sums[2 * cell] += share * particles.volume[i];
+      sums[2 * cell + 1] += share * particles.volume[i] * particles.layer_viscosity[i];
+    });
+  }
+  flow.setup.ranks.sum_of_each(sums);
+  for (std::size_t cell = 0; cell < mean.size(); ++cell) {
+    if (sums[2 * cell] > 0.0) mean[cell] = sums[2 * cell + 1] / sums[2 * cell];
+  }
+  return mean;
+}
+
 /// Takes out what would stand too near to other water, or in a row that is full of it, as where water has left its row.
 /// All ranks find the same.
 template <int Dim>
@@ -164,6 +189,7 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
   const double growth = end.stretch * state.depth_rate / std::max(state.depth, end.spacing);
   if (lattice.size() == 0 || (end.flow.feeds() && state.entry_speed + growth <= 0.0)) return {};
   const std::vector<double> free = free_lengths(end, lattice, flow);
+  const std::vector<double> layers = layers_before(end, lattice, flow);
   std::vector<std::optional<Entrant<Dim>>> of_cell(lattice.size());
   for (std::size_t cell = 0; cell < lattice.size(); ++cell) {
     const double fraction = filled_fraction(flow.pores, lattice.middle(cell));
@@ -175,8 +201,12 @@ std::vector<Entrant<Dim>> find_entrants(const OpenEnd<Dim>& end, const OpenEndSt
     const double pressure = end.pressure_at(state, position, velocity, deceleration(flow.pores, position, velocity),
                                             density_above(flow, end, state, liquids, position));
     if (end.opening.normal.dot(velocity) >= 0.0 || (end.holds_level() && pressure <= 0.0)) continue;
-    of_cell[cell] = {position, velocity / fraction, pressure, volume ? *volume / fraction : lattice.area(cell) * length,
-                     liquids.at(end.rise.dot(position - end.low))};
+    of_cell[cell] = {position,
+                     velocity / fraction,
+                     pressure,
+                     volume ? *volume / fraction : lattice.area(cell) * length,
+                     liquids.at(end.rise.dot(position - end.low)),
+                     layers[cell]};
   }
   remove_crowded(end, lattice, flow, of_cell);
   std::vector<Entrant<Dim>> entrants;
@@ -222,6 +252,9 @@ void add_water(Flow<Dim>& flow, const std::vector<Entrant<Dim>>& entrants, IdOf&
             .pressure = entrant.pressure,
             .volume = entrant.volume,
             .id = id_of(own[n])};
+  });
+  for_each(own.size(), [&](std::size_t n) {
+    particles.layer_viscosity[particles.owned - own.size() + n] = entrants[own[n]].layer_viscosity;
   });
 }
 

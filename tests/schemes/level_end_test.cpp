@@ -480,6 +480,32 @@ TEST(OpenEnd, ASteepProfileBringsTheDischarge) {
   EXPECT_NEAR(arrived_at(flow, 0).volume, asked, 0.02 * asked + dx * depth);
 }
 
+/// Water that enters with the profile of a channel has the turbulence of the water before the opening. It keeps it in
+/// the buffer, which it crosses in a fifth of a second.
+TEST(OpenEnd, ADevelopedProfileEntersWithItsTurbulence) {
+  const double depth = 0.4;
+  CaseSpec spec = channel<2>(1.5, depth);
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].roughness = 0.01;
+  spec.fluid[0].velocity = {1.0, 0.0};
+  spec.inlets[0].discharge = depth;
+  spec.inlets[0].profile = "ln(1 + 1200*s)";
+  spec.outlets[0].level = depth;
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  while (flow.state.time < 2.0) pass_and_step(flow);
+  const Particles<2>& particles = flow.state.particles;
+  const OpenEnd<2>& end = flow.part<OpenEnds<2>>().ends()[0];
+  double entered = 0.0, before = 0.0;
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    const double beyond = end.behind_border(particles.position[i]);
+    if (!particles.is_fluid(i) || beyond < -end.stretch) continue;
+    (beyond > 0.0 ? entered : before) += particles.volume[i] * particles.layer_viscosity[i];
+  }
+  EXPECT_GT(before, 0.0);
+  EXPECT_NEAR(entered / before, 1.0, 0.3);
+}
+
 /// Open ends work in the published formulations too: still water between them does not accelerate, for any errors of
 /// their pressure at the ends. It stays slower than a wave.
 TEST(OpenEnd, ThePublishedFormulationsHaveThem) {
