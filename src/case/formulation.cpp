@@ -38,6 +38,10 @@ FormulationTraits traits_of(const CaseSpec& spec) {
   return {3.0, {.on_wall = true, .behind = false}, not_exact, not_one_projection, has_marked_surface, no_zones};
 }
 
+double age_of_forces(const CaseSpec& spec) {
+  return spec.scheme.integrator == Integrator::implicit_projection ? 0.5 : 1.0;
+}
+
 void apply_formulation(SchemeTable& scheme) {
   const bool is_explicit = scheme.integrator == Integrator::explicit_projection;
   switch (scheme.name) {

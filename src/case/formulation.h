@@ -25,6 +25,10 @@ struct FormulationTraits {
 
 FormulationTraits traits_of(const CaseSpec& spec);
 
+/// Time from the instant when forces on walls act to the end of the step, over its length. The pressure of the explicit
+/// step acts where the step begins, that of two projections in about equal parts where it begins and where it ends.
+double age_of_forces(const CaseSpec& spec);
+
 /// Sets the keys whose default depends on `name`, `formulation` and `integrator`: the Courant number, which is that of
 /// the papers where published. Call it on the initialisers, before the keys given in the file are read.
 void apply_formulation(SchemeTable& scheme);

@@ -56,7 +56,7 @@ Box<Dim> box_of_probe(const ProbeTable& probe) {
   return box;  // other probes search for a wall, and report if there is none
 }
 
-/// Adds warnings about times that are never reached, and about means and intervals longer than the run.
+/// Adds a warning about times that are never reached, and about means over more than the run.
 void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findings) {
   if (probe.averaging_time > spec.time.end) {
     findings.push_back(Finding::warning("averaging-longer-than-run",
@@ -64,13 +64,6 @@ void check_times(const CaseSpec& spec, const ProbeTable& probe, Findings& findin
                                          "pressure is not a mean over that time",
                                          label(probe), Amount{probe.averaging_time, "s"}, spec.time.end},
                                         {"give a shorter one, or end the run later"}));
-  }
-  if (probe.interval > spec.time.end) {
-    findings.push_back(
-        Finding::warning("interval-longer-than-run",
-                         {"{}: interval = {:.6g} is longer than the run of {:.6g} s: it reads at the start only",
-                          label(probe), Amount{probe.interval, "s"}, spec.time.end},
-                         {"give a shorter one, or 0: a reading in each step"}));
   }
   const auto is_late = [&](double time) { return time > spec.time.end; };
   const auto late = std::ranges::count_if(probe.times, is_late);

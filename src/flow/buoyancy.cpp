@@ -33,7 +33,7 @@ double find_fullness(const Flow<Dim>& flow) {
 
 template <int Dim>
 bool may_be_balanced(const Flow<Dim>& flow) {
-  return flow.setup.liquids.are_several() || flow.is_open();
+  return flow.setup.liquids.are_several() || (flow.is_open() && !flow.setup.has_implicit_viscosity);
 }
 
 template <int Dim>

@@ -28,7 +28,8 @@ double find_fullness(const Flow<Dim>& flow);
 template <int Dim>
 double find_fullness_between_openings(const Flow<Dim>& flow);
 
-/// Whether the pressure of water that fills its walls counts relative to the balanced one.
+/// Whether the pressure of water that fills its walls counts relative to the balanced one. The steps of a thick liquid
+/// in a conduit follow its weight, which limits the error of the implicit viscous force.
 template <int Dim>
 bool may_be_balanced(const Flow<Dim>& flow);
 

@@ -30,12 +30,6 @@ namespace {
 /// Relative weight of patches that take no part in a force. It matters only where there are no other patches.
 constexpr double weight_of_others = 1e-6;
 
-/// Time from the instant when forces act to the end of the step, over its length. The pressure of the explicit step
-/// acts where the step begins, that of two projections in about equal parts where it begins and where it ends.
-double age_of_forces(const CaseSpec& spec) {
-  return spec.scheme.integrator == Integrator::implicit_projection ? 0.5 : 1.0;
-}
-
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
 constexpr double patch_margin = 1.0;
 

@@ -98,7 +98,7 @@ TABLE = (
              ("[time]", '[[outlet]]\nname = "end"\nfrom = [2, 0.2]\nto = [2, 2]\n[time]')),
     BadInput("inlet in a wall", ("inlet 'in' overlaps wall 'tank' at (0, ",),
              ("[time]", '[[inlet]]\nname = "in"\nfrom = [0, 0]\nto = [0, 2]\ndischarge = 0.1\n[time]')),
-    BadInput("inlet that faces outwards", ("case.toml:12:1", "inlet 'in' cuts through fluid 'column'", "the opposite"),
+    BadInput("inlet that faces outwards", ("case.toml:12:1", "inlet 'in' cuts through fluid 'column'", "reverse its"),
              (FLOOR, INLET + "discharge = 0.1\ndirection = [-1, 0]")),
     BadInput("litres for cubic metres", ("case.toml:12:1", "inlet 'in'", "more water enters", "1 l/s is 0.001"),
              (FLOOR, INLET + "discharge = 50")),
