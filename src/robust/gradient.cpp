@@ -11,22 +11,14 @@
 namespace tailwater {
 namespace {
 
-/// The gradient over the density, times that of the case, where rho_b g . x (flow/buoyancy.h) of a density `balanced`
-/// is a part of the pressure: the exact gradient of that part, and the sum over pairs of the rest.
+/// Adds the exact gradient of the balanced pressure rho_b g . x (flow/buoyancy.h), with rho_b = `balanced`.
 template <int Dim>
-void find_gradient_beside(const Flow<Dim>& flow, double balanced, const std::vector<double>& pressure,
-                          std::span<Vec<Dim>> gradient) {
+void add_balanced_gradient(const Flow<Dim>& flow, double balanced, std::span<Vec<Dim>> gradient) {
   const Interfaces& interfaces = flow.surroundings.interfaces;
-  const std::vector<double> rest = without_balanced_pressure(flow, balanced, pressure);
   const Vec<Dim> across = flow.setup.gravity_across();
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    const std::vector<double>& volume = flow.state.particles.volume;
-    const PairVectorField<Dim>& vectors = flow.surroundings.pair_vectors;
-    gradient[i] = interfaces.are_any()
-                      ? gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, vectors, rest) +
-                            balanced / interfaces.density[i] * across
-                      : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, rest) + balanced * across;
+    gradient[i] += (interfaces.are_any() ? balanced / interfaces.density[i] : balanced) * across;
   });
 }
 
@@ -49,18 +41,24 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
   const std::vector<double>& volume = flow.state.particles.volume;
   const Interfaces& interfaces = flow.surroundings.interfaces;
   const double balanced = balanced_density(flow);
-  if (balanced > 0.0) return find_gradient_beside(flow, balanced, pressure, gradient);
+  const std::vector<double> rest =
+      balanced > 0.0 ? without_balanced_pressure(flow, balanced, pressure) : std::vector<double>();
+  const std::vector<double>& summed = balanced > 0.0 ? rest : pressure;
   const bool is_graded = !flow.surroundings.support_terms.is_empty();
-  const std::vector<double> scaled = is_graded ? over_references(flow, pressure) : std::vector<double>();
+  const std::vector<double> scaled = is_graded ? over_references(flow, summed) : std::vector<double>();
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
     const PairVectorField<Dim>& vectors = flow.surroundings.pair_vectors;
     gradient[i] = interfaces.are_any()
-                      ? gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, vectors, pressure)
-                      : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, is_graded ? scaled : pressure);
+                      ? gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, vectors, summed)
+                      : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, is_graded ? scaled : summed);
   });
   if (is_graded) add_support_gradient<Dim>(flow, scaled, gradient);
-  if (flow.setup.liquid.tension > 0.0) remove_attraction(flow, pressure, gradient);
+  if (balanced > 0.0) {
+    add_balanced_gradient(flow, balanced, gradient);
+  } else if (flow.setup.liquid.tension > 0.0) {
+    remove_attraction(flow, pressure, gradient);
+  }
 }
 
 template <int Dim>
