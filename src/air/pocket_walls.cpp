@@ -112,7 +112,7 @@ bool are_equal(const AffineMap<Dim>& a, const AffineMap<Dim>& b) {
          (a.linear - b.linear).norm() <= rounding * a.linear.norm();
 }
 
-/// m^(Dim-1) times m/s; growth of each pocket by the direct force of the air on a wall with this velocity.
+/// m^Dim/s; growth of each pocket by the direct force of the air on a wall with this velocity.
 template <int Dim>
 void add_growth_at_wall(const PocketStep<Dim>& step, int wall, const AffineMap<Dim>& velocity,
                         std::vector<double>& growth) {
@@ -123,7 +123,7 @@ void add_growth_at_wall(const PocketStep<Dim>& step, int wall, const AffineMap<D
   }
 }
 
-/// Growth of each pocket by the pairs of water and a wall with this velocity.
+/// m^Dim/s; growth of each pocket by the pairs of water and a wall with this velocity.
 template <int Dim>
 void add_growth_by_pairs(const PocketStep<Dim>& step, int wall, const AffineMap<Dim>& velocity,
                          std::vector<double>& growth) {

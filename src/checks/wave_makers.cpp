@@ -101,6 +101,17 @@ Findings check_top(const WaveMakerTable& maker, const WavePlate<Dim>& plate) {
                        {"let it end above the waves that it makes and those that come back"})};
 }
 
+/// m; height along `up` of the highest particle of water at the start with is_there(place); minus infinity without one.
+/// Collective.
+template <int Dim, class IsThere>
+double highest_water(const FluidParticles<Dim>& fluid, const Vec<Dim>& up, IsThere&& is_there) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Vec<Dim>& x : fluid.position) {
+    if (is_there(x)) highest = std::max(highest, up.dot(x));
+  }
+  return fluid.ranks.largest(highest);
+}
+
 /// The water at the start must stand where the waves of a zone have their still level.
 template <int Dim>
 Findings check_level(const CaseSpec& spec, const DampingTable& zone, const FluidParticles<Dim>& fluid) {
@@ -108,14 +119,9 @@ Findings check_level(const CaseSpec& spec, const DampingTable& zone, const Fluid
   const Vec<Dim> up = -gravity_of<Dim>(spec).normalized();
   const Box<Dim> box(to_vec<Dim>(zone.min, owner, "min"), to_vec<Dim>(zone.max, owner, "max"));
   const double dx = spec.particles.spacing;
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  double surface = none;
-  for (const Vec<Dim>& x : fluid.position) {
-    if (box.contains(x)) surface = std::max(surface, up.dot(x) + 0.5 * dx);
-  }
-  surface = fluid.ranks.largest(surface);
+  const double surface = 0.5 * dx + highest_water(fluid, up, [&](const Vec<Dim>& x) { return box.contains(x); });
   const double top = std::max(up.dot(box.min()), up.dot(box.max()));
-  const bool is_known = surface > none && surface < top - dx;
+  const bool is_known = std::isfinite(surface) && surface < top - dx;
   if (!is_known || std::abs(surface - zone.level) <= std::max(max_error * zone.depth, max_columns * dx)) return {};
   return {Finding::error("zone-level-differs",
                          {"{} = {:.4g}, but the surface of the water in the zone is at {:.4g} m at the start",
@@ -149,11 +155,7 @@ Findings check_side_and_top(const CaseSpec& spec, const DampingTable& zone, cons
     }
     return true;
   };
-  double above = std::numeric_limits<double>::lowest();  // m; of the water in plan, above the zone
-  for (const Vec<Dim>& x : fluid.position) {
-    if (is_in_plan(x)) above = std::max(above, x[Dim - 1] - zone.max.back());
-  }
-  above = fluid.ranks.largest(above);
+  const double above = highest_water(fluid, Vec<Dim>(Vec<Dim>::Unit(Dim - 1)), is_in_plan) - zone.max.back();
   if (above > spec.particles.spacing) {
     findings.push_back(Finding::warning(
         "damping-below-surface",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/for_each.h"
 
@@ -11,6 +12,14 @@ namespace {
 
 /// Least g'/g. It limits the time step of liquids of equal density, which have no internal wave speed.
 constexpr double min_reduced_gravity = 1e-3;
+
+/// kg/m^3; of the lightest and the heaviest liquid.
+template <int Dim>
+std::pair<double, double> extreme_densities(const Setup<Dim>& setup) {
+  if (!setup.liquids.are_several()) return {setup.liquid.density, setup.liquid.density};
+  const auto [lightest, heaviest] = std::ranges::minmax_element(setup.liquids.density);
+  return {*lightest, *heaviest};
+}
 
 }  // namespace
 
@@ -38,11 +47,7 @@ bool may_be_balanced(const Flow<Dim>& flow) {
 
 template <int Dim>
 double balanced_density(const Flow<Dim>& flow) {
-  if (!may_be_balanced(flow)) return 0.0;
-  const ParticleLiquids& liquids = flow.setup.liquids;
-  const double lightest =
-      liquids.are_several() ? *std::ranges::min_element(liquids.density) : flow.setup.liquid.density;
-  return flow.state.last_step.fullness * lightest;
+  return may_be_balanced(flow) ? flow.state.last_step.fullness * extreme_densities(flow.setup).first : 0.0;
 }
 
 template <int Dim>
@@ -50,10 +55,7 @@ TimeStepRule time_step_rule(const Flow<Dim>& flow) {
   TimeStepRule rule = flow.setup.time_step_rule;
   const double balanced = balanced_density(flow);
   if (balanced == 0.0) return rule;
-  const ParticleLiquids& liquids = flow.setup.liquids;
-  const double heaviest =
-      liquids.are_several() ? *std::ranges::max_element(liquids.density) : flow.setup.liquid.density;
-  const double reduced = heaviest / balanced - 1.0;
+  const double reduced = extreme_densities(flow.setup).second / balanced - 1.0;
   rule.reference_speed *= std::sqrt(std::clamp(reduced, min_reduced_gravity, 1.0));
   return rule;
 }
@@ -67,10 +69,9 @@ template <int Dim>
 std::vector<double> without_balanced_pressure(const Flow<Dim>& flow, double density,
                                               const std::vector<double>& pressure) {
   const Particles<Dim>& particles = flow.state.particles;
+  const Vec<Dim> across = flow.setup.gravity_across();
   std::vector<double> rest(pressure.size());
-  for_each(rest.size(), [&](std::size_t i) {
-    rest[i] = pressure[i] - density * flow.setup.gravity_across().dot(particles.position[i]);
-  });
+  for_each(rest.size(), [&](std::size_t i) { rest[i] = pressure[i] - density * across.dot(particles.position[i]); });
   constexpr double none = std::numeric_limits<double>::lowest();
   const double least = -flow.setup.ranks.largest(
       largest_over(particles.owned, none, [&](std::size_t i) { return particles.is_fluid(i) ? -rest[i] : none; }));

@@ -51,6 +51,7 @@ void add_error_of_balanced_pressure(const Flow<Dim>& flow, std::span<double> sou
   const double density = balanced_density(flow);
   if (density == 0.0) return;
   const double spacing = flow.setup.scale.spacing;
+  const Vec<Dim> across = flow.setup.gravity_across();
   for_each(source.size(), [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
     VecSum<Dim> sum;
@@ -59,7 +60,7 @@ void add_error_of_balanced_pressure(const Flow<Dim>& flow, std::span<double> sou
       const Lanes share = share_of_morris_weight(batch.squared_over_spacing(place.d.dot(place.d)), spacing);
       sum += (2.0F * share * place.volume() * batch.F(place.d)) * place.d;
     });
-    source[i] += density * flow.setup.gravity_across().dot(sum.total());
+    source[i] += density * across.dot(sum.total());
   });
 }
 
