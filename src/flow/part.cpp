@@ -33,6 +33,9 @@ template <int Dim>
 void Part<Dim>::adapt(Flow<Dim>& /*flow*/) {}
 
 template <int Dim>
+void Part<Dim>::follow_moved_water(const Flow<Dim>& /*flow*/, std::span<const MovedWater<Dim>> /*moved*/) {}
+
+template <int Dim>
 void Part<Dim>::take_out(const Flow<Dim>& /*flow*/, std::span<std::uint8_t> /*leaves*/) {}
 
 template <int Dim>

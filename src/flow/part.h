@@ -51,6 +51,14 @@ enum class Reordering {
 /// Projections of a step: the one that computes its velocity, and a second one at the new positions.
 enum class Projection { of_step, again };
 
+/// Water that went from one place to another because particles were replaced by others.
+template <int Dim>
+struct MovedWater {
+  Vec<Dim> from;
+  Vec<Dim> to;
+  double volume;  ///< m^Dim; of water
+};
+
 /// A number of one step, for a column of steps.csv.
 struct StepColumn {
   const char* name;
@@ -99,6 +107,8 @@ class Part {
   /// Replaces particles by others of the same water. The pairs are those of the present positions, except on ranks
   /// where the surroundings are not current or has_pairs is false.
   virtual void adapt(Flow<Dim>& flow);
+  /// Called when a part has replaced particles on any rank, with the water that this moved on this one. Collective.
+  virtual void follow_moved_water(const Flow<Dim>& flow, std::span<const MovedWater<Dim>> moved);
   /// Marks the owned particles that leave the flow, unless they are marked already, and adds them to the part's
   /// records.
   virtual void take_out(const Flow<Dim>& flow, std::span<std::uint8_t> leaves);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "base/for_each.h"
 #include "case/spec.h"
@@ -75,6 +76,13 @@ struct Merge {
   std::size_t kept;
   std::size_t removed;
 };
+
+/// m; centre of mass of two particles.
+template <int Dim>
+Vec<Dim> centre_of(const Particles<Dim>& particles, std::size_t i, std::size_t j) {
+  const double share = particles.volume[j] / (particles.volume[i] + particles.volume[j]);
+  return particles.position[i] + share * (particles.position[j] - particles.position[i]);
+}
 
 /// The choice of the particles of a rank that split and merge.
 template <int Dim>
@@ -185,8 +193,7 @@ class Adaptation {
   bool may_merge(std::size_t i, std::size_t j, double r) const {
     const double volume = particles_.volume[i] + particles_.volume[j];
     if (r > distance_to_merge * edge_of<Dim>(0.5 * volume)) return false;
-    const Vec<Dim> middle =
-        (particles_.volume[i] * particles_.position[i] + particles_.volume[j] * particles_.position[j]) / volume;
+    const Vec<Dim> middle = centre_of(particles_, i, j);
     const double wanted = wanted_volume(middle);
     const bool is_small = std::min(particles_.volume[i], particles_.volume[j]) < small_volume * wanted;
     return volume <= (is_small ? volume_to_merge_small : volume_to_merge) * wanted && has_room(i, middle) &&
@@ -225,13 +232,32 @@ void merge_particles(const std::vector<Merge>& merges, Particles<Dim>& particles
   for (const auto [i, j] : merges) {
     const double volume = particles.volume[i] + particles.volume[j];
     const double share = particles.volume[j] / volume;
-    particles.position[i] += share * (particles.position[j] - particles.position[i]);
+    particles.position[i] = centre_of(particles, i, j);
     particles.velocity[i] += share * (particles.velocity[j] - particles.velocity[i]);
     particles.pressure[i] = std::lerp(particles.pressure[i], particles.pressure[j], share);
     particles.second_pressure[i] = std::lerp(particles.second_pressure[i], particles.second_pressure[j], share);
     particles.wall_distance[i] = std::min(particles.wall_distance[i], particles.wall_distance[j]);
     particles.volume[i] = volume;
   }
+}
+
+/// The ways of the water of particles that are about to split and merge.
+template <int Dim>
+std::vector<MovedWater<Dim>> find_moved_water(const Flow<Dim>& flow, const std::vector<Split<Dim>>& splits,
+                                              const std::vector<Merge>& merges) {
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<MovedWater<Dim>> moved;
+  for (const Split<Dim>& split : splits) {
+    const Vec<Dim>& x = particles.position[split.particle];
+    const double half = 0.5 * flow.water_volume_of(split.particle);
+    moved.push_back({x, x + split.offset, half});
+    moved.push_back({x, x - split.offset, half});
+  }
+  for (const auto [i, j] : merges) {
+    const Vec<Dim> middle = centre_of(particles, i, j);
+    for (const std::size_t n : {i, j}) moved.push_back({particles.position[n], middle, flow.water_volume_of(n)});
+  }
+  return moved;
 }
 
 /// [J]; change of the kinetic energy on this rank.
@@ -301,6 +327,9 @@ void Refinement<Dim>::adapt(Flow<Dim>& flow) {
   if (merged > 0) {
     for (const auto& part : flow.parts) part->reordered(Reordering::removed);
   }
+  if (merged + std::reduce(of_ranks.begin(), of_ranks.end()) == 0) return;
+  const std::vector<MovedWater<Dim>> moved = find_moved_water(flow, splits, merges);
+  for (const auto& part : flow.parts) part->follow_moved_water(flow, moved);
   if (splits.empty() && merges.empty()) return;
   flow.neighbourhood->forget(particles);
   merge_particles(merges, particles);

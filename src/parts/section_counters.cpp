@@ -21,6 +21,15 @@ double way_through(const Opening<Dim>& section, const Vec<Dim>& start, const Vec
   return after > 0.0 ? 1.0 : -1.0;
 }
 
+/// The sum over the images of the way: water that leaves a periodic domain at one end passes the sections at the other.
+template <int Dim>
+double passes(const Opening<Dim>& section, std::span<const Vec<Dim>> shifts, const Vec<Dim>& start,
+              const Vec<Dim>& end) {
+  double sum = 0.0;
+  for (const Vec<Dim>& shift : shifts) sum += way_through<Dim>(section, start + shift, end + shift);
+  return sum;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -35,18 +44,24 @@ bool SectionCounters<Dim>::restore(const Json& saved) {
 }
 
 template <int Dim>
+void SectionCounters<Dim>::follow_moved_water(const Flow<Dim>& flow, std::span<const MovedWater<Dim>> moved) {
+  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(flow.setup.domain);
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const double volume = sum_over(moved.size(), 0.0, [&](std::size_t n) {
+      return moved[n].volume * passes<Dim>(sections_[s], shifts, moved[n].from, moved[n].to);
+    });
+    volumes_[s] += flow.setup.ranks.sum(volume);
+  }
+}
+
+template <int Dim>
 void SectionCounters<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double /*dt*/) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(flow.setup.domain);
   for (std::size_t s = 0; s < sections_.size(); ++s) {
     const double volume = sum_over(particles.owned, 0.0, [&](std::size_t i) {
       if (!particles.is_fluid(i)) return 0.0;
-      // Water that leaves a periodic domain at one end passes the sections at the other.
-      double passes = 0.0;
-      for (const Vec<Dim>& shift : shifts) {
-        passes += way_through<Dim>(sections_[s], start.position[i] + shift, particles.position[i] + shift);
-      }
-      return passes * flow.water_volume_of(i);
+      return passes<Dim>(sections_[s], shifts, start.position[i], particles.position[i]) * flow.water_volume_of(i);
     });
     volumes_[s] += flow.setup.ranks.sum(volume);
   }

@@ -1,4 +1,5 @@
-// Counts the water that passes the sections of discharge probes: particles times their volumes, with sign.
+// Counts the water that passes the sections of discharge probes: particles times their volumes, with sign. Water also
+// passes where particles beside a section split or merge.
 #pragma once
 
 #include <vector>
@@ -23,6 +24,7 @@ class SectionCounters final : public Part<Dim> {
   Json save() const override;
   bool restore(const Json& saved) override;
   void add_to_summary(const Flow<Dim>& flow, Json& summary) const override;
+  void follow_moved_water(const Flow<Dim>& flow, std::span<const MovedWater<Dim>> moved) override;
   void finish_step(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) override;
 
  private:

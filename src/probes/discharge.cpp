@@ -7,6 +7,7 @@
 #include "base/for_each.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "neighbours/halo.h"
 
 namespace tailwater {
 namespace {
@@ -32,12 +33,16 @@ template <int Dim>
 double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
   const Particles<Dim>& particles = context.particles;
   const double half = half_width_over_spacing * context.spacing;
+  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
   const double flux = sum_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return 0.0;
-    const Vec<Dim>& x = particles.position[i];
-    const double off = std::abs(section.beyond(x));
-    if (off >= half || !section.spans(x)) return 0.0;
-    return (1.0 - off / half) * particles.volume[i] * section.normal.dot(particles.velocity[i]);
+    double share = 0.0;
+    for (const Vec<Dim>& shift : shifts) {
+      const Vec<Dim> x = particles.position[i] + shift;
+      const double off = std::abs(section.beyond(x));
+      if (off < half && section.spans(x)) share += 1.0 - off / half;
+    }
+    return share * particles.volume[i] * section.normal.dot(particles.velocity[i]);
   });
   return context.ranks.sum(flux) / half;
 }

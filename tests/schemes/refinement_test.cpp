@@ -1,4 +1,5 @@
 // Zones of finer particles: what splits and merges keep, and water that stands and flows through a zone.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 
 #include "flow/stages.h"
 #include "parts/refinement.h"
+#include "parts/section_counters.h"
 #include "schemes/cases.h"
 #include "schemes/open_ends.h"
 #include "support/particle_set.h"
@@ -109,6 +111,27 @@ TEST(RefinementTest, VolumesFollowTheFieldAndIdsAreUnique) {
   }
   EXPECT_GT(inside, 100u);
   EXPECT_GT(fine, inside * 9 / 10);
+}
+
+/// Splits and merges in the border of a zone move water through the sections there.
+TEST(RefinementTest, SectionsInTheBorderOfAZoneCountAllWater) {
+  CaseSpec spec = stream();
+  spec.walls[0].friction = 0.0;
+  for (const double x : {0.1, 0.3, 0.4, 0.5, 1.1, 1.2, 1.3}) {
+    ProbeTable section;
+    section.name = fmt::format("at {}", x);
+    section.type = ProbeType::discharge;
+    section.from = {x, 0.0};
+    section.to = {x, 0.8};
+    section.direction = {1.0, 0.0};
+    spec.probes.push_back(section);
+  }
+  Flow<2> flow = make_flow<2>(spec);
+  tailwater::start(flow);
+  while (flow.state.time < 1.5) advance_steps(flow, 1);
+  for (const double volume : flow.part<SectionCounters<2>>().volumes()) {
+    EXPECT_NEAR(volume, 0.4 * flow.state.time, 0.4 * dx);
+  }
 }
 
 TEST(RefinementTest, AZoneThatMovesWithTheStreamDividesNoWater) {
