@@ -100,6 +100,36 @@ TEST(SealedAir, PressesOnWallsAlongTheirNormalsOnly) {
   EXPECT_NEAR(Reader<2>(spec, flow).force(dt)[1], -weight, 0.1 * weight);  // 1.3 with the force along the walls
 }
 
+// A wall of a closed tank whose bed goes on behind it: the space behind the wall is no air beside the water.
+TEST(SealedAir, PressesOnAWallWhoseBedGoesOn) {
+  constexpr double dx = 0.05, width = 0.6, height = 0.6, depth = 0.2, pressure = 60000.0;
+  CaseSpec spec = closed_tank<2>(dx, AirPockets::isothermal);
+  spec.fluid[0].min = {0.0, 0.0};
+  spec.fluid[0].max = {width, depth};
+  WallTable tank;
+  tank.name = "tank";
+  tank.points = {{width + 0.3, height}, {0.0, height}, {0.0, 0.0}, {width + 0.3, 0.0}};
+  WallTable end;
+  end.name = "end";
+  end.points = {{width, 0.0}, {width, height}};
+  spec.walls = {tank, end};
+  PocketTable pocket;
+  pocket.at = {0.3, 0.4};
+  pocket.overpressure = pressure;
+  spec.pockets = {pocket};
+  spec.probes = {force_probe({0.0, 0.0}, {"end"})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  double dt = 0.0;
+  double force = 0.0;
+  for (int n = 0; n < 10; ++n) {
+    dt = step(flow).dt;
+    force += 0.1 * Reader<2>(spec, flow).force(dt)[0];
+  }
+  const double expected = pressure * height + 0.5 * 1000.0 * g * depth * depth;
+  EXPECT_NEAR(force, expected, 0.003 * expected);  // 0.994 with the space behind the wall as air
+}
+
 // A tank with a plate between two pockets moves as a whole, and its water with it: no gas passes the plate.
 TEST(SealedAir, StaysInItsPocketInATankThatMoves) {
   CaseSpec spec = tank_under_pressure(0.0);
