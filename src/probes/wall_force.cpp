@@ -244,6 +244,7 @@ class WallForceProbe {
     const Vec<Dim> friction = all.of_friction.along_inverse(whole.friction);
     loads.pressure = chosen.of_pressure.across() * pressure;
     loads.friction = chosen.of_friction.along() * friction;
+    const Vec<Dim> on_wall = loads.friction.isZero(0.0) ? x : foot(context, x);
     if (has_power_) {
       for_each_share_near(
           context.boundary, x, is_water, [&](std::int32_t k, const PatchWeights& weight, const auto& n) {
@@ -251,13 +252,15 @@ class WallForceProbe {
             if (taken[k] == 0.0 || !moves(wall)) return;
             Sharing<Dim> share;
             share.add(taken[k], weight, n);
-            const Vec<Dim> force = share.of_pressure.across() * pressure + share.of_friction.along() * friction;
-            loads.power -= force.dot(velocity[wall](x));
-            loads.moment -= moment_of<Dim>(age_ * context.dt * velocity[wall](x), force);  // where the wall was
+            // Friction acts on the wall itself. Pressure acts across it, so its power is the same from the particle.
+            for (const auto& [force, place] : {std::pair(Vec<Dim>(share.of_pressure.across() * pressure), x),
+                                               std::pair(Vec<Dim>(share.of_friction.along() * friction), on_wall)}) {
+              loads.power -= force.dot(velocity[wall](place));
+              loads.moment -= moment_of<Dim>(age_ * context.dt * velocity[wall](place), force);  // where the wall was
+            }
           });
     }
-    loads.moment += moment(x, loads.pressure);
-    if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
+    loads.moment += moment(x, loads.pressure) + moment(on_wall, loads.friction);
     return loads;
   }
 

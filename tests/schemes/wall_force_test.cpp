@@ -416,7 +416,7 @@ void expect_no_moment_and_no_work(Integrator integrator) {
     if (n < 10) continue;
     power += probe.power(dt) / 10.0;
     work += report.work.walls / dt / 10.0;
-    moment += probe.row(dt)[2] / 10.0;
+    moment += probe.row(dt)[6] / 10.0;
     at_end += 3.0 * dt * spec.physics.density * 9.0 * 16.0 / 3.0 * std::pow(half, 4) / 10.0;
   }
   EXPECT_LT(std::abs(moment), 0.1 * at_end);
@@ -431,6 +431,38 @@ TEST(WallForceOfATurningTank, HasNoMomentAndDoesNoWork) {
 /// Half of the pressure acts where the step ends.
 TEST(WallForceOfATurningTank, HasNoMomentAndDoesNoWorkWithTheImplicitIntegrator) {
   expect_no_moment_and_no_work(Integrator::implicit_projection);
+}
+
+/// A drum that turns in water at rest drags it: the power of its friction is the moment times the rate.
+TEST(WallForceOfATurningTank, HasThePowerOfItsFriction) {
+  CaseSpec spec = turning_tank();
+  spec.fluid[0].velocity = {};
+  spec.physics.viscosity = 0.01;
+  spec.scheme.turbulence = Turbulence::none;
+  spec.walls[0].slip = Slip::no_slip;
+  spec.walls[0].points = {};
+  for (int k = 0; k <= 48; ++k) {
+    const double angle = k % 48 * std::numbers::pi / 24.0;
+    spec.walls[0].points.push_back({half_of_turning_tank * std::cos(angle), half_of_turning_tank * std::sin(angle)});
+  }
+  spec.walls[0].shape = WallShape::polyline;
+  spec.walls[0].fluid_side = FluidSide::left;
+  spec.fluid[0].shape = BlockShape::fill;
+  spec.fluid[0].seed = {0.0, 0.0};
+  spec.fluid[0].level = 2.0;
+  spec.probes = {force_probe({0.0, 0.0}, {"tank"})};
+  Flow<2> flow = make_flow<2>(spec);
+  const Reader<2> probe(spec, flow);
+  start(flow);
+  double moment = 0.0, power = 0.0;
+  for (int n = 0; n < 20; ++n) {
+    const double dt = step(flow).dt;
+    if (n < 2) continue;  // it starts
+    power += probe.power(dt);
+    moment += probe.row(dt)[6];
+  }
+  EXPECT_GT(power, 0.0);
+  EXPECT_NEAR(power, -3.0 * moment, 0.01 * power);
 }
 
 TEST(WallForceRefuses, SchemesWithoutReactions) {
