@@ -55,16 +55,19 @@ FluidSums& FluidSums::operator+=(const FluidSums& other) {
   mass += other.mass;
   kinetic_energy += other.kinetic_energy;
   energy += other.energy;
+  fall_power += other.fall_power;
   return *this;
 }
 
 template <int Dim>
 FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
+  const Vec<Dim> g = flow.setup.gravity_across();
   return sum_over(particles.owned, FluidSums{}, [&](std::size_t i) -> FluidSums {
     if (!particles.is_fluid(i)) return {};
+    const double mass = flow.density_of(i) * flow.water_volume_of(i);
     const double kinetic_energy = flow.kinetic_energy_of(i);
-    return {flow.density_of(i) * flow.water_volume_of(i), kinetic_energy, kinetic_energy + flow.potential_energy_of(i)};
+    return {mass, kinetic_energy, kinetic_energy + flow.potential_energy_of(i), mass * g.dot(particles.velocity[i])};
   });
 }
 

@@ -13,6 +13,7 @@ struct FluidSums {
   double mass = 0.0;            ///< kg (per metre of width in 2D)
   double kinetic_energy = 0.0;  ///< J
   double energy = 0.0;          ///< J; kinetic and potential
+  double fall_power = 0.0;      ///< W; of the weight
 
   FluidSums& operator+=(const FluidSums& other);
 };

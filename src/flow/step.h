@@ -88,6 +88,9 @@ struct StepReport {
   double pressure_change = 0.0;                ///< rms change of p in the last pass over rms p; 0 for one pass
   std::optional<DivergenceReport> divergence;  ///< in some steps only
   Works work;
+  /// J; by which the potential energy of the end of the step is below that of mid-step, to which velocity and works
+  /// belong.
+  double fallen = 0.0;
   double density_share = 1.0;  ///< fraction of the lifting density source in the next step
   Interventions interventions;
 

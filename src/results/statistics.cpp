@@ -35,8 +35,8 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   brought_by_air_ += report.work.air;
   brought_by_slope_ += report.work.slope;
   viscous_work_ += report.work.viscous;
-  const double accounted = energy_end_ + energy_out_ - energy_in_ - brought_by_walls_ - brought_by_ends_ -
-                           brought_by_air_ - brought_by_slope_;
+  const double accounted = energy_end_ + report.fallen + energy_out_ - energy_in_ - brought_by_walls_ -
+                           brought_by_ends_ - brought_by_air_ - brought_by_slope_;
   energy_least_ = std::min(energy_least_, accounted);
   energy_rise_ = std::max(energy_rise_, accounted - energy_least_);
   density_work_ += report.work.density;
