@@ -27,7 +27,9 @@ For users who look up an error or a warning. Every error about a case and every 
 Search this page for the id. An error stops the command, and a warning does not. Most errors of the command line, of
 files and of the solver have no id. `tailwater check --json` has the id under `id`, and the lines under `warnings` in
 `summary.json` end with it. `…` stands for names, places and numbers, and `key` for a key of the case file.
-The last column names the tables of the case file that such messages are about: `any` of them, or `several`.
+The last column names the tables of the case file that such messages are about. `any` stands for one of all tables and
+`several` for more than one. `motions, bodies, zones` are `[[motion]]`, `[[body]]`, `[[damping]]` and the like, `files`
+are CSV files that the table names.
 [Troubleshooting](../guide/troubleshooting.md) explains the most frequent messages. `scripts/message_reference.py`
 writes this page from the source.
 """
@@ -70,7 +72,7 @@ GROUPS = {
     "During a run": {"results": "`[limits]`, `[[probe]]`, `[[outlet]]`", "run/run_output": "`[[wall]]`", "module": ""},
 }
 # Messages that pass on another text.
-PASSED = {"case-not-readable": "the case cannot be read", "expression-invalid": "the place in the expression and its fault",
+PASSED = {"case-not-readable": "the case cannot be read", "expression-invalid": "the place in the expression and its error",
           "linked-file": "the line of the named file and its fault", "list-expected": "give a list of …",
           "override-misplaced": "the key of --set does not exist, or is not written as table.key=value",
           "balance-limit-passed": "at t = … s the energy of the water rose, or its mean density was off, by … %, more than "

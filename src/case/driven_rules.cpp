@@ -163,7 +163,7 @@ void check(const DampingTable& damping, TableReader& reader) {
                  "waves of a case of two dimensions have one direction; leave it out");
   }
   if (damping.waves != WaveKind::none && !has_period(damping.waves) && !reader.is_wrong("waves")) {
-    reader.wrong("damping-waves", "waves", "a damping zone cannot make solitary waves or N-waves; use a piston");
+    reader.wrong("damping-waves", "waves", "relaxation zones do not make solitary waves or N-waves; use a piston");
   } else if (damping.waves != WaveKind::none) {
     check_waves(damping, damping.depth, "zone", reader);
   }

@@ -207,7 +207,17 @@ class EndFlowCheck {
     if (!end_.flow.feeds() || !findings_.empty()) return;
     const double depth = end_.flow.level ? end_.depth_at_level(end_.flow.level->at(time)) : end_.height;
     const double q = end_.discharge_per_width(time, depth);
-    if (end_.gravity == 0.0 || has_lid_) return;
+    if (end_.gravity == 0.0) return;
+    if (has_lid_) {
+      if (end_.flow.level && depth >= end_.height) {
+        error("level-at-drowned-inlet",
+              {"{} is given, but at t = {:.6g} s it is not below the top of the opening, {:.6g} m, so the opening is "
+               "full, and its pressure follows from the water inside",
+               label_.with_key("level"), time, end_.floor + end_.height},
+              {"remove the level, or the discharge and the velocity"});
+      }
+      return;
+    }
     if (end_.flow.level) {
       look_at_froude(time, q, depth);
     } else if (const double most = critical_discharge(end_), all = std::abs(end_.discharge(time, depth)); all > most) {

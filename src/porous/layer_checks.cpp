@@ -57,6 +57,11 @@ void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary)
   Box<Dim> box = box_around(boundary.faces);
   if (box.isEmpty()) return;
   for (const Opening<Dim>& opening : make_open_ends<Dim>(spec)) box.extend(box_around(opening.as_faces()));
+  for (const FluidTable& water : spec.fluid) {  // over a bed without walls beside it
+    for (const Coordinates& corner : {water.min, water.max}) {
+      if (!corner.empty()) box.extend(Vec<Dim>::Map(corner.data()));
+    }
+  }
   for (const PorousTable& table : spec.porous) {
     const Box<Dim> layer = PorousRegion<Dim>(spec, table).box();
     if (table.grain_size > layer.sizes().minCoeff()) {
@@ -68,7 +73,7 @@ void require_layers_in_case(const CaseSpec& spec, const Boundary<Dim>& boundary)
     }
     if (box.intersects(layer)) continue;
     throw CaseError("porous-layer-outside-walls",
-                    {"{} reaches from {} to {}, outside of the walls, which stand between {} and {}",
+                    {"{} reaches from {} to {}, outside of the walls, and of the water, which are between {} and {}",
                      CaseLabel("porous", table.name), place<Dim>(layer.min()), place<Dim>(layer.max()),
                      place<Dim>(box.min()), place<Dim>(box.max())},
                     {"move it"});
