@@ -15,6 +15,7 @@
 #include "motion/wall_motion.h"
 #include "neighbours/halo.h"
 #include "rheology/liquid_balances.h"
+#include "rheology/pressure_lag.h"
 #include "rheology/viscous_solve.h"
 
 namespace tailwater {
@@ -281,12 +282,24 @@ int ThickLiquid<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicte
 }
 
 template <int Dim>
-void ThickLiquid<Dim>::correct(Flow<Dim>& flow, double /*dt*/) {
+void ThickLiquid<Dim>::correct(Flow<Dim>& flow, double dt) {
   Particles<Dim>& particles = flow.state.particles;
+  const double viscosity = flow.setup.ranks.largest(largest_over(particles.owned, 0.0, [&](std::size_t i) {
+    return particles.is_fluid(i) ? forces_.viscosity()[i] / flow.density_of(i) : 0.0;
+  }));
+  longest_step_ = longest_step_after(change_by_pressure<Dim>(flow, velocity_), dt,
+                                     flow.setup.time_step_rule.largest(0.0, viscosity));
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.role[i] == Role::water) particles.pressure[i] -= forces_.shared_viscosity()[i] * expansion_[i];
   });
   flow.halo().exchange(particles.pressure);
+}
+
+template <int Dim>
+StepLimits ThickLiquid<Dim>::step_limits(const Flow<Dim>& /*flow*/) const {
+  StepLimits limits;
+  limits.step = longest_step_;
+  return limits;
 }
 
 /// Viscosity and friction of the initial velocity.
@@ -304,12 +317,14 @@ void ThickLiquid<Dim>::stay(Flow<Dim>& flow) {
 
 template <int Dim>
 Json ThickLiquid<Dim>::save() const {
-  if (!forces_.coulomb().has_walls()) return nullptr;
-  return {{"residual", scale_residual_}};
+  Json saved{{"longest_step", longest_step_}};
+  if (forces_.coulomb().has_walls()) saved["residual"] = scale_residual_;
+  return saved;
 }
 
 template <int Dim>
 bool ThickLiquid<Dim>::restore(const Json& saved) {
+  if (saved.at("longest_step").is_number()) saved.at("longest_step").get_to(longest_step_);
   if (saved.contains("residual")) scale_residual_ = saved.at("residual").get<double>();
   return true;
 }

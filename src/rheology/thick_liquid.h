@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -38,6 +39,7 @@ class ThickLiquid final : public Part<Dim> {
   Json save() const override;
   bool restore(const Json& saved) override;
   void reordered(Reordering how) override;
+  StepLimits step_limits(const Flow<Dim>& flow) const override;
   void begin_step(Flow<Dim>& /*flow*/, double dt) override { is_at_start_ = dt == 0.0; }
   void change_prediction(const Flow<Dim>& flow, std::span<const Vec<Dim>> acceleration, double dt,
                          std::span<Vec<Dim>> predicted) override;
@@ -85,6 +87,7 @@ class ThickLiquid final : public Part<Dim> {
   double scale_residual_ = 0.0;
   bool has_viscosity_ = false;  ///< of the last pass, in the present order of the particles
   double contraction_ = 1.0;    ///< movement of a pass over that of the one before it
+  double longest_step_ = std::numeric_limits<double>::infinity();  ///< s; by the lag of the pressure in the last step
 
   bool is_at_start_ = false;  ///< only the initial pressure is computed
 

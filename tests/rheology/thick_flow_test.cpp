@@ -6,6 +6,7 @@
 #include "flow/measure.h"
 #include "rheology/liquids.h"
 #include "rheology/thick_liquid.h"
+#include "schemes/force_reader.h"
 #include "support/circle.h"
 #include "support/record.h"
 
@@ -75,6 +76,41 @@ TEST(YieldingFilm, StopsBelowItsYieldDepth) {
   run_to(flow, 6.0);
   const double creep = 0.5 * density * 1.0 / viscosity_at_rest(liquid);
   EXPECT_LT(largest_horizontal_speed(flow), 1.05 * creep);
+}
+
+// A plate squeezes a film of 8 times its height: the force of lubrication theory, mu V L^3/h^3. With steps as for water
+// the pressure stays behind and the plate has a seventh of it.
+TEST(SqueezedFilm, HasItsForceFromTheFirstTenthOfASecondOn) {
+  constexpr double height = 0.05, length = 0.4, speed = 0.01, viscosity = 200.0;
+  CaseSpec spec = layer_case(newtonian(viscosity), height / 10, {0.0, -0.1});
+  spec.domain.periodic_x.clear();
+  spec.fluid[0].min = {-0.5 * length, 0.0};
+  spec.fluid[0].max = {0.5 * length, height};
+  WallTable bed;
+  bed.points = {{-length, 0.2}, {-length, 0.0}, {length, 0.0}, {length, 0.2}};
+  bed.slip = Slip::no_slip;
+  WallTable plate;
+  plate.name = "plate";
+  plate.shape = WallShape::box;
+  plate.min = {-0.5 * length, height};
+  plate.max = {0.5 * length, 2.0 * height};
+  plate.fluid_side = FluidSide::outside;
+  plate.slip = Slip::no_slip;
+  plate.displacement = {"0", "-0.01*(t<0.1?5*t*t:t-0.05)"};
+  spec.walls = {bed, plate};
+  spec.probes = {force_probe({}, {"plate"})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const Reader<2> reader(spec, flow);
+  double force = 0.0;
+  double of_theory = 0.0;
+  while (flow.state.time < 0.3) {
+    const double dt = step(flow).dt;
+    if (flow.state.time < 0.2) continue;
+    force += dt * reader.force(dt)[1];
+    of_theory += dt * viscosity * speed * std::pow(length / (height - speed * (flow.state.time - 0.05)), 3);
+  }
+  EXPECT_NEAR(force / of_theory, 1.0, 0.1);
 }
 
 class Channels : public testing::TestWithParam<double> {};
