@@ -72,6 +72,13 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
+double energy_scale(const Flow<Dim>& flow) {
+  FluidSums sums = fluid_sums_of_rank(flow);
+  flow.setup.ranks.sum_each(sums.mass, sums.kinetic_energy);
+  return 0.5 * sums.mass * flow.setup.gravity.norm() * flow.setup.length + sums.kinetic_energy;
+}
+
+template <int Dim>
 WaterAmount amount_of(const Flow<Dim>& flow, std::span<const std::size_t> water) {
   WaterAmount amount = sum_over(water.size(), WaterAmount{}, [&](std::size_t n) -> WaterAmount {
     const std::size_t i = water[n];
@@ -134,6 +141,7 @@ DensestWater<Dim> densest_water(const Flow<Dim>& flow) {
 }
 
 TAILWATER_IN_2D_AND_3D(fluid_sums_of_rank);
+TAILWATER_IN_2D_AND_3D(energy_scale);
 TAILWATER_IN_2D_AND_3D(amount_of);
 TAILWATER_IN_2D_AND_3D(largest_speed);
 TAILWATER_IN_2D_AND_3D(measure);

@@ -21,6 +21,11 @@ struct FluidSums {
 template <int Dim>
 FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
 
+/// m g L/2 plus the kinetic energy [J] at present: a scale for errors of the energy that does not depend on the origin.
+/// Collective.
+template <int Dim>
+double energy_scale(const Flow<Dim>& flow);
+
 /// The fluid's largest speed [m/s]. Collective.
 template <int Dim>
 double largest_speed(const Flow<Dim>& flow);

@@ -5,8 +5,9 @@
 
 namespace tailwater {
 
-RunStatistics::RunStatistics(const FlowMeasures& start)
+RunStatistics::RunStatistics(const FlowMeasures& start, double energy_scale)
     : energy_start_(start.energy()),
+      energy_scale_(energy_scale),
       energy_end_(energy_start_),
       energy_least_(energy_start_),
       unexplained_least_(energy_start_) {}
@@ -53,7 +54,7 @@ Json RunStatistics::json(std::size_t fluid_particles, std::size_t fluid_particle
   const double particle_steps = steps * static_cast<double>(std::max<std::size_t>(fluid_particles, 1));
   const auto divergence_reports = static_cast<double>(std::max<std::int64_t>(divergence_reports_, 1));
   const auto passes = static_cast<double>(std::max<std::int64_t>(passes_, 1));
-  const auto over_start = [&](double energy) { return energy_start_ != 0.0 ? energy / std::abs(energy_start_) : 0.0; };
+  const auto over_start = [&](double energy) { return energy_scale_ > 0.0 ? energy / energy_scale_ : 0.0; };
   return {
       {"steps",
        {{"count", steps_}, {"dt_mean_s", dt_sum_ / steps}, {"dt_least_s", dt_least_}, {"dt_largest_s", dt_largest_}}},

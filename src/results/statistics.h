@@ -14,7 +14,8 @@ TAILWATER_SAVED(inline, Interventions, stopped_at_walls, capped_shifts, fallback
 
 class RunStatistics {
  public:
-  explicit RunStatistics(const FlowMeasures& start);
+  /// `energy_scale` [J]: that of the start (flow/measure.h).
+  RunStatistics(const FlowMeasures& start, double energy_scale);
 
   void add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped);
 
@@ -29,10 +30,10 @@ class RunStatistics {
   /// A checkpoint saves all of it.
   TAILWATER_SAVED(friend, RunStatistics, steps_, passes_, iterations_, dt_sum_, dt_least_, dt_largest_,
                   divergence_reports_, divergence_old_squares_, divergence_new_squares_, divergence_moved_squares_,
-                  density_error_sum_, density_error_squares_, energy_start_, energy_end_, energy_out_, energy_in_,
-                  brought_by_walls_, brought_by_ends_, brought_by_air_, brought_by_slope_, viscous_work_, energy_least_,
-                  energy_rise_, density_work_, density_share_sum_, unexplained_least_, unexplained_rise_, max_escaped_,
-                  escaped_, interventions_)
+                  density_error_sum_, density_error_squares_, energy_start_, energy_scale_, energy_end_, energy_out_,
+                  energy_in_, brought_by_walls_, brought_by_ends_, brought_by_air_, brought_by_slope_, viscous_work_,
+                  energy_least_, energy_rise_, density_work_, density_share_sum_, unexplained_least_, unexplained_rise_,
+                  max_escaped_, escaped_, interventions_)
 
  private:
   std::int64_t steps_ = 0;
@@ -48,6 +49,7 @@ class RunStatistics {
   double density_error_sum_ = 0.0;
   double density_error_squares_ = 0.0;
   double energy_start_;
+  double energy_scale_;
   double energy_end_;
   double energy_out_ = 0.0;  ///< J; energy of the water that left, which is not a loss
   double energy_in_ = 0.0;   ///< J; energy of the water that came in

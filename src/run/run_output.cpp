@@ -94,7 +94,7 @@ RunOutput<Dim>::RunOutput(const CaseSpec& spec, const RunOptions& options, const
       rank_log_(ranks_, folder_.ranks(), kept_bytes(kept, "ranks")),
       probes_(std::move(probe_list_), folder_, ranks_, kept ? std::optional(marks_of(*kept)) : std::nullopt),
       progress_(spec.time.end, kept ? kept->at("cost").at("wall_seconds").get<double>() : 0.0),
-      statistics_(measure(flow)),
+      statistics_(measure(flow), energy_scale(flow)),
       limits_(spec.limits, flow),
       water_at_start_(water_in(flow)),
       fields_schedule_(spec.output.fields_interval > 0.0 ? spec.output.fields_interval

@@ -23,7 +23,7 @@ StepReport step_of(double dt, int passes, int iterations) {
 }
 
 TEST(RunStatistics, AddUpSteps) {
-  RunStatistics statistics(with_energy(0.0, 10.0));
+  RunStatistics statistics(with_energy(0.0, 10.0), 10.0);
   statistics.add(step_of(0.3, 1, 4), with_energy(1.0, 8.0), 0);
   statistics.add(step_of(0.1, 3, 20), with_energy(1.0, 6.0), 5);
   statistics.add(step_of(0.2, 2, 6), with_energy(3.0, 5.5), 2);
@@ -46,7 +46,7 @@ TEST(RunStatistics, AddUpSteps) {
 }
 
 TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
-  RunStatistics statistics(with_energy(0.0, 10.0));
+  RunStatistics statistics(with_energy(0.0, 10.0), 10.0);
   StepReport report = step_of(0.1, 1, 1);
   report.work.density = 1.5;
   statistics.add(report, with_energy(0.0, 11.0), 0);  // 1 of the 1.5 arrives, the rest is dissipated
@@ -59,7 +59,7 @@ TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
 }
 
 TEST(RunStatistics, WhatMovingWallsBringIsNoRise) {
-  RunStatistics statistics(with_energy(0.0, 10.0));
+  RunStatistics statistics(with_energy(0.0, 10.0), 10.0);
   StepReport report = step_of(0.1, 1, 1);
   report.work.walls = 2.0;
   report.work.viscous = -0.5;
@@ -77,7 +77,7 @@ TEST(RunStatistics, WhatMovingWallsBringIsNoRise) {
 }
 
 TEST(RunStatistics, WhatASlopeWithoutEndBringsIsNoRise) {
-  RunStatistics statistics(with_energy(0.0, 10.0));
+  RunStatistics statistics(with_energy(0.0, 10.0), 10.0);
   StepReport report = step_of(0.1, 1, 1);
   report.work.slope = 3.0;
   statistics.add(report, with_energy(2.5, 10.0), 0);  // friction took half a joule
@@ -93,7 +93,7 @@ TEST(RunStatistics, EnergyThatLeftIsNeitherLostNorGained) {
   later.departed.energy = 4.0;
   FlowMeasures last = with_energy(0.0, 0.0);
   last.departed.energy = 10.5;
-  RunStatistics statistics(with_energy(0.0, 10.0));
+  RunStatistics statistics(with_energy(0.0, 10.0), 10.0);
   statistics.add(step_of(0.1, 1, 1), later, 0);
   statistics.add(step_of(0.1, 1, 1), last, 0);
   const auto json = statistics.json(0, 100);
@@ -102,14 +102,14 @@ TEST(RunStatistics, EnergyThatLeftIsNeitherLostNorGained) {
 }
 
 TEST(RunStatistics, DivideByNothingWithoutSteps) {
-  const auto json = RunStatistics(with_energy(0.0, 0.0)).json(0, 0);
+  const auto json = RunStatistics(with_energy(0.0, 0.0), 1.0).json(0, 0);
   EXPECT_EQ(json["steps"]["count"], 0);
   EXPECT_EQ(json["steps"]["dt_mean_s"], 0.0);
   EXPECT_EQ(json["energy"]["largest_rise_over_start"], 0.0);
 }
 
 TEST(RunStatistics, CountInterventionsPerParticleAndStep) {
-  RunStatistics statistics(with_energy(0.0, 1.0));
+  RunStatistics statistics(with_energy(0.0, 1.0), 1.0);
   StepReport report = step_of(0.1, 1, 1);
   report.interventions = {.stopped_at_walls = 3, .capped_shifts = 1, .fallback_rows = 2, .restarted_solves = 1};
   statistics.add(report, with_energy(0.0, 1.0), 0);
