@@ -28,6 +28,26 @@ std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec)
   return number;
 }
 
+/// The volume [m^Dim] by which the water is farther through the section than the count of whole particles says. A
+/// particle counts as half through when it passes, and as a whole before and after that for half its width.
+template <int Dim>
+double volume_in_passage(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
+  const Particles<Dim>& particles = context.particles;
+  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
+  return context.ranks.sum(sum_over(particles.owned, 0.0, [&](std::size_t i) {
+    if (!particles.is_fluid(i)) return 0.0;
+    const double width = edge_of<Dim>(particles.volume[i]);
+    double share = 0.0;
+    for (const Vec<Dim>& shift : shifts) {
+      const Vec<Dim> x = particles.position[i] + shift;
+      const double beyond = section.beyond(x);
+      if (std::abs(beyond) >= 0.5 * width || !section.spans(x)) continue;
+      share += 0.5 + beyond / width - (beyond > 0.0 ? 1.0 : 0.0);
+    }
+    return share * particles.volume[i];
+  }));
+}
+
 /// The flux [m^Dim/s] of the water within two spacings of the section, at one instant.
 template <int Dim>
 double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
@@ -50,7 +70,7 @@ double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) 
 /// The state of a probe between readings, as the numbers that checkpoints save.
 struct Memory {
   explicit Memory(std::vector<double>& numbers)
-      : largest(numbers[0]), time_of_largest(numbers[1]), time(numbers[2]), volume(numbers[3]), discharge(numbers[4]) {}
+      : largest(numbers[0]), time_of_largest(numbers[1]), time(numbers[2]), passed(numbers[3]), discharge(numbers[4]) {}
 
   static std::vector<double> at_start() { return {0.0, 0.0, -1.0, 0.0, 0.0}; }
   bool is_new() const { return time < 0.0; }
@@ -58,7 +78,7 @@ struct Memory {
   double& largest;
   double& time_of_largest;
   double& time;    ///< time of the last reading; below 0: there was none
-  double& volume;  ///< volume at that time
+  double& passed;  ///< volume that had passed at that time
   double& discharge;
 };
 
@@ -90,14 +110,15 @@ Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
   reading.take = [=, numbers = reading.memory](const ProbeContext<Dim>& context) -> std::vector<Row> {
     Memory memory(*numbers);
     const double volume = context.totals.section_volumes.at(number);
+    const double passed = volume + volume_in_passage(section, context);
     if (memory.is_new()) {
       memory.discharge = flux_near(section, context);
     } else if (const double since = context.time - memory.time; since > 0.0) {
       const double share = 1.0 - std::exp(-since / smoothing);
-      memory.discharge += share * ((volume - memory.volume) / since - memory.discharge);
+      memory.discharge += share * ((passed - memory.passed) / since - memory.discharge);
     }
     memory.time = context.time;
-    memory.volume = volume;
+    memory.passed = passed;
     if (memory.discharge > memory.largest) {
       memory.largest = memory.discharge;
       memory.time_of_largest = context.time;
