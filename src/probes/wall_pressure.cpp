@@ -247,6 +247,22 @@ PressureOnWall wall_pressure(const ProbeContext<Dim>& context, const Vec<Dim>& x
   return wall_pressure(context, x_w, normal, sums);
 }
 
+/// Whether another wall stands on a wall of this normal: the place in front, at most `reach` (m) away, is behind it.
+template <int Dim>
+bool is_covered(const Boundary<Dim>& boundary, const Vec<Dim>& normal, const Vec<Dim>& place, double reach) {
+  constexpr double max_cosine = 0.7;  // of walls that stand on the other
+  bool is_covered = false;
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    const double height = face.height(place);
+    if (is_covered || height >= 0.0 || height < -reach || boundary.walls[face.wall].is_plate) return;
+    if (std::abs(face.normal.dot(normal)) > max_cosine) return;
+    const Vec<Dim> foot = place - height * face.normal;
+    is_covered = (closest_point(face, foot) - foot).norm() < 1e-6 * reach;
+  });
+  return is_covered;
+}
+
 template <int Dim>
 std::vector<AirPush<Dim>> pushes_of_air(const ProbeContext<Dim>& context, std::span<const WallPatch<Dim>> patches,
                                         std::span<const double> chosen) {
@@ -256,7 +272,10 @@ std::vector<AirPush<Dim>> pushes_of_air(const ProbeContext<Dim>& context, std::s
     const Vec<Dim> centre = patches[k].centre(context.boundary);
     const WallFace<Dim>& face = context.boundary.faces[patches[k].face];
     const double pressure = chosen[k] > 0.0 ? air_pressure_on(context, centre, face.normal) : 0.0;
-    if (pressure == 0.0) continue;
+    const double dx = context.spacing;
+    if (pressure == 0.0 || is_covered<Dim>(context.boundary, face.normal, centre + 0.5 * dx * face.normal, 4.0 * dx)) {
+      continue;
+    }
     pushes.push_back({face.wall, centre, -chosen[k] * patches[k].measure * pressure * face.normal});
   }
   std::vector<double> sums(2 * pushes.size());

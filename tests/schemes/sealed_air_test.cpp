@@ -117,17 +117,21 @@ TEST(SealedAir, PressesOnAWallWhoseBedGoesOn) {
   pocket.at = {0.3, 0.4};
   pocket.overpressure = pressure;
   spec.pockets = {pocket};
-  spec.probes = {force_probe({0.0, 0.0}, {"end"})};
+  spec.probes = {force_probe({0.0, 0.0}, {"end"}), force_probe({0.0, 0.0}, {"tank"})};
+  spec.probes[1].name = "tank";
   Flow<2> flow = make_flow<2>(spec);
   start(flow);
-  double dt = 0.0;
   double force = 0.0;
+  double weight = 0.0;
   for (int n = 0; n < 10; ++n) {
-    dt = step(flow).dt;
+    const double dt = step(flow).dt;
     force += 0.1 * Reader<2>(spec, flow).force(dt)[0];
+    weight -= 0.1 * Reader<2>(spec, flow, 1).force(dt)[1];
   }
   const double expected = pressure * height + 0.5 * 1000.0 * g * depth * depth;
   EXPECT_NEAR(force, expected, 0.003 * expected);  // 0.994 with the space behind the wall as air
+  const double of_water = 1000.0 * g * width * depth;
+  EXPECT_NEAR(weight, of_water, 0.5 * pressure * dx);  // 0.8 P dx with air in the corner behind the wall
 }
 
 // A tank with a plate between two pockets moves as a whole, and its water with it: no gas passes the plate.
