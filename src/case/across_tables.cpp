@@ -180,8 +180,9 @@ void check_air(const CaseSpec& spec, const toml::table& root, Problems& problems
   if (why_not.empty()) return;
   problems.wrong(
       "air-needs-robust", CaseLabel("air").with_key("pockets"), *node,
-      fmt::format("is not possible with scheme.formulation = \"{}\": {}; choose formulation \"{}\", or pockets = \"{}\"",
-                  name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust), name_of(AirPockets::none)));
+      fmt::format(
+          "is not possible with scheme.formulation = \"{}\": {}; choose formulation \"{}\", or pockets = \"{}\"",
+          name_of(spec.scheme.formulation), why_not, name_of(Formulation::robust), name_of(AirPockets::none)));
 }
 
 /// Porous layers need the formulation in which bodies float, for a similar reason: the pressure equation must contain

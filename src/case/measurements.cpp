@@ -82,9 +82,11 @@ void read(MeasurementTable& measurement, const CaseSpec& spec, const Reporter& r
   }
   // A measurement that begins after the end of the run is allowed, because the run may have been shortened.
   if (measurement.series.time.back() <= 0.0) {
-    reporter.wrong("measurement-before-run", "file",
-                   fmt::format("{} ends at t = {:.9g} s, where the run begins; shift its times so that t = 0 is the start of the run",
-                               measurement.file, measurement.series.time.back()));
+    reporter.wrong(
+        "measurement-before-run", "file",
+        fmt::format(
+            "{} ends at t = {:.9g} s, where the run begins; shift its times so that t = 0 is the start of the run",
+            measurement.file, measurement.series.time.back()));
   }
   if (probe->type != ProbeType::profile) return;
   const auto is_taken = [&](double time) {
