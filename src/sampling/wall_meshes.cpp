@@ -156,8 +156,8 @@ struct Proposal {
   const WallMesh* mesh;
 };
 
-/// Gives equal shares of one cell to the duct, whose jet touches no other wall, or to the nearer of two meshes: the
-/// first of equal proposals is taken.
+/// Gives a cell of which two meshes own equal parts to the duct, whose jet touches no other wall, or to the nearer
+/// mesh. The first of equal proposals is taken.
 void order_equals(const Boundary<3>& body, Proposal& first, Proposal& second) {
   if (std::abs(first.place.share - second.place.share) > equal_shares) return;
   second.place.share = first.place.share;
