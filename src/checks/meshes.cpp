@@ -35,9 +35,10 @@ Findings check_size(const CaseSpec& spec, const CaseLabel& label, const MeshSurf
       {"give scale = 0.001 if its file is in millimetres, otherwise cut off the parts that the water does not reach"})};
 }
 
-/// The box around the water and all walls but one.
-Box<3> box_of_others(const Boundary<3>& boundary, int wall, const Box<3>& water) {
+/// The box around the water, the openings and all walls but one.
+Box<3> box_of_others(const CaseSpec& spec, const Boundary<3>& boundary, int wall, const Box<3>& water) {
   Box<3> box = water;
+  for (const Opening<3>& end : make_open_ends<3>(spec)) box.extend(box_around(end.as_faces()));
   for (const WallFace<3>& face : boundary.faces) {
     if (face.wall != wall) box.extend(face.box());
   }
@@ -49,13 +50,15 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
                      const Box<3>& water) {
   const WallTable& table = spec.walls[wall];
   const Box<3> own(surface.low(), surface.high());
-  const Box<3> others = box_of_others(boundary, wall, water);
+  const Box<3> others = box_of_others(spec, boundary, wall, water);
   if (boundary.walls[wall].moves() || others.isEmpty()) return {};
   const CaseLabel label = wall_label(boundary, wall);
   if (!own.intersects(others)) {
     return {Finding::warning(
         "mesh-beside-water",
-        {"{}: file {} reaches from {} to {}, and the water and all other walls from {} to {}, so it stands beside them",
+        {"{}: file {} reaches from {} to {}, and the water, the openings and all other walls from {} to {}, so it "
+         "stands "
+         "beside them",
          label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()), place<3>(others.max())},
         {"correct translate, or scale = {:g} (0.001 for a file in millimetres)", table.scale})};
   }

@@ -10,6 +10,7 @@
 #include "flow/drawing.h"
 #include "flow/ids_of_inflow.h"
 #include "geometry/ducts.h"
+#include "geometry/ending_boxes.h"
 #include "geometry/from_spec.h"
 #include "motion/channel_end.h"
 #include "operators/graded_sums.h"
@@ -44,6 +45,7 @@ Walls<Dim> make_walls(const CaseSpec& spec, const WallModel<Dim>& model, const C
                       const SpacingField<Dim>& field, Boundary<Dim> drawn) {
   Walls<Dim> walls;
   walls.boundary = std::move(drawn);
+  if constexpr (Dim == 3) make_meshes_of_ending_boxes(spec, walls.boundary);
   const Lattice<Dim> lattice = lattice_behind_meshes<Dim>(spec, walls.boundary);
   append_ducts(spec, walls.boundary);
   walls.boundary.file_faces(search_distance * spec.particles.spacing);

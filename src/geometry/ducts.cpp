@@ -16,6 +16,12 @@ constexpr double looking_away = -0.6;  // cosine between a wall's normal and the
 constexpr double led_straight = 1.0;   // dx; walls that lead to an opening are no farther from straight, a lead away
 constexpr double exact = 1e-9;         // dx; accuracy of their ends: much finer than the tolerance of corners
 
+/// How walls lie beside an edge of the rim of an opening.
+struct EdgeOfRim {
+  bool is_closed = false;
+  bool is_on_mesh = false;  ///< whether a mesh is among these walls
+};
+
 /// Where walls are beside the rim of one opening, and how far they lead on along its normal.
 template <int Dim>
 class Rim {
@@ -36,18 +42,22 @@ class Rim {
     return looks_away ? NearestWall<Dim>{} : wall;
   }
 
-  /// Whether walls lie beside an edge of the rim (3D). Its ends do not count: walls there are beside the next edge.
-  bool is_closed(const Vec<Dim>& from, const Vec<Dim>& to) const {
+  /// How walls lie beside an edge of the rim (3D). Its ends do not count: walls there are beside the next edge.
+  EdgeOfRim edge(const Vec<Dim>& from, const Vec<Dim>& to) const {
     const double length = (to - from).norm();
     const Vec<Dim> inwards = inwards_of(from, to);
     const double margin = std::min(0.25 * length, dx_);
     const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * (length - 2.0 * margin) / dx_)));
     const double piece = (length - 2.0 * margin) / pieces;
     int closed = 0;
+    EdgeOfRim edge;
     for (int k = 0; k < pieces; ++k) {
-      closed += wall_at(Vec<Dim>(from + (margin + (k + 0.5) * piece) / length * (to - from)), inwards).face >= 0;
+      const int f = wall_at(Vec<Dim>(from + (margin + (k + 0.5) * piece) / length * (to - from)), inwards).face;
+      closed += f >= 0;
+      edge.is_on_mesh = edge.is_on_mesh || (f >= 0 && boundary_.mesh_of(f) != nullptr);
     }
-    return closed > 0 && closed * piece >= std::min(0.5 * (length - 2.0 * margin), min_closed * dx_);
+    edge.is_closed = closed > 0 && closed * piece >= std::min(0.5 * (length - 2.0 * margin), min_closed * dx_);
+    return edge;
   }
 
   /// Length [m] over which walls continue from a place on the rim, at most the length of the duct.
@@ -129,23 +139,31 @@ std::vector<WallFace<2>> walls_of(const Rim<2>& rim, int wall) {
   return faces;
 }
 
-/// The triangles of a duct in 3D, with their fronts inside, over the edges of the rim that are closed.
-TriangleMesh tube(const Rim<3>& rim) {
+/// The walls of a duct in 3D.
+struct Tube {
+  TriangleMesh mesh;        ///< over the edges of the rim that are closed; its fronts are inside
+  bool is_on_mesh = false;  ///< whether one of these edges lies on a mesh
+};
+
+Tube tube_of(const Rim<3>& rim) {
   const Opening<3>& mouth = rim.mouth();
   std::vector<Vec<3>> corners = mouth.rim();
   Vec<3> area = Vec<3>::Zero();
   for (std::size_t k = 0; k < corners.size(); ++k) area += corners[k].cross(corners[(k + 1) % corners.size()]);
   if (area.dot(mouth.normal) < 0.0) std::ranges::reverse(corners);
   const auto next = [&](std::size_t k) -> const Vec<3>& { return corners[(k + 1) % corners.size()]; };
+  Tube tube;
+  TriangleMesh& mesh = tube.mesh;
   std::vector<std::size_t> closed;
   double begin = rim.length();
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    if (!rim.is_closed(corners[k], next(k))) continue;
+    const EdgeOfRim edge = rim.edge(corners[k], next(k));
+    if (!edge.is_closed) continue;
     closed.push_back(k);
+    tube.is_on_mesh = tube.is_on_mesh || edge.is_on_mesh;
     begin = std::min(begin, rim.led_on(Vec<3>(0.5 * (corners[k] + next(k)))));
   }
-  TriangleMesh mesh;
-  if (rim.length() - begin <= corner_tolerance * rim.length()) return mesh;
+  if (rim.length() - begin <= corner_tolerance * rim.length()) return tube;
   for (const std::size_t k : closed) {
     const int first = static_cast<int>(mesh.points.size());
     for (const double along : {begin, rim.length()}) {
@@ -155,21 +173,22 @@ TriangleMesh tube(const Rim<3>& rim) {
     mesh.triangles.push_back({first, first + 2, first + 1});
     mesh.triangles.push_back({first + 1, first + 2, first + 3});
   }
-  return mesh;
+  return tube;
 }
 
 void append_walls(const Rim<2>& rim, int wall, double /*spacing*/, Boundary<2>& boundary) {
   for (const WallFace<2>& face : walls_of(rim, wall)) boundary.faces.push_back(face);
 }
 
-/// A rectangle's duct is a box, whose particles continue the lattice of boxes in front of it; other ducts are meshes.
+/// A rectangle's duct is a box, whose particles continue the lattice of boxes in front of it. Other ducts are meshes,
+/// as is that of a rectangle on a mesh: particles behind both walls have one lattice.
 void append_walls(const Rim<3>& rim, int wall, double spacing, Boundary<3>& boundary) {
-  TriangleMesh mesh = tube(rim);
+  auto [mesh, is_on_mesh] = tube_of(rim);
   if (mesh.triangles.empty()) return;
   weld(mesh, corner_tolerance * spacing);
   const int first = static_cast<int>(boundary.faces.size());
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) boundary.faces.push_back(face_of(mesh, t, wall));
-  if (rim.mouth().outline.corners().empty()) return;
+  if (rim.mouth().outline.corners().empty() && !is_on_mesh) return;
   boundary.meshes.push_back({std::make_shared<const MeshSurface>(std::move(mesh)), first, wall});
 }
 

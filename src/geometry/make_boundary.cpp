@@ -258,7 +258,10 @@ std::vector<WallFace<Dim>> places_where_walls_continue(const CaseSpec& spec, con
     if (end.meets_air) continue;
     for (const WallFace<Dim>& face : end.as_faces()) faces.push_back(face);
   }
-  const Box<Dim> box = box_around(boundary.faces);
+  Box<Dim> box = box_around(boundary.faces);
+  for (int axis = 0; axis < Dim && !box.isEmpty(); ++axis) {  // around a single flat wall the planes need an area
+    if (box.min()[axis] == box.max()[axis]) box.max()[axis] += spec.particles.spacing;
+  }
   for (int axis = 0; axis < Dim && !box.isEmpty(); ++axis) {
     for (const double at : periodic_range(spec.domain, axis)) {
       std::array<Vec<Dim>, 2> ends{box.min(), box.max()};

@@ -54,6 +54,17 @@ bool form_ridge(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolerance
   return is_behind(a, b) && is_behind(b, a);
 }
 
+/// Whether a wall and a duct form a ridge, whose edges need not be the same: the middle of each is behind the other.
+template <int Dim>
+bool form_ridge_at_mouth(const WallFace<Dim>& a, const WallFace<Dim>& b) {
+  const auto middle = [](const WallFace<Dim>& face) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (const Vec<Dim>& x : face.corners) sum += x;
+    return Vec<Dim>(sum / Dim);
+  };
+  return a.height(middle(b)) < 0.0 && b.height(middle(a)) < 0.0;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -153,7 +164,10 @@ Mat<Dim> WallParticleCollector<Dim>::normals_beyond_edges(const WallPlace<Dim>& 
   for (const WallFace<Dim>& face : faces_in_front_of(place)) {
     const auto turns_away = [&](const WallFace<Dim>& other) { return face.normal.dot(other.normal) < edge_cosine; };
     if (!std::ranges::all_of(meeting, turns_away) || !sees(place, face)) continue;
-    const auto form_ridge_with = [&](const WallFace<Dim>& other) { return form_ridge(face, other, tolerance_); };
+    const auto form_ridge_with = [&](const WallFace<Dim>& other) {
+      const bool is_at_mouth = body_.walls[face.wall].is_duct != body_.walls[other.wall].is_duct;
+      return is_at_mouth ? form_ridge_at_mouth(face, other) : form_ridge(face, other, tolerance_);
+    };
     if (!std::ranges::all_of(meeting, form_ridge_with)) return beyond;
     if (meeting.empty() || has_edge_between(place.stands_at(), meeting.front(), face)) meeting.push_back(face);
   }

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
+#include "geometry/point_grid.h"
 #include "geometry/some_walls.h"
 #include "geometry/wall_label.h"
 #include "sampling/cut_cells.h"
@@ -22,7 +25,9 @@ namespace {
 /// it.
 constexpr double min_behind = 0.7;
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double min_cell_share = 0.01;  // of a cell; less than that behind the wall gets no particle
+constexpr double equal_shares = 1e-6;    // of a cell; shares that differ by round-off are equal
 
 /// Whether a plate ends at the rim of the mesh there: places beyond are on the other side of the plate.
 bool ends_at_plate(const WallMesh& mesh, const SurfacePlace& place) {
@@ -36,11 +41,22 @@ bool ends_at_plate(const WallMesh& mesh, const SurfacePlace& place) {
 class SpaceBehind {
  public:
   SpaceBehind(const Boundary<3>& body, const WallMesh& mesh, double spacing)
-      : body_(body), mesh_(mesh), is_other_(body.walls.size(), 1), gap_(0.5 * spacing) {
+      : body_(body),
+        mesh_(mesh),
+        is_other_(body.walls.size(), 1),
+        meets_rim_(body.walls.size(), 0),
+        gap_(0.5 * spacing) {
     is_other_[static_cast<std::size_t>(mesh.wall)] = 0;
+    if (mesh.surface->is_closed()) return;
+    for (const WallMesh& other : body.meshes) {
+      if (other.wall == mesh.wall || other.surface->is_closed() || !begins_at_rim(other)) continue;
+      meets_rim_[static_cast<std::size_t>(other.wall)] = 1;
+      is_met_ = true;
+    }
   }
 
   const WallMesh& mesh() const { return mesh_; }
+  const Vec<3>& normal_of(int face) const { return body_.faces[face].normal; }
 
   /// Whether `x`, whose nearest place of the mesh is `place`, is beside the rim and not behind the mesh.
   bool is_beyond_rim(const Vec<3>& x, const SurfacePlace& place) const {
@@ -50,7 +66,34 @@ class SpaceBehind {
     return normal.dot(x - place.point) > min_behind * place.signed_distance || is_before_another(x, place);
   }
 
+  /// Another open mesh within `distance` of `x` that begins at the rim of this one and leads backwards, so that the two
+  /// meet at a convex edge: only places behind both are behind the walls.
+  NearestWall<3> mesh_beyond_edge(const Vec<3>& x, double distance) const {
+    if (!is_met_) return {};
+    const NearestWall<3> other = nearest_among<3>(body_, meets_rim_, x, distance);
+    if (other.face < 0) return {};
+    const SurfacePlace behind = mesh_.surface->nearest(other.point - gap_ * normal_of(other.face), infinite);
+    return !behind.is_on_rim && behind.signed_distance < 0.0 ? other : NearestWall<3>{};
+  }
+
  private:
+  /// Whether another mesh lies along an edge of the rim.
+  bool begins_at_rim(const WallMesh& other) const {
+    const TriangleMesh& mesh = mesh_.surface->mesh();
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+      for (int e = 0; e < 3; ++e) {
+        if (mesh_.surface->neighbours()[t][e] >= 0) continue;
+        const Vec<3>& from = mesh.corner(t, e);
+        const Vec<3>& to = mesh.corner(t, (e + 1) % 3);
+        const auto is_beside = [&](double share) {
+          return other.surface->nearest(from + share * (to - from), gap_).triangle >= 0;
+        };
+        if (is_beside(0.0) && is_beside(0.5) && is_beside(1.0)) return true;
+      }
+    }
+    return false;
+  }
+
   /// Whether another wall begins at the rim, such as that of a pipe behind a hole, and `x` is in front of it.
   bool is_before_another(const Vec<3>& x, const SurfacePlace& place) const {
     const NearestWall<3> other = nearest_among<3>(body_, is_other_, x, (x - place.point).norm() + gap_);
@@ -60,6 +103,8 @@ class SpaceBehind {
   const Boundary<3>& body_;
   const WallMesh& mesh_;
   std::vector<std::uint8_t> is_other_;
+  std::vector<std::uint8_t> meets_rim_;  ///< other open meshes that begin at the rim of this one
+  bool is_met_ = false;                  ///< whether there are any
   double gap_;
 };
 
@@ -69,22 +114,57 @@ struct Behind {
   Vec<3> offset = Vec<3>::Zero();  ///< m; of its centre from the cell's
 };
 
+/// The part of a box behind a surface.
+struct CutPart {
+  double share;  ///< of the box
+  Vec<3> centre;
+};
+
+/// The part of a box with the centre `x` behind the surface that has this foot and this normal there.
+CutPart cut_by(const Vec<3>& x, const Vec<3>& edge, const Vec<3>& foot, double signed_distance, const Vec<3>& normal) {
+  const bool is_on_surface = std::abs(signed_distance) < corner_tolerance * edge.norm();
+  const Vec<3> n = is_on_surface ? normal : Vec<3>((x - foot) / signed_distance);
+  const PartOfBox found = part_in_front<3>(edge, -n, -signed_distance);
+  return {found.share, x - (found.distance + signed_distance) * n};
+}
+
 Behind part_behind(const SpaceBehind& space, const Vec<3>& centre, const Vec<3>& edge) {
   const MeshSurface& surface = *space.mesh().surface;
   Behind behind;
   for_each_part<3>(centre, edge, [&](const Vec<3>& x, const Vec<3>& part) {
     const SurfacePlace place = surface.nearest(x, 2.0 * edge.norm());
     if (place.triangle < 0 || space.is_beyond_rim(x, place)) return;
-    const bool is_on_surface = std::abs(place.signed_distance) < corner_tolerance * part.norm();
-    const Vec<3> n = is_on_surface ? surface.mesh().area_normal(place.triangle).normalized()
-                                   : Vec<3>((x - place.point) / place.signed_distance);
-    const PartOfBox found = part_in_front<3>(part, -n, -place.signed_distance);
-    behind.share += found.share;
-    behind.offset += found.share * (x - (found.distance + place.signed_distance) * n - centre);
+    const Vec<3> normal = surface.mesh().area_normal(place.triangle).normalized();
+    CutPart cut = cut_by(x, part, place.point, place.signed_distance, normal);
+    const NearestWall<3> other = space.mesh_beyond_edge(x, 0.5 * part.norm());
+    if (other.face >= 0) {
+      const CutPart by_other = cut_by(x, part, other.point, other.signed_distance, space.normal_of(other.face));
+      if (by_other.share < cut.share) cut = by_other;
+    }
+    behind.share += cut.share;
+    behind.offset += cut.share * (cut.centre - centre);
   });
   if (behind.share > 0.0) behind.offset /= behind.share;
   behind.share /= parts_of_cell<3>;
   return behind;
+}
+
+/// A place for a particle behind a mesh.
+struct Proposal {
+  WallPlace<3> place;
+  std::int64_t number;
+  const WallMesh* mesh;
+};
+
+/// Gives a cell of which two meshes own equal parts to the duct, whose jet touches no other wall, or to the nearer
+/// mesh. The first of equal proposals is taken.
+void order_equals(const Boundary<3>& body, Proposal& first, Proposal& second) {
+  if (std::abs(first.place.share - second.place.share) > equal_shares) return;
+  second.place.share = first.place.share;
+  const auto rank = [&](const WallPlace<3>& place) {
+    return std::pair(body.walls[place.wall].is_duct ? 0 : 1, (place.stands_at() - place.foot).norm());
+  };
+  if (rank(second.place) < rank(first.place)) std::swap(first, second);
 }
 
 /// Whole cells behind the surface extended beyond its free rim. They act on water only through the mesh.
@@ -122,12 +202,8 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
         {"{} is a mesh, and wall particles stand behind a mesh, not on it", wall_label(body, body.meshes[0].wall)},
         {"choose scheme.formulation = \"robust\""});
   }
-  struct Proposal {
-    WallPlace<3> place;
-    std::int64_t number;
-    const WallMesh* mesh;
-  };
   std::vector<Proposal> proposals;
+  PointGrid<3> cells(corner_tolerance * layers.spacing);  // of the proposals
   for (const WallMesh& mesh : body.meshes) {
     const MeshSurface& surface = *mesh.surface;
     const SpaceBehind space(body, mesh, layers.spacing);
@@ -139,17 +215,24 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
       const double half_diagonal = 0.5 * edge.norm();
       if (place.signed_distance >= half_diagonal || space.is_beyond_rim(x, place)) return;
       Behind behind{.share = 1.0};
-      if (place.signed_distance > -half_diagonal) behind = part_behind(space, x, edge);
+      if (place.signed_distance > -half_diagonal || space.mesh_beyond_edge(x, half_diagonal).face >= 0) {
+        behind = part_behind(space, x, edge);
+      }
       if (behind.share < min_cell_share) return;
       const SurfacePlace near = surface.nearest(x + behind.offset, layers.count * layers.spacing + edge.norm());
-      proposals.push_back({{.position = x,
-                            .foot = near.point,
-                            .normals = normals_at(surface.mesh(), near),
-                            .wall = mesh.wall,
-                            .offset = behind.offset,
-                            .share = behind.share * edge.prod() / power<3>(layers.spacing)},
-                           number,
-                           &mesh});
+      Proposal proposal{{.position = x,
+                         .foot = near.point,
+                         .normals = normals_at(surface.mesh(), near),
+                         .wall = mesh.wall,
+                         .offset = behind.offset,
+                         .share = behind.share * edge.prod() / power<3>(layers.spacing)},
+                        number,
+                        &mesh};
+      if (body.meshes.size() > 1) {
+        cells.visit_near(x, [&](int k) { order_equals(body, proposals[k], proposal); });
+        cells.add(x);
+      }
+      proposals.push_back(std::move(proposal));
     };
     NodesNear(surface, lattice, layers.count * layers.spacing, propose).find();
   }

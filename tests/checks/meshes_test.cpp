@@ -125,6 +125,32 @@ TEST(CheckMeshes, WarnOfABodyBesideTheRestOrLongerThanIt) {
                {"is a body 8 m long, and water and walls have a length of 3 m", "0.001 for a file in mill"});
 }
 
+// Water that has just left a nozzle stands in front of the mesh around it, and touches only the opening.
+TEST(CheckMeshes, AMeshAroundAnOpeningIsNotBesideTheRest) {
+  const MeshFolder folder;
+  TriangleMesh plane;  // x = 0 around a square hole
+  for (const double half : {0.2, 0.6}) {
+    for (const auto& [y, z] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}}) {
+      plane.points.emplace_back(0.0, y, z);
+    }
+  }
+  for (int k = 0; k < 4; ++k) add_quad(plane, k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4);
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {folder.wall(plane, FluidSide::front)};
+  spec.fluid = {box_fluid({0.0, -0.2, -0.2}, {0.4, 0.2, 0.2})};
+  const auto count = [&] {
+    const Boundary<3> boundary = make_boundary<3>(spec);
+    return check_meshes(spec, boundary, make_fluid_particles(spec, boundary)).size();
+  };
+  EXPECT_EQ(count(), 1u) << "no opening";
+  InletTable inlet;
+  inlet.from = {0.0, -0.2, -0.2};
+  inlet.to = {0.0, 0.2, 0.2};
+  inlet.direction = {1.0, 0.0, 0.0};
+  spec.inlets = {inlet};
+  EXPECT_EQ(count(), 0u);
+}
+
 TEST(CheckMeshes, AWayThatCutsThroughABodyIsNotBehindIt) {
   const MeshFolder folder;
   CaseSpec spec = empty_case(0.1, 3);

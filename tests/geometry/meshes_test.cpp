@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "geometry/boundary.h"
+#include "geometry/ending_boxes.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/mesh_walls.h"
 #include "geometry/wall_patches.h"
@@ -355,6 +356,31 @@ TEST(MeshWall, ThatMeetsAnotherAtACrestDoesNotCrossIt) {
     EXPECT_GT(boundary.nearest({side * 0.1, 0.5, -0.15}, 0.3).signed_distance, 0.0);
     EXPECT_LT(boundary.nearest({side * 0.1, 0.5, -0.25}, 0.3).signed_distance, 0.0);
   }
+}
+
+/// A box becomes a mesh only where water can pass over an edge of it: not over the top of a tank, nor where a duct
+/// continues its walls, even if the duct is lower than they are.
+TEST(EndingBox, BecomesAMeshWhereItEndsBesideItsTop) {
+  const auto becomes_mesh = [](std::vector<std::string> open, bool has_outlet, Beyond beyond) {
+    CaseSpec spec = empty_case(0.1, 3);
+    spec.walls = {box_wall({0.0, 0.0, 0.0}, {2.0, 1.0, 2.0}, std::move(open))};
+    if (has_outlet) {
+      spec.outlets = {outlet({2.0, 0.0, 0.0}, {2.0, 1.0, 0.5})};
+      spec.outlets[0].beyond = beyond;
+    }
+    Boundary<3> boundary = make_boundary<3>(spec);
+    const std::size_t screens = boundary.screens.size();
+    make_meshes_of_ending_boxes(spec, boundary);
+    EXPECT_EQ(boundary.screens.size() > screens, !boundary.meshes.empty());
+    if (boundary.meshes.empty()) return false;
+    EXPECT_GT(boundary.nearest({2.05, 0.5, -0.05}, 1.0).signed_distance, 0.0) << "beyond the end nothing is behind";
+    EXPECT_LT(boundary.nearest({1.95, 0.5, -0.05}, 1.0).signed_distance, 0.0);
+    return true;
+  };
+  EXPECT_FALSE(becomes_mesh({"+z"}, false, Beyond::channel));
+  EXPECT_FALSE(becomes_mesh({"+z", "+x"}, true, Beyond::channel));
+  EXPECT_TRUE(becomes_mesh({"+z", "+x"}, true, Beyond::air));
+  EXPECT_TRUE(becomes_mesh({"+z", "+x"}, false, Beyond::air));
 }
 
 }  // namespace

@@ -5,14 +5,17 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
 #include "geometry/cases.h"
 #include "geometry/meshes.h"
+#include "geometry/point_grid.h"
 #include "geometry/wall_label.h"
 #include "sampling/duct_water.h"
 #include "sampling/wall_particles.h"
+#include "sampling/water_lattice.h"
 
 namespace tailwater {
 namespace {
@@ -245,6 +248,92 @@ TEST(Ducts, OfAHoleInAMeshHaveNoWallInside) {
     }
     EXPECT_NEAR(volume, 0.0, 1e-9) << one.outlets.size();
   }
+}
+
+/// The part of a cell of the lattice, in which `x` is, that is beside a square section; 1: all of it.
+double part_beside(const Vec<3>& x, const Vec<3>& origin, double low, double high) {
+  double inside = 1.0;
+  for (const int axis : {1, 2}) {
+    const double from = origin[axis] + 0.1 * std::floor((x[axis] - origin[axis]) / 0.1);
+    inside *= std::max(0.0, std::min(from + 0.1, high) - std::max(from, low)) / 0.1;
+  }
+  return 1.0 - inside;
+}
+
+/// Wherever the hole is on the lattice of the water, the space behind the dam and its duct is filled once, and the
+/// section of the opening not at all.
+TEST(Ducts, OfAHoleOffTheLatticeHaveNoWallInside) {
+  const MeshFolder folder;
+  for (const double off : {0.0, 0.05, 0.02}) {
+    CaseSpec spec = empty_case(0.1, 3);
+    spec.walls = {folder.wall(dam_with_hole(), FluidSide::front)};
+    spec.outlets = {outlet({1.0, 0.2, 0.2}, {1.0, 0.8, 0.8})};
+    spec.outlets[0].level = 1.0;
+    const Vec<3> origin(0.0, off, off);
+    spec.fluid = {box_fluid({0.0, off, off}, {1.0, off + 1.0, off + 1.0})};
+    Boundary<3> boundary = make_boundary<3>(spec);
+    const Lattice<3> lattice = lattice_behind_meshes(spec, boundary);
+    append_ducts(spec, boundary);
+    const WallParticles<3> dummies = make_dummy_particles<3>(boundary, 0.1, 3, {}, lattice);
+    std::map<Cell<3>, double> volume;
+    for (std::size_t i = 0; i < dummies.size(); ++i) {
+      volume[cell_of<3>(dummies.position[i] - origin, 0.1)] += dummies.share[i];
+    }
+    int beside = 0;
+    for (const double x : {1.05, 1.15, 1.25, 1.65}) {
+      for (double y = 0.105; y < 0.9; y += 0.1) {
+        for (double z = 0.105; z < 0.9; z += 0.1) {
+          const Vec<3> place(x, y, z);
+          const double part = part_beside(place, origin, 0.2, 0.8);
+          // Parts of a cell, of which there are 27, are cut by one wall.
+          EXPECT_NEAR(volume[cell_of<3>(place - origin, 0.1)], part, 1.0 / 27.0) << off << ": " << place.transpose();
+          beside += part > 0.0 ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_GE(beside, 4 * 28);
+  }
+}
+
+/// Water that leaves a mouth meets walls that mirror it along the duct, and not in the plane of the mouth, although a
+/// disc's duct and the hole around it are polygons with different corners.
+TEST(Ducts, OfADiscMirrorTheJetAtTheirMouth) {
+  const MeshFolder folder;
+  TriangleMesh ring;  // the plane x = 0 around the hole, its front towards -x
+  constexpr int pieces = 40;
+  for (int k = 0; k < pieces; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / pieces;
+    for (const double radius : {0.35, 1.0}) {
+      ring.points.emplace_back(0.0, radius * std::cos(angle), radius * std::sin(angle));
+    }
+  }
+  for (int k = 0; k < pieces; ++k) {
+    const int next = (k + 1) % pieces;
+    add_quad(ring, 2 * k, 2 * next, 2 * next + 1, 2 * k + 1);
+  }
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.fluid = {box_fluid({-1.0, -0.5, -0.5}, {0.0, 0.5, 0.5})};
+  spec.walls = {folder.wall(ring, FluidSide::front)};
+  OutletTable end;
+  end.direction = {1.0, 0.0, 0.0};
+  end.radius = 0.35;
+  end.centre = {0.0, 0.0, 0.0};
+  end.level = 1.0;
+  spec.outlets = {end};
+  Boundary<3> boundary = make_boundary<3>(spec);
+  const Lattice<3> lattice = lattice_behind_meshes(spec, boundary);
+  append_ducts(spec, boundary);
+  const WallParticles<3> dummies = make_dummy_particles<3>(boundary, 0.1, 3, {}, lattice);
+  int at_mouth = 0;
+  for (std::size_t i = 0; i < dummies.size(); ++i) {
+    const Vec<3>& x = dummies.position[i];
+    const double aside = std::hypot(x[1], x[2]);
+    if (x[0] < 0.0 || x[0] > 0.3 || aside > 0.6) continue;
+    ++at_mouth;
+    const bool can_turn = !dummies.beyond_edges[i].isZero(0.0);
+    EXPECT_TRUE(can_turn || std::abs(dummies.normal[i][0]) < 0.1) << x.transpose();
+  }
+  EXPECT_GT(at_mouth, 200);
 }
 
 /// The top of a river's section meets gentle banks, which are beside it for many spacings and do not close it.
