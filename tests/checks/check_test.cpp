@@ -297,6 +297,46 @@ TEST(Check, WallThinnerThanItsLayers) {
   expect_among(check(spec), Severity::error, {"wall 'pier' is only 0.2 m thick", "3 layers", "0.3 m"});
 }
 
+/// A ramp of a radius of 1 m in `pieces` that rises from 0 to an angle, and ends at a lip above a vertical back.
+CaseSpec curved_lip(double degrees, int pieces) {
+  CaseSpec spec = empty_case(0.02);
+  std::vector<Coordinates> points = {{-0.5, 0.0}};
+  const double angle = degrees / 180.0 * std::numbers::pi;
+  for (int k = 0; k <= pieces; ++k) {
+    points.push_back({std::sin(angle * k / pieces), 1.0 - std::cos(angle * k / pieces)});
+  }
+  const double lip = points.back()[0];
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{{lip, -1.0}, {3.0, -1.0}, {3.0, 1.0}}) {
+    points.push_back({x, y});
+  }
+  points.insert(points.begin(), {-0.5, 1.0});
+  spec.walls = {polyline(points)};
+  spec.fluid = {box_fluid({-0.5, 0.0}, {0.0, 0.1}), box_fluid({lip, -1.0}, {3.0, -0.9})};
+  return spec;
+}
+
+TEST(Check, ACurvedLipIsAWedgeAsAStraightOneIs) {
+  for (const double degrees : {20.0, 25.0, 40.0, 60.0, 75.0}) {
+    for (const int pieces : {1, 3, 10, 50, 200}) {
+      const CaseSpec spec = curved_lip(degrees, pieces);
+      EXPECT_EQ(listed(check(spec)).find("thick"), std::string::npos)
+          << degrees << " " << pieces << listed(check(spec));
+    }
+  }
+}
+
+// A plate of two spacings with a sharp top stays too thin below it.
+TEST(Check, AThinWallWithASharpTopIsReported) {
+  CaseSpec spec = tank();
+  for (const double tip : {0.05, 0.1, 0.2, 0.4}) {
+    spec.walls.resize(1);
+    spec.walls.push_back(polyline({{0.6, 0.0}, {0.6, 0.6 - tip}, {0.8, 0.6}, {0.8, 0.0}}, FluidSide::left));
+    spec.walls[1].name = "pier";
+    spec.fluid = {box_fluid({0, 0}, {0.6, 0.1}), box_fluid({0.8, 0}, {1.0, 0.1})};
+    expect_among(check(spec), Severity::error, {"wall 'pier' is only 0.2 m thick"});
+  }
+}
+
 TEST(Check, TwoWallsBackToBackHaveNoThickness) {
   CaseSpec spec = tank();
   spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}));
