@@ -43,18 +43,24 @@ class Terrain:
     def spikes(self):
         """Indices and heights above the next neighbour [m] of the points that are above, or below, all their neighbours,
         by a slope of more than 1 and by more than five times the range of the neighbours' heights."""
-        edges = np.concatenate([self.triangles[:, [0, 1]], self.triangles[:, [1, 2]], self.triangles[:, [2, 0]]])
+        sides = ([0, 1], [1, 2], [2, 0])
+        is_steep = np.zeros(len(self.points), dtype=bool)
+        is_steep[self.triangles] = True
+        for side in sides:
+            ends = self.triangles[:, side]
+            x, y, z = (self.points[ends[:, 1]] - self.points[ends[:, 0]]).T
+            is_steep[ends[np.abs(z) <= np.hypot(x, y)]] = False
+        triangles = self.triangles[is_steep[self.triangles].any(axis=1)]  # few, because the minima below are slow
+        edges = np.concatenate([triangles[:, side] for side in sides])
         start, end = np.concatenate([edges, edges[:, ::-1]]).T
         low, high = np.full(len(self.points), np.inf), np.full(len(self.points), -np.inf)
-        farthest = np.zeros(len(self.points))
         np.minimum.at(low, start, self.points[end, 2])
         np.maximum.at(high, start, self.points[end, 2])
-        np.maximum.at(farthest, start, np.hypot(*(self.points[end, :2] - self.points[start, :2]).T))
-        used = np.unique(self.triangles)
-        z = self.points[used, 2]
-        above = np.where(z > high[used], z - high[used], np.where(z < low[used], z - low[used], 0.0))
-        is_spike = np.abs(above) > np.maximum(farthest[used], 5 * (high - low)[used])
-        return used[is_spike], above[is_spike]
+        steep = np.flatnonzero(is_steep)
+        low, high, z = low[steep], high[steep], self.points[steep, 2]
+        above = np.where(z > high, z - high, np.minimum(z - low, 0.0))
+        is_spike = np.abs(above) > 5 * (high - low)
+        return steep[is_spike], above[is_spike]
 
     def resampled(self, step):
         """Heights on a square grid with this step, linear between known points."""
