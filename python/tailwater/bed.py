@@ -19,13 +19,16 @@ from .whole_file import require_other_file, write_whole
 NAMES = {"x": ("x", "easting", "east", "e", "rechtswert"), "y": ("y", "northing", "north", "n", "hochwert"),
          "z": ("z", "elevation", "height", "level", "h")}
 LARGEST = 5_000_000  # triangles; a mesh for a case with the same number of particles has some thousands
+NO_DATA = (-9999, -99999, -32767, -32768)  # m; heights with which surveys mark missing ones
+LARGEST_HEIGHT = 1e30  # m; rasters of single precision mark missing heights with about 3e38
 
 
 class Terrain:
-    """Points (n, 3) in m, in the survey's coordinates, and triangles of them (m, 3), counter-clockwise from above."""
+    """Points (n, 3) in m, in the survey's coordinates, and triangles of them (m, 3), counter-clockwise from above. `lines`
+    (n) are those of the text file with the points, `warnings` concern its heights."""
 
-    def __init__(self, points, triangles):
-        self.points, self.triangles = points, triangles
+    def __init__(self, points, triangles, lines=None, warnings=()):
+        self.points, self.triangles, self.lines, self.warnings = points, triangles, lines, list(warnings)
 
     def bounds(self):
         used = self.points[np.unique(self.triangles)]
@@ -35,7 +38,29 @@ class Terrain:
         """The triangles that lie in the box."""
         x, y = self.points[:, 0], self.points[:, 1]
         inside = (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)
-        return Terrain(self.points, self.triangles[inside[self.triangles].all(axis=1)])
+        return Terrain(self.points, self.triangles[inside[self.triangles].all(axis=1)], self.lines, self.warnings)
+
+    def spikes(self):
+        """Indices and heights above the next neighbour [m] of the points that are above, or below, all their neighbours,
+        by a slope of more than 1 and by more than five times the range of the neighbours' heights."""
+        sides = ([0, 1], [1, 2], [2, 0])
+        is_steep = np.zeros(len(self.points), dtype=bool)
+        is_steep[self.triangles] = True
+        for side in sides:
+            ends = self.triangles[:, side]
+            x, y, z = (self.points[ends[:, 1]] - self.points[ends[:, 0]]).T
+            is_steep[ends[np.abs(z) <= np.hypot(x, y)]] = False
+        triangles = self.triangles[is_steep[self.triangles].any(axis=1)]  # few, because the minima below are slow
+        edges = np.concatenate([triangles[:, side] for side in sides])
+        start, end = np.concatenate([edges, edges[:, ::-1]]).T
+        low, high = np.full(len(self.points), np.inf), np.full(len(self.points), -np.inf)
+        np.minimum.at(low, start, self.points[end, 2])
+        np.maximum.at(high, start, self.points[end, 2])
+        steep = np.flatnonzero(is_steep)
+        low, high, z = low[steep], high[steep], self.points[steep, 2]
+        above = np.where(z > high, z - high, np.minimum(z - low, 0.0))
+        is_spike = np.abs(above) > 5 * (high - low)
+        return steep[is_spike], above[is_spike]
 
     def resampled(self, step):
         """Heights on a square grid with this step, linear between known points."""
@@ -43,13 +68,25 @@ class Terrain:
 
         low, high = self.bounds()
         surface = matplotlib.tri.Triangulation(self.points[:, 0], self.points[:, 1], self.triangles)
-        x = np.arange(low[0], high[0] + 1e-9 * step, step)
-        y = np.arange(low[1], high[1] + 1e-9 * step, step)
+        x, y = (grid_coordinates(low[axis], high[axis], step) for axis in (0, 1))
         z = matplotlib.tri.LinearTriInterpolator(surface, self.points[:, 2])(*np.meshgrid(x, y))
         return from_grid(x, y, np.ma.filled(z, np.nan))
 
 
-def from_grid(x, y, z):
+def grid_coordinates(low, high, step):
+    """Coordinates from `low` in steps; with `high` where the steps reach it within the rounding of the two, about 1e-9 m at
+    northings of millions."""
+    rounding = 1e-9 * step + 2 * np.spacing(max(abs(low), abs(high)))
+    count = int((high - low + rounding) / step)
+    return np.minimum(low + step * np.arange(count + 1), high)
+
+
+def is_missing(z):
+    """Whether a height stands for a missing one."""
+    return ~(np.abs(z) < LARGEST_HEIGHT) | np.isin(z, NO_DATA)
+
+
+def from_grid(x, y, z, lines=None, warnings=()):
     """Two triangles for each cell of a grid, z[row of y, column of x], whose four corners are known."""
     rows, columns = z.shape
     number_of = np.arange(rows * columns).reshape(rows, columns)
@@ -58,7 +95,8 @@ def from_grid(x, y, z):
     whole = known[:-1, :-1] & known[:-1, 1:] & known[1:, 1:] & known[1:, :-1]
     triangles = np.concatenate([np.stack([a, b, c], axis=-1)[whole], np.stack([a, c, d], axis=-1)[whole]])
     grid_x, grid_y = np.meshgrid(x, y)
-    return Terrain(np.stack([grid_x.ravel(), grid_y.ravel(), z.ravel()], axis=-1), triangles)
+    points = np.stack([grid_x.ravel(), grid_y.ravel(), z.ravel()], axis=-1)
+    return Terrain(points, triangles, None if lines is None else lines.ravel(), warnings)
 
 
 def read_raster(path):
@@ -80,8 +118,17 @@ def read_raster(path):
         raise DataError(f"{path}: cannot be read: {error}") from None
     x = to_metres.c + to_metres.a * (np.arange(z.shape[1]) + 0.5)  # centres of the cells
     y = to_metres.f + to_metres.e * (np.arange(z.shape[0]) + 0.5)
-    z = np.ma.filled(z, np.nan)
-    return from_grid(np.sort(x), np.sort(y), z[np.argsort(y)][:, np.argsort(x)])
+    z = np.ma.filled(z, np.nan)  # the heights that the raster itself declares as missing
+    marked = np.isin(z, NO_DATA) | (np.abs(z) >= LARGEST_HEIGHT)
+    warnings = [missing_heights(z[marked], "")] if marked.any() else []
+    z[marked] = np.nan
+    return from_grid(np.sort(x), np.sort(y), z[np.argsort(y)][:, np.argsort(x)], warnings=warnings)
+
+
+def missing_heights(z, where):
+    """A warning of points that have these heights, the first of them `where`."""
+    count = "1 point has" if len(z) == 1 else f"{len(z)} points have"
+    return f"{count} no height, but {z[0]:g}{where}, and {'is' if len(z) == 1 else 'are'} left out."
 
 
 def fields_of(line):
@@ -110,10 +157,10 @@ def columns_named(words):
 
 
 def numbers_of(path):
-    """The points of a text file: three numbers per line, separated by blanks, commas or semicolons; # begins a comment.
-    If a header line names columns x, y and z, these columns are read; surveys may have others with names or numbers of
-    points."""
-    points, chosen = [], None
+    """The points of a text file, and the line of each: three numbers per line, separated by blanks, commas or semicolons;
+    # begins a comment. If a header line names columns x, y and z, these columns are read; surveys may have others with
+    names or numbers of points."""
+    points, lines, chosen = [], [], None
     text = read_bytes(path, LARGEST_TABLE).decode("utf-8", errors="replace")
     for line_number, line in enumerate(text.splitlines(), 1):
         words = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
@@ -134,23 +181,45 @@ def numbers_of(path):
         if len(point) != 3:
             raise DataError(f"{path}:{line_number}: has {len(point)} numbers; a point is x, y and z in m; of more columns "
                             "the first line names those three")
-        if not np.isfinite(point).all():
-            raise DataError(f"{path}:{line_number}: is no point: {line[:60]}; leave out where the survey has no height")
+        if not np.isfinite(point[:2]).all():
+            raise DataError(f"{path}:{line_number}: is no point: {line[:60]}; leave it out")
         points.append(point)
-    return np.array(points).reshape(-1, 3)
+        lines.append(line_number)
+    return np.array(points).reshape(-1, 3), np.array(lines, dtype=int)
+
+
+def known_points(path):
+    """The points of a text file that have a height, one at each place, the line of each, and warnings of the others."""
+    points, lines = numbers_of(path)
+    warnings = []
+    missing = is_missing(points[:, 2])
+    if missing.any():
+        warnings.append(missing_heights(points[missing, 2], f" (line {lines[missing][0]})"))
+        points, lines = points[~missing], lines[~missing]
+    _, last = np.unique(points[::-1, :2], axis=0, return_index=True)
+    last = np.sort(len(points) - 1 - last)
+    if len(last) < len(points):
+        height_at = {(x, y): (z, line) for (x, y, z), line in zip(points[last], lines[last], strict=True)}
+        pairs = [(line, height_at[x, y]) for (x, y, z), line in zip(points, lines, strict=True) if z != height_at[x, y][0]]
+        if pairs:
+            first, (_, second) = pairs[0]
+            warnings.append(f"Lines {first} and {second} are two heights of one place"
+                            f"{f', and {len(pairs) - 1} more lines are' if len(pairs) > 1 else ''}; the last one counts.")
+        points, lines = points[last], lines[last]
+    return points, lines, warnings
 
 
 def read_points(path):
     """A grid where the points form one, otherwise Delaunay triangles between them."""
-    points = numbers_of(path)
+    points, lines, warnings = known_points(path)
     if len(points) < 3:
         raise DataError(f"{path}: has {len(points)} points; a bed needs three")
     x, y = np.unique(points[:, 0]), np.unique(points[:, 1])
     column, row = np.searchsorted(x, points[:, 0]), np.searchsorted(y, points[:, 1])
     if x.size > 1 and y.size > 1 and x.size * y.size <= 2 * len(points):
-        z = np.full((y.size, x.size), np.nan)
-        z[row, column] = points[:, 2]
-        grid = from_grid(x, y, z)
+        z, line_at = np.full((y.size, x.size), np.nan), np.zeros((y.size, x.size), dtype=int)
+        z[row, column], line_at[row, column] = points[:, 2], lines
+        grid = from_grid(x, y, z, line_at, warnings)
         if len(grid.triangles):  # scattered points may also share coordinates
             return grid
     import matplotlib.tri
@@ -160,7 +229,7 @@ def read_points(path):
         triangles = matplotlib.tri.Triangulation(*(points[:, :2] - middle).T).triangles
     except (RuntimeError, ValueError) as error:
         raise DataError(f"{path}: no surface goes through its points: {error}") from None
-    return Terrain(points, triangles)
+    return Terrain(points, triangles, lines, warnings)
 
 
 def read_terrain(path):
@@ -187,11 +256,31 @@ def require_few(path, triangles):
                         "--step in m")
 
 
+def warnings_of_heights(terrain):
+    """Warnings of single heights far from all others, and of a relief that no survey in metres has."""
+    spikes, above = terrain.spikes()
+    warnings = []
+    if len(spikes):
+        largest = np.argmax(np.abs(above))
+        x, y, z = terrain.points[spikes[largest]]
+        line = "" if terrain.lines is None else f" (line {terrain.lines[spikes[largest]]})"
+        others = f" {len(spikes) - 1} more heights differ from their neighbours like this one." if len(spikes) > 1 else ""
+        warnings.append(f"The height {z:g} m at {x:.10g}, {y:.10g}{line} is {abs(above[largest]):.3g} m "
+                        f"{'above' if above[largest] > 0 else 'below'} all its neighbours: correct it, or leave it out.{others}")
+    others = np.setdiff1d(terrain.triangles, spikes)
+    extent = np.ptp(terrain.points[others], axis=0) if len(others) else np.zeros(3)
+    if extent[2] > max(extent[:2]):
+        warnings.append("Its relief is larger than its length and width, so its coordinates look like degrees: project the "
+                        "survey to metres first, for example with gdalwarp -t_srs.")
+    return warnings
+
+
 def make_bed(options):
     require_other_file(options.to, options.terrain)
     terrain = read_terrain(options.terrain)
     if options.box:
         terrain = terrain.within(*options.box)
+    warnings = terrain.warnings + warnings_of_heights(terrain)
     if options.step and len(terrain.triangles):
         low, high = terrain.bounds()
         require_few(options.terrain, 2 * np.prod((high - low)[:2] / options.step))
@@ -203,15 +292,14 @@ def make_bed(options):
     low, high = terrain.bounds()
     origin = np.array([*(options.origin or low[:2]), options.datum])
     write_stl(options.to, terrain, origin)
-    return terrain, origin, low - origin, high - origin
+    return terrain, warnings, origin, low - origin, high - origin
 
 
-def report(options, terrain, origin, low, high):
+def report(options, terrain, warnings, origin, low, high):
     ranges = ", ".join(f"{axis} {low[k]:.6g} to {high[k]:.6g}" for k, axis in enumerate("xyz"))
     print(f"Wrote {options.to}: {len(terrain.triangles)} triangles, {ranges} m.")
-    if high[2] - low[2] > max(high[0] - low[0], high[1] - low[1]):
-        print("Its relief is larger than its length and width, so its coordinates look like degrees: project the survey to "
-              "metres first, for example with gdalwarp -t_srs.")
+    for warning in warnings:
+        print(f"Warning: {warning}")
     print(f"The case's origin is {origin[0]:.10g}, {origin[1]:.10g}, {origin[2]:.10g} of the survey. In the case:\n")
     print(f'[[wall]]\nname = "bed"\nshape = "mesh"\nfile = "{options.to.name}"\nfluid_side = "above"\nslip = "no-slip"')
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <span>
@@ -17,12 +18,38 @@
 namespace tailwater {
 namespace {
 
+/// -n_a.n_b of two faces back to back; above it they count as parallel.
+constexpr double max_facing_of_wedge = 0.999;
+/// Least thickness beside a lip over that of the wedge which its two faces make. A curve towards the lip makes a wall
+/// thinner than the wedge, but hardly so where both are thinner than the layers.
+constexpr double min_fraction_of_wedge = 0.5;
+
+/// The corners of `a` that are corners of `b` too.
 template <int Dim>
-bool shares_corner(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolerance) {
-  return std::ranges::any_of(a.corners, [&](const Vec<Dim>& p) {
-    return std::ranges::any_of(b.corners, [&](const Vec<Dim>& q) { return (p - q).norm() <= tolerance; });
-  });
+std::vector<Vec<Dim>> shared_corners(const WallFace<Dim>& a, const WallFace<Dim>& b, double tolerance) {
+  std::vector<Vec<Dim>> shared;
+  for (const Vec<Dim>& p : a.corners) {
+    if (std::ranges::any_of(b.corners, [&](const Vec<Dim>& q) { return (p - q).norm() <= tolerance; })) {
+      shared.push_back(p);
+    }
+  }
+  return shared;
 }
+
+/// A sharp edge at which two faces meet, or in 3D a point.
+template <int Dim>
+struct Lip {
+  std::pair<int, int> walls;  ///< of the two faces, ascending
+  Vec<Dim> begin, end;        ///< m
+  double slope;               ///< tangent of the angle between the faces: thickness over distance
+
+  double distance(const Vec<Dim>& x) const {
+    const Vec<Dim> along = end - begin;
+    const double squared = along.squaredNorm();
+    const double share = squared > 0.0 ? std::clamp((x - begin).dot(along) / squared, 0.0, 1.0) : 0.0;
+    return (begin + share * along - x).norm();
+  }
+};
 
 /// Whether this is a body in the water. Where it rests on another wall, the two touch back to back and stay dry.
 bool is_obstacle(const WallTable& wall) {
@@ -44,7 +71,7 @@ std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary,
   return spread(space, start, Vec<Dim>(Vec<Dim>::Zero()), Edge::holds).wet;
 }
 
-/// Lists the faces that may be behind others.
+/// Lists the faces that may be behind others, or meet them.
 template <int Dim>
 class FacesBehind {
  public:
@@ -67,22 +94,51 @@ class FacesBehind {
     }
     return {found.begin(), found.end()};
   }
+  /// The faces that may meet the face at its corners, in their order.
+  std::set<int> at_corners_of(const WallFace<Dim>& face) const {
+    std::set<int> found;
+    for (const Vec<Dim>& corner : face.corners) {
+      const std::span<const int> near = grid_.near(corner);
+      found.insert(near.begin(), near.end());
+    }
+    return found;
+  }
 
  private:
   FaceGrid<Dim> grid_;
 };
 
-/// The first sample of `face` that has the back of `other` behind it within `depth`.
+/// The lips of all walls but plates.
 template <int Dim>
+std::vector<Lip<Dim>> find_lips(const Boundary<Dim>& boundary, const FacesBehind<Dim>& faces, double tolerance) {
+  std::vector<Lip<Dim>> lips;
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    for (const int g : faces.at_corners_of(face)) {
+      const WallFace<Dim>& other = boundary.faces[g];
+      const double facing = -face.normal.dot(other.normal);
+      if (g <= f || facing <= 0.0 || facing >= max_facing_of_wedge) continue;
+      const std::vector<Vec<Dim>> shared = shared_corners(face, other, tolerance);
+      if (shared.empty()) continue;
+      const std::pair<int, int> walls = std::minmax(face.wall, other.wall);
+      lips.push_back({walls, shared.front(), shared.back(), std::sqrt(1.0 - facing * facing) / facing});
+    }
+  });
+  return lips;
+}
+
+/// The first sample of `face` that has the back of `other` behind it within `depth` and for which `is_thin` holds.
+template <int Dim, class IsThin>
 std::optional<Vec<Dim>> place_with_other_behind(const WallFace<Dim>& face, const WallFace<Dim>& other, double depth,
-                                                double dx) {
+                                                double dx, IsThin&& is_thin) {
   const double tolerance = corner_tolerance * dx;
   const int samples = samples_along(face, dx);
   for (int k = 0; k < samples; ++k) {
     const Vec<Dim> foot = sample_of(face, k, samples);
     // Starts just in front of the wall, so that a wall without thickness is passed as well.
     if (crosses(other, Vec<Dim>(foot + 2.0 * tolerance * face.normal), Vec<Dim>(foot - depth * face.normal),
-                tolerance)) {
+                tolerance) &&
+        is_thin(foot)) {
       return foot;
     }
   }
@@ -104,28 +160,39 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
     return wet->at(face);
   };
   const FacesBehind<Dim> faces_behind(boundary, needed + 3.0 * tolerance);
+  std::optional<std::vector<Lip<Dim>>> lips;  // computed on demand
+  // Beside a sharp edge a wall is a wedge, whether its sides are straight or made of short pieces.
+  const auto is_wedge = [&](const std::pair<int, int>& walls, const Vec<Dim>& foot, double thickness) {
+    if (!lips) lips = find_lips(boundary, faces_behind, tolerance);
+    return std::ranges::any_of(*lips, [&](const Lip<Dim>& lip) {
+      return lip.walls == walls && thickness >= min_fraction_of_wedge * lip.slope * lip.distance(foot);
+    });
+  };
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
     for (const int g : faces_behind.of(face, dx)) {
       const WallFace<Dim>& other = boundary.faces[g];
       const double facing = -face.normal.dot(other.normal);
-      const bool is_neighbour = facing < 0.999 && shares_corner(face, other, tolerance);
-      const bool is_plate = boundary.walls[face.wall].is_plate || boundary.walls[other.wall].is_plate;
-      if (g == f || facing <= 0.0 || is_neighbour || is_plate) continue;
-      const std::optional<Vec<Dim>> foot = place_with_other_behind(face, other, needed, dx);
-      if (!foot) continue;
-      const double thickness = std::max(0.0, -other.height(*foot) / facing);
-      const bool rests_on_it =
-          thickness <= 2.0 * tolerance && (is_obstacle(spec.walls[face.wall]) || is_obstacle(spec.walls[other.wall]));
-      if (rests_on_it || thickness >= needed - tolerance) continue;
       const std::pair<int, int> walls = std::minmax(face.wall, other.wall);
+      const bool is_plate = boundary.walls[face.wall].is_plate || boundary.walls[other.wall].is_plate;
+      if (g == f || facing <= 0.0 || is_plate || reported.contains(walls)) continue;
+      const bool may_be_wedge = facing < max_facing_of_wedge;
+      if (may_be_wedge && !shared_corners(face, other, tolerance).empty()) continue;
+      const bool is_obstacle_on_wall = is_obstacle(spec.walls[face.wall]) || is_obstacle(spec.walls[other.wall]);
+      const auto thickness_at = [&](const Vec<Dim>& foot) { return std::max(0.0, -other.height(foot) / facing); };
+      const std::optional<Vec<Dim>> foot = place_with_other_behind(face, other, needed, dx, [&](const Vec<Dim>& x) {
+        const double thickness = thickness_at(x);
+        const bool rests_on_it = is_obstacle_on_wall && thickness <= 2.0 * tolerance;
+        const bool is_thin = !rests_on_it && thickness < needed - tolerance;
+        return is_thin && !(may_be_wedge && is_wedge(walls, x, thickness));
+      });
       // A body that reaches through the bed does no harm: there is no water below.
-      if (reported.contains(walls) || !is_wet(f) || !is_wet(g)) continue;
+      if (!foot || !is_wet(f) || !is_wet(g)) continue;
       reported.insert(walls);
       findings.push_back(Finding::error(
           "wall-too-thin",
           {"{} is only {:.3g} thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m",
-           wall_label(boundary, face.wall), Amount{thickness, "m"}, place(*foot),
+           wall_label(boundary, face.wall), Amount{thickness_at(*foot), "m"}, place(*foot),
            face.wall == other.wall ? "the water" : wall_label(boundary, other.wall).text(), dummy_layers(spec), needed},
           {"make it thicker, or the spacing smaller, or draw it without thickness, with shape = \"plate\""}));
     }

@@ -32,6 +32,8 @@ constexpr double max_absorbed = 0.5;
 /// than dx for this many averaging times is reported.
 constexpr double depths_of_watch = 5.0;
 constexpr double windows_until_told = 2.0;
+/// [dx]; of the depth that follows from a rating curve.
+constexpr double rating_tolerance = 1e-6;
 /// [dx]; the entering lattice gains or loses a row when the depth differs from its rows by more than this. The lowest
 /// possible value is 0.5; a larger one prevents a slightly oscillating level from changing the rows repeatedly.
 constexpr double max_row_error = 0.75;
@@ -70,9 +72,10 @@ Reading read_gauge(const OpenEnd<Dim>& end, const Flow<Dim>& flow) {
 
 /// The water at the gauge.
 struct WaterInside {
-  double depth = 0.0;   ///< m; by its volume
-  double bottom = 0.0;  ///< m; of the rectangle as broad as the water's surface that has its area, above the floor
-  double rise = 0.0;    ///< m; above that bottom, by its pressure
+  double depth = 0.0;      ///< m; by its volume
+  double bottom = 0.0;     ///< m; of the rectangle as broad as the water's surface that has its area, above the floor
+  double rise = 0.0;       ///< m; above that bottom, by its pressure
+  double discharge = 0.0;  ///< m^Dim/s; out
 };
 
 /// m above the floor; bottom of the rectangle that is as broad as the water's surface and has the area of the section.
@@ -99,6 +102,7 @@ WaterInside follow_water(const OpenEnd<Dim>& end, const Flow<Dim>& flow, double 
   water.bottom = mean_bottom(end, water.depth);
   const double speed = reading.flux / reading.volume;
   const double discharge = reading.flux / end.gauge;
+  water.discharge = discharge;
   // rho g h^2/2 is the force of the flow; before the first step there is no pressure yet.
   const double density = flow.setup.liquids.are_several() ? reading.mass / reading.volume : flow.setup.liquid.density;
   const double thrust = std::max(0.0, reading.thrust) / (density * end.gauge * breadth);
@@ -191,15 +195,52 @@ void follow_wave(const OpenEnd<Dim>& end, double depth, OpenEndState& state) {
   wave.height = end.flow.absorbing * std::clamp(height, -max_absorbed * depth, max_absorbed * depth);
 }
 
+/// The discharge [m^Dim/s] that leaves at the level which a rating curve, a function of this discharge, gives at the
+/// same instant. The characteristic u + 2c that arrives at the end gives the speed at a level, and does not depend on
+/// the level: the two therefore cannot excite each other. At most the critical discharge; in a full section that of the
+/// water inside.
+template <int Dim>
+double rated_discharge(const OpenEnd<Dim>& end, const WaterInside& water, double time, const OpenEndState& state) {
+  if (!state.is_wet) return 0.0;
+  const double g = end.gravity;
+  const double invariant = state.speed + 2.0 * std::sqrt(g * water.rise);
+  const auto celerity = [&](double depth) { return std::sqrt(g * std::max(0.0, depth - water.bottom)); };
+  const auto discharge = [&](double depth) {
+    return end.area_below(depth) * std::max(0.0, invariant - 2.0 * celerity(depth));
+  };
+  const auto is_too_low = [&](double depth) {
+    const bool is_supercritical = invariant > 3.0 * celerity(depth);
+    return is_supercritical || !(end.floor + depth >= end.flow.level->at(time, discharge(depth)));
+  };
+  double low = 0.0;
+  double high = end.height;
+  if (g == 0.0 || is_too_low(high)) return std::max(0.0, water.discharge);
+  while (high - low > rating_tolerance * end.spacing) {
+    const double middle = 0.5 * (low + high);
+    (is_too_low(middle) ? low : high) = middle;
+  }
+  return discharge(high);
+}
+
+/// The prescribed level [m] at a discharge [m^Dim/s] that leaves. An end that absorbs waves follows the mean discharge,
+/// as far as it absorbs them.
+template <int Dim>
+double level_at(const OpenEnd<Dim>& end, double time, double discharge, const OpenEndState& state) {
+  const double level = end.flow.level->at(time, std::max(0.0, discharge));
+  return level + end.flow.absorbing * (end.flow.level->at(time, std::max(0.0, state.mean_discharge)) - level);
+}
+
 /// Where a level is prescribed: depth and pressure of the buffer, and the inflow if the water enters with a free
 /// surface.
 template <int Dim>
 Inflow hold_level(const OpenEnd<Dim>& end, const Flow<Dim>& flow, const WaterInside& water, double time, double dt,
                   OpenEndState& state) {
   const double g = end.gravity;
-  state.level = end.flow.level->at(time, state.mean_discharge);
+  if (g > 0.0) {
+    watch_level(end, flow, level_at(end, time, water.discharge, state) - end.floor, water.depth, dt, state);
+  }
+  state.level = level_at(end, time, rated_discharge(end, water, time, state), state);
   const double head = state.level - end.floor;
-  if (g > 0.0) watch_level(end, flow, head, water.depth, dt, state);
   state.is_full = g == 0.0 || head >= end.height;
   if (state.is_full) {
     state.depth = end.height;

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "checks/check.h"
 #include "checks/checks.h"
@@ -295,6 +297,46 @@ TEST(Check, WallThinnerThanItsLayers) {
   expect_among(check(spec), Severity::error, {"wall 'pier' is only 0.2 m thick", "3 layers", "0.3 m"});
 }
 
+/// A ramp of a radius of 1 m in `pieces` that rises from 0 to an angle, and ends at a lip above a vertical back.
+CaseSpec curved_lip(double degrees, int pieces) {
+  CaseSpec spec = empty_case(0.02);
+  std::vector<Coordinates> points = {{-0.5, 0.0}};
+  const double angle = degrees / 180.0 * std::numbers::pi;
+  for (int k = 0; k <= pieces; ++k) {
+    points.push_back({std::sin(angle * k / pieces), 1.0 - std::cos(angle * k / pieces)});
+  }
+  const double lip = points.back()[0];
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{{lip, -1.0}, {3.0, -1.0}, {3.0, 1.0}}) {
+    points.push_back({x, y});
+  }
+  points.insert(points.begin(), {-0.5, 1.0});
+  spec.walls = {polyline(points)};
+  spec.fluid = {box_fluid({-0.5, 0.0}, {0.0, 0.1}), box_fluid({lip, -1.0}, {3.0, -0.9})};
+  return spec;
+}
+
+TEST(Check, ACurvedLipIsAWedgeAsAStraightOneIs) {
+  for (const double degrees : {20.0, 25.0, 40.0, 60.0, 75.0}) {
+    for (const int pieces : {1, 3, 10, 50, 200}) {
+      const CaseSpec spec = curved_lip(degrees, pieces);
+      EXPECT_EQ(listed(check(spec)).find("thick"), std::string::npos)
+          << degrees << " " << pieces << listed(check(spec));
+    }
+  }
+}
+
+// A plate of two spacings with a sharp top stays too thin below it.
+TEST(Check, AThinWallWithASharpTopIsReported) {
+  CaseSpec spec = tank();
+  for (const double tip : {0.05, 0.1, 0.2, 0.4}) {
+    spec.walls.resize(1);
+    spec.walls.push_back(polyline({{0.6, 0.0}, {0.6, 0.6 - tip}, {0.8, 0.6}, {0.8, 0.0}}, FluidSide::left));
+    spec.walls[1].name = "pier";
+    spec.fluid = {box_fluid({0, 0}, {0.6, 0.1}), box_fluid({0.8, 0}, {1.0, 0.1})};
+    expect_among(check(spec), Severity::error, {"wall 'pier' is only 0.2 m thick"});
+  }
+}
+
 TEST(Check, TwoWallsBackToBackHaveNoThickness) {
   CaseSpec spec = tank();
   spec.walls.push_back(polyline({{0.5, 0.6}, {0.5, 0.0}}));
@@ -321,6 +363,29 @@ TEST(Check, WaterThatPoursOverALowWallOrThroughAHole) {
   expect_only(check(spec), Severity::error, {"pour out"});
   spec.walls[1].points[0] = {0.6, 0.0};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+/// Water with a level surface 0.2 m deep on average in a tank 2 m long, turned by an angle. Its walls end so much above
+/// the surface, along gravity.
+CaseSpec turned_tank(double degrees, double left, double right) {
+  CaseSpec spec = empty_case(0.02);
+  const double slope = std::tan(degrees / 180.0 * std::numbers::pi);
+  spec.physics.gravity = {9.81 * slope / std::hypot(1.0, slope), -9.81 / std::hypot(1.0, slope)};
+  const double deep = 0.2 + 2.0 * slope;
+  spec.walls = {polyline({{0.0, 0.2 + left}, {0.0, 0.0}, {2.0, 0.0}, {2.0, deep + right}})};
+  spec.fluid = {polygon_fluid({{0.0, 0.0}, {2.0, 0.0}, {2.0, deep}, {0.0, 0.2}})};
+  return spec;
+}
+
+TEST(Check, WaterPoursOutOverWallsBelowItsLevelAtAnyAngleOfGravity) {
+  for (const double degrees : {0.01, 1.0, 5.0, 11.0, 20.0, 29.0, 30.0, 35.0, 45.0, 50.0, 70.0}) {
+    const double angle = degrees / 180.0 * std::numbers::pi;
+    const double margin = 0.04 / std::cos(angle);  // two cells, across the surface
+    const CaseSpec good = turned_tank(degrees, margin, margin);
+    EXPECT_TRUE(check(good).empty()) << degrees << listed(check(good));
+    expect_among(check(turned_tank(degrees, -margin, 2.0 * margin)), Severity::error, {"pour out"});
+    expect_among(check(turned_tank(degrees, 2.0 * margin, -margin)), Severity::error, {"pour out"});
+  }
 }
 
 TEST(Check, WaterThatPoursOverAnOutletThatIsTooLow) {

@@ -123,7 +123,7 @@ class Bed(unittest.TestCase):
 
     def test_what_is_wrong_is_told(self):
         for text, part in (("1 2 3\n4 5\n", "wrong.xyz:2: has 2 numbers"), ("1 2 3\n4 5 x\n", "wrong.xyz:2: not numbers"),
-                           ("1 2 3\n4 5 nan\n", "wrong.xyz:2: is no point: 4 5 nan; leave out"),
+                           ("1 2 3\n4 inf 5\n", "wrong.xyz:2: is no point: 4 inf 5; leave it out"),
                            ("1 2 3\n", "has 1 points"), ("0 0 1\n1 1 1\n2 2 1\n3 3 2\n", "no surface")):
             path = self.folder / "wrong.xyz"
             path.write_text(text, encoding="utf-8")
@@ -143,6 +143,58 @@ class Bed(unittest.TestCase):
                         encoding="utf-8")
         self.assertIn("coordinates look like degrees", self.make(path))
         self.assertNotIn("degrees", self.make(self.points("grid.xyz", [(X0 + i, Y0 + j) for j in range(3) for i in range(3)])))
+
+    def test_a_grid_in_millions_keeps_its_last_row(self):
+        """The rounding of a northing, 1e-9 m, is above a billionth of the step."""
+        grid = [(500000 + 0.05 * i, 5400000 + 0.05 * j) for j in range(61) for i in range(61)]
+        survey = self.points("utm.xyz", grid)
+        for step, cells in ((0.1, 30), (0.2, 15), (0.25, 12), (0.3, 10), (0.7, 4)):
+            self.assertIn(f"x 0 to {cells * step:g}, y 0 to {cells * step:g}", self.make(survey, "--step", step))
+            self.assertEqual(len(facets(self.stl)), 2 * cells**2)
+
+    def grid_with(self, changed, name="changed.xyz"):
+        """A plane on 5 x 5 points, line k + 1 with the height that `changed` has for k."""
+        path = self.folder / name
+        path.write_text("".join(f"{X0 + k % 5} {Y0 + k // 5} {changed.get(k, height(X0 + k % 5, Y0 + k // 5))}\n"
+                                for k in range(25)), encoding="utf-8")
+        return path
+
+    def test_values_for_missing_heights_are_left_out(self):
+        for value in ("-9999", "-9999.00", "-32768", "-99999", "3.4e38", "-3.4e+38", "1e38", "nan"):
+            told = self.make(self.grid_with({12: value}))
+            self.assertIn(f"1 point has no height, but {float(value):g} (line 13), and is left out", told)
+            self.assertNotIn("degrees", told)
+            self.assertEqual(len(facets(self.stl)), 2 * (16 - 4))
+            self.is_the_plane(facets(self.stl))
+        self.assertIn("2 points have no height, but -9999 (line 3), and are left out",
+                      self.make(self.grid_with({2: "-9999", 20: "-9999"})))
+        self.assertNotIn("Warning", self.make(self.grid_with({})))
+
+    def test_a_height_far_from_its_neighbours_is_named(self):
+        for k, z, part in ((12, 216, "5.5 m above all its neighbours"), (0, -5000, "5.21e+03 m below all its neighbours"),
+                           (24, 9999, "above all its neighbours")):
+            told = self.make(self.grid_with({k: z}))
+            self.assertIn(f"The height {z} m at {X0 + k % 5:.0f}, {Y0 + k // 5:.0f} (line {k + 1}) is ", told)
+            self.assertIn(part, told)
+            self.assertNotIn("degrees", told)
+
+    def test_two_heights_of_one_place_are_named(self):
+        survey = self.grid_with({})
+        survey.write_text(survey.read_text(encoding="utf-8") + f"{X0 + 1} {Y0} {height(X0 + 1, Y0)}\n", encoding="utf-8")
+        self.assertNotIn("Warning", self.make(survey))
+        survey.write_text(survey.read_text(encoding="utf-8") + f"{X0 + 2} {Y0 + 2} 210.5\n", encoding="utf-8")
+        self.assertIn("Lines 13 and 27 are two heights of one place; the last one counts", self.make(survey))
+
+    @unittest.skipUnless(rasterio, "python3-rasterio is not there (scripts/install.sh tests)")
+    def test_a_raster_without_a_declared_value_for_missing_heights(self):
+        path = self.folder / "terrain.tif"
+        z = np.full((4, 4), 5, dtype="float32")
+        z[1, 1] = -9999
+        profile = {"driver": "GTiff", "width": 4, "height": 4, "count": 1, "dtype": "float32"}
+        with rasterio.open(path, "w", crs="EPSG:25832", transform=from_origin(X0, Y0, 1, 1), **profile) as raster:
+            raster.write(z, 1)
+        self.assertIn("1 point has no height, but -9999, and is left out", self.make(path))
+        self.assertEqual(len(facets(self.stl)), 2 * (9 - 4))
 
     def test_does_not_replace_its_survey(self):
         self.make(self.points("grid.xyz", [(X0 + i, Y0 + j) for j in range(3) for i in range(3)]))

@@ -442,6 +442,57 @@ TEST(OpenEnd, AStageDischargeRelationFindsItsLevel) {
   EXPECT_NEAR(state_of_end(flow, 1).mean_discharge, discharge, 0.05 * discharge);
 }
 
+/// A wave of 0.2 to 0.6 m2/s, much shorter than twice the time in which a long wave passes through the channel, reaches
+/// a rating curve: level and discharge before the outlet belong together at each instant. Half a spacing more of the
+/// arriving wave makes up to (1 + c f') times that between level and curve.
+TEST(OpenEnd, AStageDischargeRelationHoldsInUnsteadyFlow) {
+  for (const double slope : {0.3, 0.6, 2.0}) {
+    const auto level_at = [&](double q) { return 0.32 + slope * (q - 0.2); };
+    Flow<2> flow = make_flow<2>(read_case_text(
+        fmt::format("particles.spacing = 0.04\ntime.end = 6\n"
+                    "[[fluid]]\nmin = [0, 0]\nmax = [4, 0.32]\nvelocity = [0.625, 0]\n"
+                    "[[wall]]\npoints = [[0, 0], [4, 0]]\n"
+                    "[[inlet]]\nfrom = [0, 0]\nto = [0, 1.5]\ndischarge = \"0.2 + 0.4*exp(-((t - 2)/0.8)^2)\"\n"
+                    "[[outlet]]\nfrom = [4, 0]\nto = [4, 1.5]\nlevel = \"0.32 + {}*(q - 0.2)\"\n",
+                    slope),
+        "case.toml"));
+    start(flow);
+    double depth = 0.32, discharge = 0.2, highest = 0.0, largest_error = 0.0, time = 0.0;
+    while (time < 6.0) {
+      pass_and_step(flow);
+      const double share = 1.0 - std::exp(-(flow.state.time - time) / 0.25);
+      time = flow.state.time;
+      double volume = 0.0, moved = 0.0;
+      const Particles<2>& particles = flow.state.particles;
+      for (std::size_t i = 0; i < particles.owned; ++i) {
+        if (!particles.is_fluid(i) || std::abs(particles.position[i][0] - 3.9) > 0.1) continue;
+        volume += particles.volume[i] / 0.2;
+        moved += particles.volume[i] * particles.velocity[i][0] / 0.2;
+      }
+      depth += share * (volume - depth);
+      discharge += share * (moved - discharge);
+      highest = std::max(highest, depth);
+      if (time > 1.0) largest_error = std::max(largest_error, std::abs(depth - level_at(discharge)));
+    }
+    const double celerity = std::sqrt(g * highest);
+    EXPECT_LT(largest_error, 0.5 * 0.04 * (1.0 + celerity * slope)) << slope;
+    EXPECT_GT(highest, 0.32 + 0.5 * slope * 0.4 / (1.0 + slope)) << slope;
+  }
+}
+
+/// Where water enters, the discharge of a relation is 0: many have no value below it. The surface of still water, with
+/// its tremble, stays level.
+TEST(OpenEnd, AStageDischargeRelationNeedsNoNegativeDischarges) {
+  for (const double absorbing : {0.0, 0.3}) {
+    CaseSpec spec = tank_with_level(0.35, Varying("0.4 + sqrt(q)"));
+    spec.outlets[0].absorbing = absorbing;
+    Flow<2> flow = make_flow<2>(spec);
+    start(flow);
+    while (flow.state.time < 3.0) pass_and_step(flow);
+    EXPECT_NEAR(mean_depth(flow, tank_width), 0.4, dx);
+  }
+}
+
 /// A supercritical flow passes below a tailwater that is too low to dam it: the level is missed, and the run reports
 /// it.
 TEST(OpenEnd, ALevelThatIsNotHeldIsTold) {
