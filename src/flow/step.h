@@ -89,7 +89,7 @@ struct StepReport {
   std::optional<DivergenceReport> divergence;  ///< in some steps only
   Works work;
   /// J; by which the potential energy of the end of the step is below that of mid-step, to which velocity and works
-  /// belong.
+  /// belong with the explicit integrator.
   double fallen = 0.0;
   double density_share = 1.0;  ///< fraction of the lifting density source in the next step
   Interventions interventions;

@@ -122,7 +122,8 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   work.slope = slope_work(flow, start);
   setup.ranks.sum_each(work.density, work.walls, work.ends, work.viscous, work.air, work.slope, change, sums.mass,
                        sums.kinetic_energy, sums.fall_power);
-  if (!setup.formulation.moves_with_mean_velocity) report.fallen = 0.5 * report.dt * sums.fall_power;
+  const bool is_midway = !setup.formulation.moves_with_mean_velocity && !setup.formulation.has_second_projection;
+  if (is_midway) report.fallen = 0.5 * report.dt * sums.fall_power;
 
   const double doubt = in_doubt * (std::abs(work.walls) + std::abs(work.ends) + report.dragged());
   const double g = setup.gravity.norm();

@@ -211,7 +211,7 @@ TEST_F(GaugeFile, IsRefusedWithPlaceAndRemedy) {
            Bad{"\"H2\"", "t [s], H2 [m], time [ms]\n0, 1, 0\n", {"gauge.csv:1", "more than one column of time"}},
            Bad{"\"H2\"",
                "t [s], H2 [m]\n-5, 1\n-4, 1\n",
-               {"ends at t = -4 s, where the run begins", "zero of its times"}},
+               {"ends at t = -4 s, where the run begins", "shift its times"}},
        }) {
     const std::string message = complaint(bad.keys, bad.text);
     for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
