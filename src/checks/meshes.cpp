@@ -57,8 +57,7 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
     return {Finding::warning(
         "mesh-beside-water",
         {"{}: file {} reaches from {} to {}, and the water, the openings and all other walls from {} to {}, so it "
-         "stands "
-         "beside them",
+         "stands beside them",
          label, table.file, place<3>(own.min()), place<3>(own.max()), place<3>(others.min()), place<3>(others.max())},
         {"correct translate, or scale = {:g} (0.001 for a file in millimetres)", table.scale})};
   }
