@@ -37,11 +37,14 @@ COLUMNS = ("probe", "quantity", "unit", "value", "low", "high", "limit", "order"
 
 
 def quantities_of(run) -> dict:
-    """{(probe, quantity): (value, unit)}: the results of the probes and the measurements of a run."""
+    """{(probe, quantity): (value, unit)}: the results of the probes and the measurements of a run. Numbers of particles
+    are left out, because they have no limit at zero spacing."""
     found = {}
     for probe, result in run.results.items():
         for quantity in result["quantities"]:
             name, unit = quantity["name"], quantity["unit"]
+            if name == "particles":
+                continue
             if "to" in quantity:
                 found[probe, f"least {name}"] = quantity["value"], unit
                 found[probe, f"largest {name}"] = quantity["to"], unit

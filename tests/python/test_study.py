@@ -4,12 +4,13 @@ import csv
 import json
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import tailwater as tw
 from small import DAM, PackageTest
 from tailwater import study_command
-from tailwater.study import finest_within, fitting, ladder, misfit
+from tailwater.study import finest_within, fitting, ladder, misfit, quantities_of
 from tailwater.uncertainty import estimate
 
 
@@ -54,6 +55,11 @@ class Studies(PackageTest):
                          [("mine", "spacing", 0.1, "m")])
         self.assertTrue(found.rows[0]["low"] < 0 < found.rows[0]["high"])
         self.assertLess(found.rows[0]["limit"], 0.1)
+
+    def test_numbers_of_particles_have_no_limit(self):
+        volume = [{"name": "particles", "value": 560.0, "unit": ""}, {"name": "volume in", "value": 0.5, "unit": "m^3"}]
+        run = SimpleNamespace(results={"water": {"quantities": volume}}, summary={})
+        self.assertEqual(quantities_of(run), {("water", "volume in"): (0.5, "m^3")})
 
     def test_run_that_fails_is_named(self):
         self.case["pressure_solver.max_iterations"] = 1
