@@ -72,10 +72,15 @@ FluidSums fluid_sums_of_rank(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
+double energy_scale(const Setup<Dim>& setup, double mass, double kinetic_energy) {
+  return 0.5 * mass * setup.gravity.norm() * setup.length + kinetic_energy;
+}
+
+template <int Dim>
 double energy_scale(const Flow<Dim>& flow) {
   FluidSums sums = fluid_sums_of_rank(flow);
   flow.setup.ranks.sum_each(sums.mass, sums.kinetic_energy);
-  return 0.5 * sums.mass * flow.setup.gravity.norm() * flow.setup.length + sums.kinetic_energy;
+  return energy_scale(flow.setup, sums.mass, sums.kinetic_energy);
 }
 
 template <int Dim>
@@ -141,7 +146,10 @@ DensestWater<Dim> densest_water(const Flow<Dim>& flow) {
 }
 
 TAILWATER_IN_2D_AND_3D(fluid_sums_of_rank);
-TAILWATER_IN_2D_AND_3D(energy_scale);
+template double energy_scale<2>(const Setup<2>&, double, double);
+template double energy_scale<3>(const Setup<3>&, double, double);
+template double energy_scale<2>(const Flow<2>&);
+template double energy_scale<3>(const Flow<3>&);
 TAILWATER_IN_2D_AND_3D(amount_of);
 TAILWATER_IN_2D_AND_3D(largest_speed);
 TAILWATER_IN_2D_AND_3D(measure);

@@ -21,8 +21,10 @@ struct FluidSums {
 template <int Dim>
 FluidSums fluid_sums_of_rank(const Flow<Dim>& flow);
 
-/// m g L/2 plus the kinetic energy [J] at present: a scale for errors of the energy that does not depend on the origin.
-/// Collective.
+/// m g L/2 plus a kinetic energy [J]: a scale for errors of the energy that does not depend on the origin.
+template <int Dim>
+double energy_scale(const Setup<Dim>& setup, double mass, double kinetic_energy);
+/// This scale of the water at present. Collective.
 template <int Dim>
 double energy_scale(const Flow<Dim>& flow);
 

@@ -131,7 +131,7 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
   const double faded = std::exp(-fading_rate * speed * report.dt / setup.length);
   state.last_step.energy_rise = std::max(0.0, faded * state.last_step.energy_rise + change - report.brought() - doubt);
 
-  const double at_hand = 0.5 * sums.mass * g * setup.length + sums.kinetic_energy;
+  const double at_hand = energy_scale(setup, sums.mass, sums.kinetic_energy);
   if (at_hand > 0.0) {
     const double left = std::max(0.0, 1.0 - state.last_step.energy_rise / (setup.formulation.energy_slack * at_hand));
     state.last_step.density_share = left * left;

@@ -28,43 +28,46 @@ std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec)
   return number;
 }
 
-/// The volume [m^Dim] by which the water is farther through the section than the count of whole particles says. A
-/// particle counts as half through when it passes, and as a whole before and after that for half its width.
-template <int Dim>
-double volume_in_passage(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
+/// The sum of weight(i, distance beyond the section) over the water whose foot is on the section. Water near one end of
+/// a periodic domain is near sections at the other end, too. Collective.
+template <int Dim, class Weight>
+double sum_near(const Opening<Dim>& section, const ProbeContext<Dim>& context, Weight&& weight) {
   const Particles<Dim>& particles = context.particles;
   const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
   return context.ranks.sum(sum_over(particles.owned, 0.0, [&](std::size_t i) {
     if (!particles.is_fluid(i)) return 0.0;
-    const double width = edge_of<Dim>(particles.volume[i]);
-    double share = 0.0;
+    double sum = 0.0;
     for (const Vec<Dim>& shift : shifts) {
       const Vec<Dim> x = particles.position[i] + shift;
-      const double beyond = section.beyond(x);
-      if (std::abs(beyond) >= 0.5 * width || !section.spans(x)) continue;
-      share += 0.5 + beyond / width - (beyond > 0.0 ? 1.0 : 0.0);
+      const double here = weight(i, section.beyond(x));
+      if (here != 0.0 && section.spans(x)) sum += here;
     }
-    return share * particles.volume[i];
+    return sum;
   }));
+}
+
+/// The volume [m^Dim] by which the water is farther through the section than the count of whole particles says. A
+/// particle counts as half through when it passes, and as a whole before and after that for half its width.
+template <int Dim>
+double volume_in_passage(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
+  return sum_near(section, context, [&](std::size_t i, double beyond) {
+    const double volume = context.particles.volume[i];
+    const double width = edge_of<Dim>(volume);
+    if (std::abs(beyond) >= 0.5 * width) return 0.0;
+    return (0.5 + beyond / width - (beyond > 0.0 ? 1.0 : 0.0)) * volume;
+  });
 }
 
 /// The flux [m^Dim/s] of the water within two spacings of the section, at one instant.
 template <int Dim>
 double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) {
-  const Particles<Dim>& particles = context.particles;
   const double half = half_width_over_spacing * context.spacing;
-  const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
-  const double flux = sum_over(particles.owned, 0.0, [&](std::size_t i) {
-    if (!particles.is_fluid(i)) return 0.0;
-    double share = 0.0;
-    for (const Vec<Dim>& shift : shifts) {
-      const Vec<Dim> x = particles.position[i] + shift;
-      const double off = std::abs(section.beyond(x));
-      if (off < half && section.spans(x)) share += 1.0 - off / half;
-    }
-    return share * particles.volume[i] * section.normal.dot(particles.velocity[i]);
-  });
-  return context.ranks.sum(flux) / half;
+  return sum_near(section, context,
+                  [&](std::size_t i, double beyond) {
+                    const double share = std::max(0.0, 1.0 - std::abs(beyond) / half);
+                    return share * context.particles.volume[i] * section.normal.dot(context.particles.velocity[i]);
+                  }) /
+         half;
 }
 
 /// The state of a probe between readings, as the numbers that checkpoints save.

@@ -4,28 +4,30 @@
 #include <cmath>
 #include <string>
 
-#include "neighbours/neighbourhood.h"
 #include "parts/section_counters.h"
 #include "probes/discharge.h"
 #include "published/make_flow.h"
 #include "schemes/open_ends.h"
+#include "schemes/probe_context.h"
 
 namespace tailwater {
 namespace {
 
 Row read(const Reading<2>& reading, const Flow<2>& flow) {
-  return reading
-      .take({.particles = flow.state.particles,
-             .grid = flow.neighbourhood->grid(),
-             .kernel = flow.setup.scale.kernel,
-             .boundary = flow.walls.boundary,
-             .density = flow.setup.liquid.density,
-             .gravity = flow.setup.gravity,
-             .spacing = flow.setup.scale.spacing,
-             .time = flow.state.time,
-             .totals = {.section_volumes = flow.part<SectionCounters<2>>().volumes()},
-             .domain = flow.setup.domain})
-      .at(0);
+  ProbeContext<2> context = context_of(flow);
+  context.totals.section_volumes = flow.part<SectionCounters<2>>().volumes();
+  return reading.take(context).at(0);
+}
+
+/// An upright section at x, from the bed to this height.
+ProbeTable section_at(double x, double height) {
+  ProbeTable section;
+  section.name = "at " + std::to_string(x);
+  section.type = ProbeType::discharge;
+  section.from = {x, 0.0};
+  section.to = {x, height};
+  section.direction = {1.0, 0.0};
+  return section;
 }
 
 /// A supercritical flow falls over the end of its bed; one spacing behind the end it is below the section.
@@ -41,12 +43,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
   spec.inlets[0].discharge = speed * depth;
   spec.inlets[0].level = depth;
   spec.fluid[0].velocity = {speed, 0.0};
-  ProbeTable section;
-  section.name = "brink";
-  section.type = ProbeType::discharge;
-  section.from = {0.6, 0.0};
-  section.to = {0.6, 0.4};
-  section.direction = {1.0, 0.0};
+  const ProbeTable section = section_at(0.6, 0.4);
   spec.probes = {section};
   Flow<2> flow = make_flow<2>(spec);
   const Reading<2> reading = discharge_reading<2>(section, spec);
@@ -87,15 +84,7 @@ TEST(Discharge, IsTheSameAtBothEndsOfAPeriodAndBetweenThem) {
   water.max = {1.0, 0.3};
   water.velocity = {1.0, 0.0};
   spec.fluid = {water};
-  for (const double x : {0.0, 0.52, 1.0}) {
-    ProbeTable section;
-    section.name = "at " + std::to_string(x);
-    section.type = ProbeType::discharge;
-    section.from = {x, 0.0};
-    section.to = {x, 0.3};
-    section.direction = {1.0, 0.0};
-    spec.probes.push_back(section);
-  }
+  for (const double x : {0.0, 0.52, 1.0}) spec.probes.push_back(section_at(x, 0.3));
   Flow<2> flow = make_flow<2>(spec);
   while (flow.state.time < 2.5) step(flow);
   for (const double volume : flow.part<SectionCounters<2>>().volumes()) {
@@ -113,12 +102,7 @@ TEST(Discharge, DoesNotShowTheRowsOfASlowFlow) {
   bed.friction = 0.0;
   spec.walls = {bed};
   spec.fluid[0].velocity = {speed, 0.0};
-  ProbeTable section;
-  section.name = "section";
-  section.type = ProbeType::discharge;
-  section.from = {0.51, 0.0};
-  section.to = {0.51, 0.4};
-  section.direction = {1.0, 0.0};
+  const ProbeTable section = section_at(0.51, 0.4);
   spec.probes = {section};
   Flow<2> flow = make_flow<2>(spec);
   const Reading<2> reading = discharge_reading<2>(section, spec);

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "air/enclosed_air.h"
-#include "neighbours/neighbourhood.h"
 #include "probes/wall_force.h"
-#include "schemes/cases.h"
+#include "schemes/probe_context.h"
 
 namespace tailwater {
 
@@ -28,23 +27,12 @@ class Reader {
       : flow_(flow), reading_(force_reading<Dim>(spec.probes[which], spec, flow.walls.boundary)) {}
 
   Row row(double dt) const {
-    return reading_
-        .take({.particles = flow_.state.particles,
-               .grid = flow_.neighbourhood->grid(),
-               .kernel = flow_.setup.scale.kernel,
-               .boundary = flow_.walls.boundary,
-               .density = flow_.setup.liquid.density,
-               .gravity = flow_.setup.gravity,
-               .spacing = flow_.setup.scale.spacing,
-               .time = flow_.state.time,
-               .totals = {},
-               .ranks = flow_.setup.ranks,
-               .domain = flow_.setup.domain,
-               .dt = dt,
-               .wall_forces = &flow_.walls.forces,
-               .bodies = flow_.state.motion.bodies.each,
-               .air_pressure = air_of(flow_).pressure_field(flow_.walls.boundary)})
-        .at(0);
+    ProbeContext<Dim> context = context_of(flow_);
+    context.dt = dt;
+    context.wall_forces = &flow_.walls.forces;
+    context.bodies = flow_.state.motion.bodies.each;
+    context.air_pressure = air_of(flow_).pressure_field(flow_.walls.boundary);
+    return reading_.take(context).at(0);
   }
   Vec<Dim> force(double dt = 0.0) const { return Vec<Dim>::Map(row(dt).data()); }
   double power(double dt) const { return row(dt).back(); }
