@@ -79,6 +79,12 @@ typename CellSpace<Dim>::Cell CellSpace<Dim>::cell_of(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
+Vec<Dim> CellSpace<Dim>::across_periods(Vec<Dim> v) const {
+  for (int axis = 0; axis < Dim; ++axis) v[axis] = is_periodic_[axis] ? 0.0 : v[axis];
+  return v;
+}
+
+template <int Dim>
 std::optional<typename CellSpace<Dim>::Cell> CellSpace<Dim>::next(Cell c, int axis, int step) const {
   c[axis] += step;
   if (is_periodic_[axis]) c[axis] = (c[axis] + count_[axis]) % count_[axis];
@@ -179,6 +185,24 @@ void CellSpace<Dim>::visit_fronts_beside(const Cell& c, int axis, int step, Visi
   }
 }
 
+namespace {
+
+/// Height [m] by which a path from cell to cell must be free to vary so that it can follow any level plane. The cells
+/// in a layer of the thickness sum_a |n_a| dx along the normal n of a plane are connected by their faces, and those in
+/// a thinner one are not (Andres, Acharya & Sibata 1997); 0 if the cells themselves are level.
+template <int Dim>
+double height_of_level_path(const CellSpace<Dim>& space, const Vec<Dim>& down) {
+  int axes = 0;
+  double height = 0.0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    height += std::abs(down[axis]) * space.size()[axis];
+    axes += down[axis] != 0.0 ? 1 : 0;
+  }
+  return axes > 1 ? height : 0.0;
+}
+
+}  // namespace
+
 template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
                    const Vec<Dim>& down, Edge edge) {
@@ -187,20 +211,44 @@ Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellS
   found.met.assign(space.faces().size(), false);
   found.wet.assign(space.faces().size(), false);
   found.behind.assign(space.faces().size(), std::nullopt);
-  std::vector<bool> is_known(space.count(), false);
-  found.cells = walk(space, start, is_known, [&](const Cell& c, int axis, int step) -> std::optional<Cell> {
-    if (found.way_out || step * down[axis] < -0.5) return std::nullopt;
-    if (const int face = space.face_beside(c, axis, step); face >= 0) {
-      found.met[face] = true;
-      if (space.is_behind_walls(c)) found.behind[face] = space.centre(c);
-      space.visit_fronts_beside(c, axis, step, [&](int front) { found.wet[front] = true; });
-      ++found.sides;
-      return std::nullopt;
+  const double tolerance = corner_tolerance * space.edge();
+  const double freedom =
+      std::max(0.0, height_of_level_path(space, down) - 4.0 * tolerance);  // of the layer without its top
+  const auto height_of = [&](const Cell& c) { return -space.centre(c).dot(down); };
+  // By cell: the height up to which the water in it can move on, that of the lowest place on the best way to it. A
+  // better way may be found later.
+  std::vector<double> reach(space.count(), -std::numeric_limits<double>::infinity());
+  std::vector<Cell> cells;
+  std::vector<bool> is_first;
+  const auto visit = [&](const Cell& c, double height) {
+    double& known = reach[space.index(c)];
+    if (height <= known + tolerance) return;
+    is_first.push_back(std::isinf(known));
+    cells.push_back(c);
+    known = height;
+  };
+  for (const Cell& c : start) visit(c, height_of(c));
+  for (std::size_t k = 0; k < cells.size() && !found.way_out; ++k) {
+    const Cell c = cells[k];
+    if (is_first[k]) found.cells.push_back(c);
+    const double highest = reach[space.index(c)];
+    for (int move = 0; move < 2 * Dim && !found.way_out; ++move) {
+      const int axis = move / 2;
+      const int step = move % 2 == 0 ? -1 : 1;
+      const double height = height_of(c) - step * space.size()[axis] * down[axis];
+      if (height > highest + tolerance) continue;
+      if (const int face = space.face_beside(c, axis, step); face >= 0) {
+        found.met[face] = true;
+        if (space.is_behind_walls(c)) found.behind[face] = space.centre(c);
+        space.visit_fronts_beside(c, axis, step, [&](int front) { found.wet[front] = true; });
+        if (is_first[k]) ++found.sides;
+        continue;
+      }
+      const std::optional<Cell> beside = space.next(c, axis, step);
+      if (beside) visit(*beside, std::min(highest, height_of(*beside) + freedom));
+      if (!beside && edge == Edge::leads_out) found.way_out = space.centre(c);
     }
-    std::optional<Cell> beside = space.next(c, axis, step);
-    if (!beside && edge == Edge::leads_out) found.way_out = space.centre(c);
-    return beside;
-  });
+  }
   return found;
 }
 

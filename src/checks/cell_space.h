@@ -33,11 +33,14 @@ class CellSpace {
 
   std::size_t count() const { return near_faces_.size() - 1; }
   double volume() const { return size_.prod(); }                 ///< volume of a cell, m^Dim
+  const Vec<Dim>& size() const { return size_; }                 ///< edges of a cell, m
   double edge() const { return std::pow(volume(), 1.0 / Dim); }  ///< edge of a cell, m
   std::size_t index(const Cell& c) const;
   Cell cell(std::size_t index) const;
   Vec<Dim> centre(const Cell& c) const;
   Cell cell_of(const Vec<Dim>& x) const;
+  /// The part of a vector across the periodic directions.
+  Vec<Dim> across_periods(Vec<Dim> v) const;
   /// The neighbour of a cell; empty if it is outside all cells.
   std::optional<Cell> next(Cell c, int axis, int step) const;
 
@@ -134,7 +137,8 @@ struct Spread {
 enum class Edge { leads_out, holds };
 
 /// Spreads water from the cells of `start` from cell to cell until it is at rest or leaves the case. If `down` is 0 it
-/// spreads in all directions; if `down` is a unit vector, sideways and down, never up.
+/// spreads in all directions; if `down` is a unit vector, sideways and down, never up, whatever the angle between the
+/// cells and gravity.
 template <int Dim>
 Spread<Dim> spread(const CellSpace<Dim>& space, const std::vector<typename CellSpace<Dim>::Cell>& start,
                    const Vec<Dim>& down, Edge edge = Edge::leads_out);

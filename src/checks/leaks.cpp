@@ -180,9 +180,12 @@ template <int Dim>
 Findings check_leaks(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   if (gravity.isZero(0.0) || boundary.faces.empty()) return {};
-  const Vec<Dim> down = gravity.normalized();
   const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
   const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), max_cells_of_case);
+  // Along a periodic direction water falls for ever: its level counts only across.
+  const Vec<Dim> across = space.across_periods(gravity);
+  if (across.isZero(0.0)) return {};
+  const Vec<Dim> down = across.normalized();
   std::vector<typename CellSpace<Dim>::Cell> wet = cells_of<Dim>(space, fluid);
   add_cells_at_ends(spec, boundary, space, wet);
   const Spread<Dim> reached = spread(space, wet, down);

@@ -16,7 +16,7 @@ template <int Dim>
 RoomForWater<Dim>::RoomForWater(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid)
     : space_(spec, drawn.faces, fluid.box(), max_cells_of_room),
       water_(fluid.ranks.sum(std::reduce(fluid.volume.begin(), fluid.volume.end()))) {
-  Vec<Dim> down = gravity_of<Dim>(spec);
+  Vec<Dim> down = space_.across_periods(gravity_of<Dim>(spec));
   if (down.norm() > 0.0) down.normalize();
   Spread<Dim> rest = spread(space_, cells_of<Dim>(space_, fluid), down);
   if (!rest.way_out) wet_ = std::move(rest.cells);

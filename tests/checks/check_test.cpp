@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "checks/check.h"
 #include "checks/checks.h"
@@ -361,6 +363,41 @@ TEST(Check, WaterThatPoursOverALowWallOrThroughAHole) {
   expect_only(check(spec), Severity::error, {"pour out"});
   spec.walls[1].points[0] = {0.6, 0.0};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+/// Water with a level surface 0.2 m deep on average in a tank 2 m long, turned by an angle. Its walls end so much above
+/// the surface, along gravity.
+CaseSpec turned_tank(double degrees, double left, double right) {
+  CaseSpec spec = empty_case(0.02);
+  const double slope = std::tan(degrees / 180.0 * std::numbers::pi);
+  spec.physics.gravity = {9.81 * slope / std::hypot(1.0, slope), -9.81 / std::hypot(1.0, slope)};
+  const double deep = 0.2 + 2.0 * slope;
+  spec.walls = {polyline({{0.0, 0.2 + left}, {0.0, 0.0}, {2.0, 0.0}, {2.0, deep + right}})};
+  spec.fluid = {polygon_fluid({{0.0, 0.0}, {2.0, 0.0}, {2.0, deep}, {0.0, 0.2}})};
+  return spec;
+}
+
+TEST(Check, WaterPoursOutOverWallsBelowItsLevelAtAnyAngleOfGravity) {
+  for (const double degrees : {0.01, 1.0, 5.0, 11.0, 20.0, 29.0, 30.0, 35.0, 45.0, 50.0, 70.0}) {
+    const double angle = degrees / 180.0 * std::numbers::pi;
+    const double margin = 0.04 / std::cos(angle);  // two cells, across the surface
+    const CaseSpec good = turned_tank(degrees, margin, margin);
+    EXPECT_TRUE(check(good).empty()) << degrees << listed(check(good));
+    expect_among(check(turned_tank(degrees, -margin, 2.0 * margin)), Severity::error, {"pour out"});
+    expect_among(check(turned_tank(degrees, 2.0 * margin, -margin)), Severity::error, {"pour out"});
+  }
+}
+
+TEST(Check, AFilmRunsDownASlopeInAPeriod) {
+  CaseSpec spec = empty_case(0.1);
+  spec.domain.periodic_x = {0.0, 1.2};
+  spec.walls = {polyline({{0.0, 0.0}, {1.2, 0.0}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {1.2, 1.0})};
+  for (const double degrees : {0.0, 5.7, 35.0, 60.0, 90.0}) {
+    const double angle = degrees / 180.0 * std::numbers::pi;
+    spec.physics.gravity = {9.81 * std::sin(angle), degrees == 90.0 ? 0.0 : -9.81 * std::cos(angle)};
+    EXPECT_TRUE(check(spec).empty()) << degrees << listed(check(spec));
+  }
 }
 
 TEST(Check, WaterThatPoursOverAnOutletThatIsTooLow) {
