@@ -14,8 +14,8 @@ Cases: zhou, in 2D, at 0.015 m to 1.4 s (cases/zhou1999); box, in 3D, SPHERIC's 
 Prints CPU seconds per simulated second, Tailwater's over theirs, and two numbers of the pressure on a wall, 0.12 m
 above the floor where Zhou's water arrives, or 0.06 m above it in the middle of the box: its noise, the RMS about its
 running median over 0.02 s from 0.6 s on, over rho g H; and when the water arrives, the first time that it is above 0.05
-rho g H (zhou, in the laboratory: 0.61 to 0.64 s). Times are of one machine and hour: only ratios of one call can
-be compared. Of several repeats the cheapest counts. A code that does not finish is reported, and the others go on.
+rho g H (zhou, in the laboratory: 0.596 and 0.607 s, +- 0.03 s). Times are of one machine and hour: only ratios of one
+call can be compared. Of several repeats the cheapest counts. A code that does not finish is reported, and the others go on.
 
 --json writes all of it to a file, with the settings of each code, who chose them, the commands and the machine. The
 figures of other codes that documents quote come from such a file,

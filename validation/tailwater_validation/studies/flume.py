@@ -81,8 +81,8 @@ def hydraulic_jump(plan):
         "Supercritical water, Froude number 2.5, meets a tailwater of its conjugate depth, without friction: depth behind the jump "
         "for the depth and the speed before it, both seen from the jump, which may wander.",
         "Belanger's formula follows from mass and momentum alone, however the energy is lost, but for uniform flow behind the jump. "
-        "Without friction the jet along the bed is still there at the gauge, and momentum with the velocities that were read asks for "
-        "a depth 4 to 5 % less: that has the target.",
+        "Without friction the jet along the bed is still there at the gauge, and momentum with the computed velocities gives "
+        "a depth lower by 4 to 7 %: that depth has the target.",
         "behind", ("h1", (4,), (4, 6, 9)), 45.0,
         (("momentum_error", "depth behind the jump, with the computed velocity profile there, relative error", "", "momentum", 0.02),
          ("conjugate_error", "the same, for uniform flow", "", "Belanger", None),
