@@ -11,7 +11,6 @@ namespace tailwater {
 namespace {
 
 constexpr int averages = 3;
-constexpr double min_speed_over_reference = 1e-3;
 
 constexpr double largest_change = 0.03;
 /// Factors of the step, from one to the next.
@@ -38,10 +37,25 @@ void average(const Flow<Dim>& flow, std::vector<Vec<Dim>>& velocity) {
   });
 }
 
+/// m/s; the largest speed of the walls that move, and of the liquid whose velocity openings prescribe.
+template <int Dim>
+double pushing_speed(const Flow<Dim>& flow) {
+  const std::vector<Vec<Dim>>& of_walls = flow.state.wall_velocity;
+  const double of_wall = largest_over(of_walls.size(), 0.0, [&](std::size_t row) { return of_walls[row].norm(); });
+  const Particles<Dim>& particles = flow.state.particles;
+  const double at_opening = largest_over(particles.owned, 0.0, [&](std::size_t i) {
+    const bool is_prescribed = flow.role[i] == Role::prescribed || flow.role[i] == Role::following;
+    return is_prescribed ? particles.velocity[i].norm() : 0.0;
+  });
+  return flow.setup.ranks.largest(std::max(of_wall, at_opening));
+}
+
 }  // namespace
 
 template <int Dim>
 double change_by_pressure(const Flow<Dim>& flow, std::span<const Vec<Dim>> before) {
+  const double push = pushing_speed(flow);
+  if (push == 0.0) return 0.0;
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<Vec<Dim>> change(particles.owned, Vec<Dim>::Zero());
   for_each(particles.owned, [&](std::size_t i) {
@@ -56,9 +70,7 @@ double change_by_pressure(const Flow<Dim>& flow, std::span<const Vec<Dim>> befor
   double all = sum_of_water([&](std::size_t i) { return before[i].squaredNorm(); });
   double volume = sum_of_water([](std::size_t /*i*/) { return 1.0; });
   flow.setup.ranks.sum_each(changed, all, volume);
-  const double least = min_speed_over_reference * flow.setup.time_step_rule.reference_speed;
-  all = std::max(all, volume * least * least);
-  return all > 0.0 ? std::sqrt(changed / all) : 0.0;
+  return volume > 0.0 ? std::sqrt(changed / std::max(all, volume * push * push)) : 0.0;
 }
 
 double longest_step_after(double change, double dt, double shortest) {

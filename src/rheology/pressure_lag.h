@@ -14,8 +14,8 @@ namespace tailwater {
 
 /// The velocity that the change of the pressure adds in a step, relative to the velocity `before` that change (owned
 /// particles), both as root mean squares. It is averaged over neighbours three times, so that it does not contain what
-/// disorder and the density source move. Velocities below a thousandth of the reference speed count as that.
-/// Collective.
+/// disorder and the density source move. A velocity below that of the walls and openings that push the liquid counts as
+/// that. 0 if nothing pushes: a slump that has come to rest has only disorder left. Collective.
 template <int Dim>
 double change_by_pressure(const Flow<Dim>& flow, std::span<const Vec<Dim>> before);
 
