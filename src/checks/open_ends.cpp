@@ -6,6 +6,7 @@
 #include "checks/checks.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
+#include "geometry/images.h"
 #include "geometry/wall_label.h"
 #include "motion/channel_end.h"
 #include "parallel/at_start.h"
@@ -50,7 +51,8 @@ std::vector<Vec<Dim>> closed_rim(const CaseSpec& spec, const Opening<Dim>& end) 
       rim.begin(), rim.end(), [&](const Vec<Dim>& a, const Vec<Dim>& b) { return depth_of(a) < depth_of(b); });
   const double open_above = depth_of(*top) + corner_tolerance * dx * gravity.norm();
   if (depth_of(*bottom) > open_above) std::erase_if(rim, [&](const Vec<Dim>& x) { return depth_of(x) <= open_above; });
-  std::erase_if(rim, [&](const Vec<Dim>& x) { return is_in_periodic_plane(spec, x); });
+  const PeriodicDomain<Dim> domain = periodic_domain<Dim>(spec.domain);
+  std::erase_if(rim, [&](const Vec<Dim>& x) { return is_in_periodic_plane<Dim>(domain, x, corner_tolerance * dx); });
   return rim;
 }
 

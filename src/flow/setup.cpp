@@ -25,16 +25,6 @@
 namespace tailwater {
 namespace {
 
-template <int Dim>
-PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
-  PeriodicDomain<Dim> periodic;
-  for (int d = 0; d < Dim; ++d) {
-    const std::vector<double>& range = periodic_range(domain, d);
-    if (!range.empty()) periodic[d] = std::pair{range[0], range[1]};
-  }
-  return periodic;
-}
-
 /// [dx]; edge of the cubes of space in which each rank makes the walls. Rows around a cube are made as well, and then
 /// removed, to decide which rows at its border are free of others.
 constexpr double cube_over_spacing = 32.0;

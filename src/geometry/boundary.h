@@ -93,13 +93,14 @@ struct Duct {
 
 template <int Dim>
 struct Boundary {
+  PeriodicDomain<Dim> domain;
   std::vector<WallFace<Dim>> faces;  ///< in 3D each rectangle is two consecutive triangles
   std::vector<WallProperties> walls;
   std::vector<WallMesh> meshes;  ///< by first face; none in 2D
   std::vector<WallPlate> plates;
   std::vector<WallFace<Dim>> continued;  ///< openings and periodic planes: walls that end there continue beyond them
   std::vector<WallEnd> ends;             ///< none in 3D
-  std::vector<Screen<Dim>> screens;      ///< beside plates and free ends, at their present places
+  std::vector<Screen<Dim>> screens;      ///< beside plates and free ends, at their present places, with images
   std::vector<std::shared_ptr<const MeshSurface>> water;  ///< the mesh of each block of water; null if it has none
   std::vector<Duct<Dim>> ducts;                           ///< empty if the walls are those of the case file alone
 

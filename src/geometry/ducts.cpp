@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/from_spec.h"
+#include "geometry/images.h"
 #include "geometry/mesh_surface.h"
 
 namespace tailwater {
@@ -36,7 +37,8 @@ class Rim {
   /// The wall beside a place on the rim, from which the inside lies in the direction `inwards`; no face if the rim is
   /// open there. A bank that the top of a river's section meets looks the other way.
   NearestWall<Dim> wall_at(const Vec<Dim>& x, const Vec<Dim>& inwards) const {
-    if (is_in_periodic_plane(spec_, x)) return {};
+    // A rim in a periodic boundary is open to the next period.
+    if (is_in_periodic_plane<Dim>(boundary_.domain, x, corner_tolerance * dx_)) return {};
     const NearestWall<Dim> wall = boundary_.nearest(x, rim_tolerance(mouth_) * dx_);
     const bool looks_away = wall.face >= 0 && boundary_.faces[wall.face].normal.dot(inwards) < looking_away;
     return looks_away ? NearestWall<Dim>{} : wall;
@@ -205,17 +207,6 @@ double rim_tolerance(const Opening<Dim>& opening) {
 }
 
 template <int Dim>
-bool is_in_periodic_plane(const CaseSpec& spec, const Vec<Dim>& x) {
-  const double tolerance = corner_tolerance * spec.particles.spacing;
-  for (int axis = 0; axis < Dim; ++axis) {
-    for (const double end : periodic_range(spec.domain, axis)) {
-      if (std::abs(x[axis] - end) <= tolerance) return true;
-    }
-  }
-  return false;
-}
-
-template <int Dim>
 std::vector<Duct<Dim>> find_ducts(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   std::vector<Duct<Dim>> ducts;
   for (const Opening<Dim>& mouth : make_open_ends<Dim>(spec)) {
@@ -239,7 +230,6 @@ void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary) {
 }
 
 TAILWATER_IN_2D_AND_3D(rim_tolerance);
-TAILWATER_IN_2D_AND_3D(is_in_periodic_plane);
 TAILWATER_IN_2D_AND_3D(find_ducts);
 TAILWATER_IN_2D_AND_3D(append_ducts);
 

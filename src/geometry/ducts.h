@@ -25,10 +25,6 @@ bool has_lead(const CaseSpec& spec, const Duct<Dim>& duct) {
 template <int Dim>
 double rim_tolerance(const Opening<Dim>& opening);
 
-/// Whether `x` is where the domain repeats: a rim there is open to the next period.
-template <int Dim>
-bool is_in_periodic_plane(const CaseSpec& spec, const Vec<Dim>& x);
-
 /// The ducts of a case whose walls are in `boundary`, without walls of their own.
 template <int Dim>
 std::vector<Duct<Dim>> find_ducts(const CaseSpec& spec, const Boundary<Dim>& boundary);

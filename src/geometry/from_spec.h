@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/box.h"
 #include "base/finding.h"
 #include "base/vec.h"
 #include "case/formulation.h"
@@ -62,6 +63,16 @@ std::string vector_text(const Vec<Dim>& v) {
 /// Low and high end of periodic direction `axis`; empty where the domain is not periodic.
 inline const std::vector<double>& periodic_range(const DomainTable& domain, int axis) {
   return axis == 0 ? domain.periodic_x : axis == 1 ? domain.periodic_y : domain.periodic_z;
+}
+
+template <int Dim>
+PeriodicDomain<Dim> periodic_domain(const DomainTable& domain) {
+  PeriodicDomain<Dim> periodic;
+  for (int d = 0; d < Dim; ++d) {
+    const std::vector<double>& range = periodic_range(domain, d);
+    if (!range.empty()) periodic[d] = std::pair{range[0], range[1]};
+  }
+  return periodic;
 }
 
 /// Number of layers of dummy particles that fill the kernel's support behind a wall, including a row on the wall.

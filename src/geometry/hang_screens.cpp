@@ -7,6 +7,7 @@
 #include "base/box.h"
 #include "geometry/boundary.h"
 #include "geometry/face_grid.h"
+#include "geometry/images.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
 #include "geometry/rim_ends.h"
@@ -274,6 +275,25 @@ void append(std::vector<Screen<Dim>>& screens, std::vector<Screen<Dim>> more) {
   screens.insert(screens.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// Adds the images of the screens in other periods, and removes what does not reach into `space`. The screens of each
+/// wall stay together.
+template <int Dim>
+void append_images(const PeriodicDomain<Dim>& domain, const Box<Dim>& space, std::vector<Screen<Dim>>& screens) {
+  const std::size_t count = screens.size();
+  for (std::size_t s = 0; s < count; ++s) {
+    visit_images<Dim>(domain, screens[s].box(), space, [&](const Vec<Dim>& moved) {
+      screens.push_back(screens[s]);
+      screens.back().corner += moved;
+      for (RimPiece<Dim>& piece : screens.back().rim) {
+        for (Vec<Dim>& x : piece) x += moved;
+      }
+    });
+  }
+  if (screens.size() == count) return;
+  std::erase_if(screens, [&](const Screen<Dim>& screen) { return !screen.box().intersects(space); });
+  std::ranges::stable_sort(screens, {}, &Screen<Dim>::wall);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -316,6 +336,9 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
       for (RimPiece<3>& piece : screens.back().rim) piece = {piece[0] + moved, piece[1] + moved};
     }
   }
+  const Vec<Dim> around = Vec<Dim>::Constant(screened_reach * reach);
+  const Box<Dim> space = space_around<Dim>(domain, screened_reach * reach);
+  append_images<Dim>(domain, space, screens);
   // Points exactly behind the rim, such as lattice points, are hidden for any rounding.
   for (Screen<Dim>& screen : screens) {
     for (std::array<double, 2>& range : screen.range) {
@@ -328,12 +351,11 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
   all_screens_.clear();
   for (int s = 0; s < static_cast<int>(screens.size()); ++s) {
     all_screens_.push_back(s);
-    const Box<Dim> box = screens[s].box();
+    const Box<Dim> box = screens[s].box().intersection(space);
     hung_box_.extend(box);
     hung->add(s, box.min(), box.max(), [&](const Vec<Dim>& x) { return screens[s].distance(x); });
   }
   hung_ = std::move(hung);
-  const Vec<Dim> around = Vec<Dim>::Constant(screened_reach * reach);
   if (!hung_box_.isEmpty()) hung_box_ = {hung_box_.min() - around, hung_box_.max() + around};
 }
 

@@ -277,6 +277,7 @@ std::vector<WallFace<Dim>> places_where_walls_continue(const CaseSpec& spec, con
 template <int Dim>
 Boundary<Dim> make_boundary(const CaseSpec& spec) {
   Boundary<Dim> boundary;
+  boundary.domain = periodic_domain<Dim>(spec.domain);
   std::size_t compared = 0;
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const WallTable& table = spec.walls[w];

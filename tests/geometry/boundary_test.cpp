@@ -240,6 +240,28 @@ TEST(Screens, GoOnBehindAWallAndNotInFrontOfItIn3D) {
   EXPECT_FALSE(hides<3>(spec, {-0.05, 0.5, 0.5}, {0.05, 0.5, 0.5}));
 }
 
+// A plate that ends at a periodic boundary is followed by its image, whose end fades as its own.
+TEST(Screens, GoOnInTheNextPeriod) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.domain.periodic_y = {0.0, 1.2};
+  WallTable plate;
+  plate.shape = WallShape::plate;
+  plate.points = {{0.0, 0.0, 0.0}, {0.0, 1.2, 0.0}, {0.0, 1.2, 0.4}, {0.0, 0.0, 0.4}};
+  spec.walls = {plate};
+  for (const double beside : {-0.05, 0.0, 0.05, 1.15, 1.2, 1.25}) {
+    EXPECT_TRUE(hides<3>(spec, {-0.05, beside, 0.2}, {0.05, beside, 0.2})) << beside;
+    EXPECT_TRUE(hides<3>(spec, {-0.05, 0.05, 0.2}, {0.15, -0.1, 0.2})) << beside;
+    EXPECT_FALSE(hides<3>(spec, {-0.05, beside, 0.5}, {0.05, beside, 0.5})) << beside;
+  }
+  spec.domain.periodic_y.clear();
+  EXPECT_FALSE(hides<3>(spec, {-0.05, -0.15, 0.2}, {0.05, -0.15, 0.2}));
+  spec = empty_case(0.1);
+  spec.domain.periodic_x = {0.0, 1.2};
+  plate.points = {{0.0, 0.2}, {1.2, 0.2}};
+  spec.walls = {plate};
+  for (const double x : {-0.05, 0.0, 1.25}) EXPECT_TRUE(hides<2>(spec, {x, 0.15}, {x, 0.25})) << x;
+}
+
 // The screening by a plate decays over one spacing on either side of its edge, symmetrically about it, but not where
 // the plate stands on a wall. It depends only on the distance from the edge, even if the last piece of the plate is
 // shorter than a spacing.
