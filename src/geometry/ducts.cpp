@@ -227,6 +227,7 @@ void append_ducts(const CaseSpec& spec, Boundary<Dim>& boundary) {
     boundary.ducts.push_back({mouth, rim.length()});
     for (const WallFace<Dim>& face : mouth.moved_out(rim.length()).as_faces()) boundary.continued.push_back(face);
   }
+  if (!boundary.ducts.empty()) boundary.hang_screens();  // a plate may stand on the corner of a duct
 }
 
 TAILWATER_IN_2D_AND_3D(rim_tolerance);

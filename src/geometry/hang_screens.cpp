@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "geometry/boundary.h"
+#include "geometry/corner_screens.h"
 #include "geometry/face_grid.h"
 #include "geometry/images.h"
 #include "geometry/mesh_surface.h"
@@ -93,7 +94,11 @@ std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& 
     const double side = end == 0 ? -1.0 : 1.0;
     const Vec<2> out = side * last[end].along[0];
     if (is_closed_by_wall(boundary, x, out, lengths.gap(), plate.wall)) {
-      screens[piece[end]].range[0][end] += side * lengths.reach;
+      if (const auto into_corner = screen_into_corner(boundary, last[end], x, out, lengths)) {
+        screens.push_back(*into_corner);
+      } else {
+        screens[piece[end]].range[0][end] += side * lengths.reach;
+      }
     } else if (!is_continued(boundary, x, plate.wall, f, lengths)) {
       fade_out(x, out, last[end], lengths.fade(), screens);
     }
@@ -161,20 +166,28 @@ std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& 
   const Screen<3> bare = rectangle_of(boundary, plate);
   Screen<3> whole = bare;
   std::vector<std::array<int, 2>> free_ends;  // axis, end
+  std::vector<Screen<3>> screens;
   for (const int axis : {0, 1}) {
     for (const int end : {0, 1}) {
       const Vec<3> from = bare.corner + bare.range[axis][end] * bare.along[axis];
       const Vec<3> to = from + bare.range[1 - axis][1] * bare.along[1 - axis];
       const double side = end == 0 ? -1.0 : 1.0;
-      const RimEnd kind = end_along(boundary, from, to, side * bare.along[axis], plate.wall, lengths);
-      if (kind == RimEnd::on_wall) whole.range[axis][end] += side * lengths.reach;
+      const Vec<3> out = side * bare.along[axis];
+      const RimEnd kind = end_along(boundary, from, to, out, plate.wall, lengths);
+      if (kind == RimEnd::on_wall) {
+        if (const auto into_corner = screen_into_corner(boundary, bare, from, 1 - axis, out, lengths)) {
+          screens.push_back(*into_corner);
+        } else {
+          whole.range[axis][end] += side * lengths.reach;
+        }
+      }
       if (kind == RimEnd::free) free_ends.push_back({axis, end});
     }
   }
   const auto at = [&](double x, double y) { return Vec<3>(whole.corner + x * whole.along[0] + y * whole.along[1]); };
   Screen<3> wide = whole;
   for (const auto& [axis, end] : free_ends) wide.range[axis][end] += (end == 0 ? -1.0 : 1.0) * lengths.fade();
-  std::vector<Screen<3>> screens{whole};
+  screens.insert(screens.begin(), whole);
   std::vector<RimPiece<3>> rim;
   for (const auto& [axis, end] : free_ends) {
     const double edge = whole.range[axis][end];

@@ -50,8 +50,18 @@ template <int Dim>
 WallBesidePlate closing_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, double gap,
                              int own) {
   const WallBesidePlate beside = wall_beside_plate(boundary, x, own);
-  const bool closes = beside.distance <= gap && boundary.faces[beside.face].normal.dot(out) <= corner_tolerance;
-  return closes ? beside : WallBesidePlate{};
+  if (beside.distance > gap) return {};
+  const auto closes = [&](const WallFace<Dim>& face) { return face.normal.dot(out) <= corner_tolerance; };
+  if (closes(boundary.faces[beside.face])) return beside;
+  // At a corner another face is as near.
+  WallBesidePlate closing;
+  const double nearest = std::abs(beside.distance) + corner_tolerance * gap;
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    if (boundary.walls[face.wall].is_plate || face.wall == own || !closes(face)) return;
+    if (is_near(face, x, nearest)) closing = {f, beside.distance};
+  });
+  return closing;
 }
 
 template <int Dim>

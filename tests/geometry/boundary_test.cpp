@@ -240,6 +240,26 @@ TEST(Screens, GoOnBehindAWallAndNotInFrontOfItIn3D) {
   EXPECT_FALSE(hides<3>(spec, {-0.05, 0.5, 0.5}, {0.05, 0.5, 0.5}));
 }
 
+// Straight on, a plate that leans over the edge of a step leads through the water beyond the step, and water passed
+// below its foot.
+TEST(Screens, GoIntoTheCornerOfAStepOverWhichAPlateLeans) {
+  CaseSpec spec = empty_case(0.1);
+  WallTable plate = polyline({{0.0, 0.0}, {-0.3, 0.3}});
+  plate.shape = WallShape::plate;
+  spec.walls = {polyline({{-1.0, 0.0}, {0.0, 0.0}, {0.0, -1.0}}), plate};
+  EXPECT_TRUE(hides<2>(spec, {-0.05, 0.01}, {0.02, -0.03}));
+  EXPECT_FALSE(hides<2>(spec, {0.05, -0.02}, {0.02, -0.05}));
+  spec = empty_case(0.1, 3);
+  plate.points = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {-0.3, 1.0, 0.3}, {-0.3, 0.0, 0.3}};
+  spec.walls = {box_wall({-1.0, 0.0, -1.0}, {0.0, 1.0, 0.0}, {}, FluidSide::outside), plate};
+  EXPECT_TRUE(hides<3>(spec, {-0.05, 0.5, 0.01}, {0.02, 0.5, -0.03}));
+  EXPECT_FALSE(hides<3>(spec, {0.05, 0.5, -0.02}, {0.02, 0.5, -0.05}));
+  // Over the water beyond the step it goes on straight, behind the bed.
+  plate.points = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.3, 1.0, 0.3}, {0.3, 0.0, 0.3}};
+  spec.walls[1] = plate;
+  EXPECT_TRUE(hides<3>(spec, {-0.05, 0.5, 0.01}, {0.02, 0.5, -0.03}));
+}
+
 // A plate that ends at a periodic boundary is followed by its image, whose end fades as its own.
 TEST(Screens, GoOnInTheNextPeriod) {
   CaseSpec spec = empty_case(0.1, 3);
