@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "checks/face_samples.h"
 #include "geometry/face_grid.h"
 #include "geometry/from_spec.h"
+#include "geometry/images.h"
 #include "geometry/opening.h"
 #include "geometry/wall_label.h"
 
@@ -71,40 +73,63 @@ std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary,
   return spread(space, start, Vec<Dim>(Vec<Dim>::Zero()), Edge::holds).wet;
 }
 
+/// A face, or its image in the next period.
+template <int Dim>
+struct FaceOrImage {
+  int index;  ///< into Boundary::faces
+  WallFace<Dim> face;
+  bool is_image;
+};
+
 /// Lists the faces that may be behind others, or meet them.
 template <int Dim>
 class FacesBehind {
  public:
   /// `reach` [m]: search distance behind a face
   FacesBehind(const Boundary<Dim>& boundary, double reach) : grid_(reach) {
+    const Box<Dim> space = space_around<Dim>(boundary.domain, reach);
     boundary.visit_plain_faces([&](int f) {
-      const WallFace<Dim>& face = boundary.faces[f];
-      const Box<Dim> box = face.box();
-      grid_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
+      faces_.push_back({f, boundary.faces[f], false});
+      visit_images<Dim>(boundary.domain, boundary.faces[f].box(), space, [&](const Vec<Dim>& moved) {
+        faces_.push_back({f, boundary.faces[f], true});
+        for (Vec<Dim>& corner : faces_.back().face.corners) corner += moved;
+      });
     });
+    for (int k = 0; k < static_cast<int>(faces_.size()); ++k) {
+      const WallFace<Dim>& face = faces_[k].face;
+      const Box<Dim> box = face.box();
+      grid_.add(k, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
+    }
   }
 
   /// The faces near the sampled places of the face, in their order.
-  std::vector<int> of(const WallFace<Dim>& face, double dx) const {
+  std::vector<FaceOrImage<Dim>> of(const WallFace<Dim>& face, double dx) const {
     std::set<int> found;
     const int samples = samples_along(face, dx);
     for (int k = 0; k < samples; ++k) {
       const std::span<const int> near = grid_.near(sample_of(face, k, samples));
       found.insert(near.begin(), near.end());
     }
-    return {found.begin(), found.end()};
+    return listed(found);
   }
   /// The faces that may meet the face at its corners, in their order.
-  std::set<int> at_corners_of(const WallFace<Dim>& face) const {
+  std::vector<FaceOrImage<Dim>> at_corners_of(const WallFace<Dim>& face) const {
     std::set<int> found;
     for (const Vec<Dim>& corner : face.corners) {
       const std::span<const int> near = grid_.near(corner);
       found.insert(near.begin(), near.end());
     }
-    return found;
+    return listed(found);
   }
 
  private:
+  std::vector<FaceOrImage<Dim>> listed(const std::set<int>& found) const {
+    std::vector<FaceOrImage<Dim>> list;
+    for (const int k : found) list.push_back(faces_[k]);
+    return list;
+  }
+
+  std::vector<FaceOrImage<Dim>> faces_;
   FaceGrid<Dim> grid_;
 };
 
@@ -114,8 +139,7 @@ std::vector<Lip<Dim>> find_lips(const Boundary<Dim>& boundary, const FacesBehind
   std::vector<Lip<Dim>> lips;
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
-    for (const int g : faces.at_corners_of(face)) {
-      const WallFace<Dim>& other = boundary.faces[g];
+    for (const auto& [g, other, is_image] : faces.at_corners_of(face)) {
       const double facing = -face.normal.dot(other.normal);
       if (g <= f || facing <= 0.0 || facing >= max_facing_of_wedge) continue;
       const std::vector<Vec<Dim>> shared = shared_corners(face, other, tolerance);
@@ -170,8 +194,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
   };
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
-    for (const int g : faces_behind.of(face, dx)) {
-      const WallFace<Dim>& other = boundary.faces[g];
+    for (const auto& [g, other, is_image] : faces_behind.of(face, dx)) {
       const double facing = -face.normal.dot(other.normal);
       const std::pair<int, int> walls = std::minmax(face.wall, other.wall);
       const bool is_plate = boundary.walls[face.wall].is_plate || boundary.walls[other.wall].is_plate;
@@ -189,11 +212,21 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
       // A body that reaches through the bed does no harm: there is no water below.
       if (!foot || !is_wet(f) || !is_wet(g)) continue;
       reported.insert(walls);
+      const Amount thickness{thickness_at(*foot), "m"};
+      const std::string behind = face.wall == other.wall ? "the water" : wall_label(boundary, other.wall).text();
+      if (is_image) {
+        findings.push_back(Finding::error(
+            "wall-between-periods",
+            {"{} is only {:.3g} thick at {}, with {} of the next period on its other side: its {} layers of wall "
+             "particles need {:.6g} m",
+             wall_label(boundary, face.wall), thickness, place(*foot), behind, dummy_layers(spec), needed},
+            {"leave it out there (a box: with open), because the case repeats itself, or remove domain.periodic_*"}));
+        continue;
+      }
       findings.push_back(Finding::error(
           "wall-too-thin",
           {"{} is only {:.3g} thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m",
-           wall_label(boundary, face.wall), Amount{thickness_at(*foot), "m"}, place(*foot),
-           face.wall == other.wall ? "the water" : wall_label(boundary, other.wall).text(), dummy_layers(spec), needed},
+           wall_label(boundary, face.wall), thickness, place(*foot), behind, dummy_layers(spec), needed},
           {"make it thicker, or the spacing smaller, or draw it without thickness, with shape = \"plate\""}));
     }
   });

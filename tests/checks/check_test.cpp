@@ -525,6 +525,26 @@ TEST(Check, PeriodicDirectionTooNarrow) {
   expect_only(check(spec), Severity::error, {"periodic_x from 0 to 1", "1.2 m wide", "0.0833333 m"});
 }
 
+// Between the water of two periods such a wall has no thickness.
+TEST(Check, AWallAtAPeriodicBoundary) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {1.2, 1.2, 1}, {"+z"})};
+  spec.walls[0].name = "tank";
+  spec.fluid = {box_fluid({0, 0, 0}, {1.2, 1.2, 0.4})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  spec.domain.periodic_y = {0.0, 1.2};
+  expect_among(check<3>(spec), Severity::error,
+               {"wall 'tank' is only 0 m thick", "of the next period", "leave it out"});
+  spec.walls[0].open = {"-y", "+y", "+z"};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  // Walls with their full thickness between two periods.
+  spec.walls = {box_wall({0, 0.2, 0}, {1.2, 1.2, 1}, {"+z"})};
+  spec.fluid = {box_fluid({0, 0.2, 0}, {1.2, 1.2, 0.4})};
+  expect_among(check<3>(spec), Severity::error, {"is only 0.2 m thick", "of the next period"});
+  spec.domain.periodic_y = {-0.1, 1.2};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+}
+
 // Its wall particles would be wrapped into one period, hundreds on top of each other.
 TEST(Check, AWallLongerThanThePeriod) {
   CaseSpec spec = empty_case(0.1);
