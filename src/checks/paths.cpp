@@ -81,7 +81,7 @@ class PathWalk {
       faces_of_[faces_[f].wall].push_back(f);
       boxes_[faces_[f].wall].extend(faces_[f].box());
     }
-    places_ = places_of_room_ = places_at(0.0);
+    places_ = places_of_water_ = places_at(0.0);
     // The space is unknown if water may leave or enter through an open end, or if a moving wall is not followed.
     const auto all = std::ranges::count_if(drawn.walls, [](const WallProperties& wall) { return wall.moves(); });
     const bool is_known = spec.inlets.empty() && spec.outlets.empty() && static_cast<std::size_t>(all) == moving.size();
@@ -103,7 +103,7 @@ class PathWalk {
       const double to = end * (k + 1) / min_samples;
       Places after = places_at(to);
       follow(end * k / min_samples, before, to, after);
-      if (room_) look_for_room(to);
+      if (has_moved()) look_at_water(to);
       before = std::move(after);
     }
     return std::move(findings_);
@@ -227,20 +227,49 @@ class PathWalk {
     }
   }
 
-  /// Checks that the water has enough space, each time a wall has moved by dx; not after an error.
-  void look_for_room(double time) {
-    bool has_moved = false;
+  /// Whether a wall has moved by dx since the last look at the water.
+  bool has_moved() const {
     for (std::size_t m = 0; m < movers_.size(); ++m) {
-      const bool is_far = farthest(movers_[m], places_of_room_[m], places_[m]).second > dx_;
-      has_moved = has_moved || (movers_[m].is_followed && is_far);
+      if (movers_[m].is_followed && farthest(movers_[m], places_of_water_[m], places_[m]).second > dx_) return true;
     }
-    if (!findings_.empty() || !has_moved) return;
+    return false;
+  }
+
+  void look_at_water(double time) {
+    const bool has_error =
+        std::ranges::any_of(findings_, [](const Finding& finding) { return finding.severity == Severity::error; });
+    if (has_error) return;
+    if (room_) look_for_room(time);
+    if constexpr (Dim == 2) look_for_gaps(time);
+    places_of_water_ = places_;
+  }
+
+  /// Checks that no end of a moving wall comes off the wall that closes it. A wall with water on one side only does not
+  /// hold the water that gets behind it there.
+  void look_for_gaps(double time) {
+    Boundary<Dim> boundary = drawn_;
+    boundary.faces = faces_;
+    boundary.hang_screens();
+    for (std::size_t e = 0; e < drawn_.ends.size(); ++e) {
+      const WallEnd& end = boundary.ends[e];
+      const int wall = faces_[end.face].wall;
+      const bool opens = end.is_free && !drawn_.ends[e].is_free && !end.is_at_plate && !floats_[wall];
+      if (!opens || !drawn_.walls[wall].moves() || !opened_.insert(wall).second) continue;
+      findings_.push_back(Finding::warning(
+          "wall-comes-off",
+          {"{} comes off another wall at t = {:.6g}, when its end is at {}: nothing holds water that gets behind it",
+           label(wall), Amount{time, "s"}, place(faces_[end.face].corners[end.corner])},
+          {"draw the wall longer there, as the side of a block that rises, or with shape = \"plate\" or two faces"}));
+    }
+  }
+
+  /// Checks that the water has enough space.
+  void look_for_room(double time) {
     std::vector<AffineMap<Dim>> displacement(faces_.size());
     for (std::size_t m = 0; m < movers_.size(); ++m) {
-      for (const int f : movers_[m].faces) displacement[f] = displacement_between(places_of_room_[m], places_[m]);
+      for (const int f : movers_[m].faces) displacement[f] = displacement_between(places_of_water_[m], places_[m]);
     }
     room_->move(faces_, displacement);
-    places_of_room_ = places_;
     const auto enclosed = room_->enclosed();
     if (!enclosed || enclosed->volume >= room_->water()) return;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -268,8 +297,9 @@ class PathWalk {
   std::vector<bool> floats_;                 ///< by wall; whether it is of a floating body
   std::vector<Box<Dim>> boxes_;              ///< around each wall at the last check
   std::set<std::pair<int, int>> collided_;   ///< walls whose collision is reported
+  std::set<int> opened_;                     ///< walls whose end has come off another wall, which is reported
   std::optional<RoomForWater<Dim>> room_;    ///< none if the space is unknown
-  Places places_of_room_;                    ///< of the walls at the last check of the space
+  Places places_of_water_;                   ///< of the walls at the last look at the water
   double looks_ = 0.0;                       ///< so far
   Findings findings_;
 };

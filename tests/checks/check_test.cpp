@@ -525,6 +525,25 @@ TEST(Check, PeriodicDirectionTooNarrow) {
   expect_only(check(spec), Severity::error, {"periodic_x from 0 to 1", "1.2 m wide", "0.0833333 m"});
 }
 
+// A block of the bed that rises by two spacings, as in an earthquake.
+TEST(Check, AMovingWallThatComesOffAnother) {
+  CaseSpec spec = empty_case(0.1);
+  spec.time.end = 2.0;
+  spec.walls = {polyline({{0, 1}, {0, -0.4}, {1, -0.4}, {1, 0}, {3, 0}, {3, 1}}), polyline({{0, 0}, {1, 0}})};
+  spec.walls[1].name = "block";
+  spec.walls[1].displacement = {0.0, "0.2*(1 - exp(-4*t))"};
+  spec.fluid = {box_fluid({0, 0}, {3, 0.5})};
+  expect_only(check(spec), Severity::warning, {"wall 'block' comes off another wall", "(1, 0.1", "longer there"});
+  spec.walls[1].points = {{0, 0}, {1, 0}, {1, -0.35}};
+  spec.walls[0].points[2] = {1.05, -0.4};
+  spec.walls[0].points[3] = {1.05, 0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  // A paddle stays on its bed.
+  spec.walls = {polyline({{-1, 0}, {3, 0}, {3, 1}}), polyline({{0, 1}, {0, 0}})};
+  spec.walls[1].displacement = {"0.3*(1 - cos(4*t))", 0.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 // Between the water of two periods such a wall has no thickness.
 TEST(Check, AWallAtAPeriodicBoundary) {
   CaseSpec spec = empty_case(0.1, 3);
