@@ -240,13 +240,13 @@ class PathWalk {
         std::ranges::any_of(findings_, [](const Finding& finding) { return finding.severity == Severity::error; });
     if (has_error) return;
     if (room_) look_for_room(time);
-    if constexpr (Dim == 2) look_for_gaps(time);
+    if constexpr (Dim == 2) look_for_gaps();
     places_of_water_ = places_;
   }
 
   /// Checks that no end of a moving wall comes off the wall that closes it. A wall with water on one side only does not
   /// hold the water that gets behind it there.
-  void look_for_gaps(double time) {
+  void look_for_gaps() {
     Boundary<Dim> boundary = drawn_;
     boundary.faces = faces_;
     boundary.hang_screens();
@@ -257,8 +257,8 @@ class PathWalk {
       if (!opens || !drawn_.walls[wall].moves() || !opened_.insert(wall).second) continue;
       findings_.push_back(Finding::warning(
           "wall-comes-off",
-          {"{} comes off another wall at t = {:.6g}, when its end is at {}: nothing holds water that gets behind it",
-           label(wall), Amount{time, "s"}, place(faces_[end.face].corners[end.corner])},
+          {"{} comes off another wall as it moves, at its end {}: nothing holds water that gets behind it", label(wall),
+           place(drawn_.faces[end.face].corners[end.corner])},
           {"draw the wall longer there, as the side of a block that rises, or with shape = \"plate\" or two faces"}));
     }
   }

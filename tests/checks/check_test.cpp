@@ -533,7 +533,7 @@ TEST(Check, AMovingWallThatComesOffAnother) {
   spec.walls[1].name = "block";
   spec.walls[1].displacement = {0.0, "0.2*(1 - exp(-4*t))"};
   spec.fluid = {box_fluid({0, 0}, {3, 0.5})};
-  expect_only(check(spec), Severity::warning, {"wall 'block' comes off another wall", "(1, 0.1", "longer there"});
+  expect_only(check(spec), Severity::warning, {"wall 'block' comes off another wall", "its end (1, 0)", "longer there"});
   spec.walls[1].points = {{0, 0}, {1, 0}, {1, -0.35}};
   spec.walls[0].points[2] = {1.05, -0.4};
   spec.walls[0].points[3] = {1.05, 0};
