@@ -587,6 +587,24 @@ TEST(PlateAcrossAPeriodicSlice, HasTheForceOfStillWater) {
   }
 }
 
+// Half of the forces on the side of the block that is beside the boundary act through particles of the next period.
+TEST(BlockBesideAPeriodicBoundary, HasNoForceAlongThePeriod) {
+  constexpr double dx = 0.1;
+  CaseSpec spec = empty_case(dx);
+  spec.domain.periodic_x = {0.0, 2.4};
+  WallTable block = box_wall({0.5 * dx, 0.0}, {0.5 * dx + 0.4, 0.9}, {}, FluidSide::outside);
+  block.name = "block";
+  spec.walls = {testing_cases::polyline({{0.0, 0.0}, {2.4, 0.0}}), block};
+  spec.fluid = {box_fluid({0.0, 0.0}, {2.4, 0.6})};
+  spec.probes = {force_probe({0.0, 0.0}, {"block"})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  step(flow);
+  step(flow);
+  const double side = 0.5 * spec.physics.density * g * 0.6 * 0.6;
+  EXPECT_NEAR(Reader<2>(spec, flow).force()[0], 0.0, 0.05 * side);
+}
+
 /// A block hangs from the lid of a sealed tank of air and is drawn on into the lid, where no air reaches the lid.
 TEST(LidOverAir, HasNoForceBehindABlock) {
   constexpr double dx = 0.05, overpressure = 5000.0, width = 0.2;
