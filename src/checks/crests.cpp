@@ -3,6 +3,7 @@
 
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
+#include "geometry/images.h"
 #include "geometry/opening.h"
 #include "geometry/wall_label.h"
 
@@ -14,15 +15,17 @@ constexpr double min_upward_cosine = 0.01;
 
 constexpr double at_opening = 0.1;  // dx, between the end of a polyline and an inlet or outlet that closes it
 
-/// Height of the higher end of a polyline that ends on a rise; none if both ends are level, or stand at open ends.
+/// Height of the higher end of a polyline that ends on a rise; none if both ends are level, or stand at open ends or
+/// periodic boundaries.
 std::optional<double> rim_height(const std::vector<Vec<2>>& points, const std::vector<Opening<2>>& open_ends,
-                                 double spacing, const Vec<2>& up) {
+                                 const PeriodicDomain<2>& domain, double spacing, const Vec<2>& up) {
   std::optional<double> rim;
   const auto is_open = [&](const Vec<2>& x) {
-    return std::ranges::any_of(open_ends, [&](const Opening<2>& end) {
-      const double distance = std::min((x - end.corner).norm(), (x - end.corner - end.edges[0]).norm());
-      return distance <= at_opening * spacing;
-    });
+    return is_in_periodic_plane<2>(domain, x, at_opening * spacing) ||
+           std::ranges::any_of(open_ends, [&](const Opening<2>& end) {
+             const double distance = std::min((x - end.corner).norm(), (x - end.corner - end.edges[0]).norm());
+             return distance <= at_opening * spacing;
+           });
   };
   const auto look_at = [&](const Vec<2>& end, const Vec<2>& next) {
     if (is_open(end)) return;
@@ -46,7 +49,7 @@ Findings check_crests(const CaseSpec& spec, const Boundary<2>& boundary) {
     const CaseLabel label = wall_label(boundary, static_cast<int>(w));
     std::vector<Vec<2>> points;
     for (const Coordinates& point : spec.walls[w].points) points.push_back(to_vec<2>(point, label, "points"));
-    const std::optional<double> rim = rim_height(points, open_ends, spec.particles.spacing, up);
+    const std::optional<double> rim = rim_height(points, open_ends, boundary.domain, spec.particles.spacing, up);
     if (!rim) continue;
     for (const WallFace<2>& face : boundary.faces) {
       if (face.wall != static_cast<int>(w) || up.dot(face.normal) < min_upward_cosine) continue;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "base/box.h"
 #include "case/formulation.h"
 #include "checks/checks.h"
@@ -7,21 +10,42 @@
 namespace tailwater {
 namespace {
 
-/// The walls that are longer along `axis` than the `period` (m) after which they would be repeated.
+/// The walls that are longer along `axis` than the period `low` to `high` (m), after which they would be repeated, and
+/// those that are drawn beyond it. Their particles repeat themselves, but their faces, by which probes and the last
+/// guard know them, do not.
 template <int Dim>
-Findings walls_longer_than(double period, int axis, const CaseSpec& spec, const Boundary<Dim>& boundary) {
+Findings walls_beyond(double low, double high, int axis, const CaseSpec& spec, const Boundary<Dim>& boundary) {
   std::vector<Box<Dim>> boxes(boundary.walls.size());
   for (const WallFace<Dim>& face : boundary.faces) boxes[face.wall].extend(face.box());
+  const double tolerance = 0.5 * spec.particles.spacing;
   Findings findings;
   for (std::size_t w = 0; w < boxes.size(); ++w) {
-    const double length = boxes[w].isEmpty() ? 0.0 : boxes[w].sizes()[axis];
-    if (length <= period + 0.5 * spec.particles.spacing) continue;
-    findings.push_back(Finding::error(
-        "wall-longer-than-period",
-        {"{} is {:.6g} long in {}, in which the case repeats itself every {:.6g} m (domain.periodic_{}), "
-         "so it would overlap itself",
-         wall_label(boundary, static_cast<int>(w)), Amount{length, "m"}, "xyz"[axis], period, "xyz"[axis]},
-        {"draw one period of it"}));
+    if (boxes[w].isEmpty()) continue;
+    const CaseLabel owner = wall_label(boundary, static_cast<int>(w));
+    const double length = boxes[w].sizes()[axis];
+    const double from = boxes[w].min()[axis];
+    const double to = boxes[w].max()[axis];
+    if (length > high - low + tolerance) {
+      findings.push_back(Finding::error(
+          "wall-longer-than-period",
+          {"{} is {:.6g} long in {}, in which the case repeats itself every {:.6g} m (domain.periodic_{}), "
+           "so it would overlap itself",
+           owner, Amount{length, "m"}, "xyz"[axis], high - low, "xyz"[axis]},
+          {"draw one period of it"}));
+    } else if (from < low - tolerance || to > high + tolerance) {
+      findings.push_back(Finding::error(
+          "wall-beyond-period",
+          {"{} reaches from {} = {:.6g} to {:.6g} m, beyond the period from {:.6g} to {:.6g} m (domain.periodic_{})",
+           owner, "xyz"[axis], from, to, low, high, "xyz"[axis]},
+          {"draw it in two parts, each within the period, or move the period"}));
+    } else if (length <= tolerance && boundary.walls[w].is_plate &&
+               std::min(std::abs(from - low), std::abs(to - high)) <= tolerance) {
+      findings.push_back(Finding::error(
+          "plate-between-periods",
+          {"{} lies between two periods, at {} = {:.6g} m (domain.periodic_{}), where only one of its sides is known",
+           owner, "xyz"[axis], from, "xyz"[axis]},
+          {"move it into the period by a spacing or more, or move the period"}));
+    }
   }
   return findings;
 }
@@ -36,7 +60,7 @@ Findings check_periodic_width(const CaseSpec& spec, const Boundary<Dim>& boundar
     const std::vector<double>& range = periodic_range(spec.domain, axis);
     if (range.size() != 2) continue;
     const double width = range[1] - range[0];
-    append(findings, walls_longer_than(width, axis, spec, boundary));
+    append(findings, walls_beyond(range[0], range[1], axis, spec, boundary));
     if (width >= (4.0 - corner_tolerance) * support) continue;
     findings.push_back(Finding::error("period-too-narrow",
                                       {"{} from {:.6g} to {:.6g} is {:.6g} wide, less than four kernel supports of "

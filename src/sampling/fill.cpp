@@ -48,6 +48,7 @@ class Fill {
       if (range.size() == 2) {
         period_[axis] = lattice[axis].count();
         box_.extend(Vec<Dim>(range[0] * Vec<Dim>::Unit(axis)));
+        box_.max()[Dim - 1] = std::max(box_.max()[Dim - 1], level_);  // without side walls the level is above all walls
       }
     }
   }

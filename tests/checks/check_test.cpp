@@ -517,12 +517,44 @@ TEST(Check, WaterGoesRoundAPeriodicDomain) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+TEST(Check, AFillRoundAPeriodicDomain) {
+  CaseSpec spec = empty_case(0.1);
+  spec.domain.periodic_x = {0.0, 1.2};
+  spec.walls = {polyline({{0, 0}, {1.2, 0}})};
+  FluidTable water;
+  water.shape = BlockShape::fill;
+  water.seed = {0.6, 0.3};
+  water.level = 0.6;
+  spec.fluid = {water};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, PeriodicDirectionTooNarrow) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {polyline({{0, 0}, {1, 0}})};
   spec.fluid = {box_fluid({0, 0}, {1, 0.4})};
   spec.domain.periodic_x = {0.0, 1.0};
   expect_only(check(spec), Severity::error, {"periodic_x from 0 to 1", "1.2 m wide", "0.0833333 m"});
+}
+
+TEST(Check, AForceProbeOnAPlateNearAnotherWall) {
+  CaseSpec spec = empty_case(0.05);
+  spec.walls = {polyline({{0, 0.9}, {0, 0}, {1.2, 0}, {1.2, 0.9}}), polyline({{0.4, 0.1}, {0.8, 0.1}})};
+  spec.walls[0].name = "tank";
+  spec.walls[1].name = "shelf";
+  spec.walls[1].shape = WallShape::plate;
+  spec.fluid = {box_fluid({0, 0}, {1.2, 0.6})};
+  ProbeTable probe;
+  probe.name = "lift";
+  probe.type = ProbeType::force;
+  probe.walls = {"shelf"};
+  spec.probes = {probe};
+  expect_among(check(spec), Severity::warning, {"probe 'lift'", "not separated", "0.02 m"});
+  spec.probes[0].walls = {"shelf", "tank"};
+  expect_only(check(spec), Severity::warning, {"2.0 spacings wide"});
+  spec.probes[0].walls = {"shelf"};
+  spec.walls[1].points = {{0.4, 0.3}, {0.8, 0.3}};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
 // A block of the bed that rises by two spacings, as in an earthquake.
@@ -533,7 +565,8 @@ TEST(Check, AMovingWallThatComesOffAnother) {
   spec.walls[1].name = "block";
   spec.walls[1].displacement = {0.0, "0.2*(1 - exp(-4*t))"};
   spec.fluid = {box_fluid({0, 0}, {3, 0.5})};
-  expect_only(check(spec), Severity::warning, {"wall 'block' comes off another wall", "its end (1, 0)", "longer there"});
+  expect_only(check(spec), Severity::warning,
+              {"wall 'block' comes off another wall", "its end (1, 0)", "longer there"});
   spec.walls[1].points = {{0, 0}, {1, 0}, {1, -0.35}};
   spec.walls[0].points[2] = {1.05, -0.4};
   spec.walls[0].points[3] = {1.05, 0};
@@ -541,6 +574,20 @@ TEST(Check, AMovingWallThatComesOffAnother) {
   // A paddle stays on its bed.
   spec.walls = {polyline({{-1, 0}, {3, 0}, {3, 1}}), polyline({{0, 1}, {0, 0}})};
   spec.walls[1].displacement = {"0.3*(1 - cos(4*t))", 0.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+TEST(Check, AWallBeyondThePeriodOrBetweenTwo) {
+  CaseSpec spec = empty_case(0.1);
+  spec.domain.periodic_x = {0.0, 2.0};
+  spec.walls = {polyline({{0, 0}, {2, 0}}), polyline({{-0.4, 0.3}, {0.4, 0.3}})};
+  spec.walls[1].name = "shelf";
+  spec.walls[1].shape = WallShape::plate;
+  spec.fluid = {box_fluid({0, 0}, {2, 0.6})};
+  expect_among(check(spec), Severity::error, {"wall 'shelf' reaches from x = -0.4 to 0.4 m", "two parts"});
+  spec.walls[1].points = {{0.0, 0.1}, {0.0, 0.4}};
+  expect_among(check(spec), Severity::error, {"wall 'shelf' lies between two periods", "x = 0 m"});
+  spec.walls[1].points = {{1.0, 0.0}, {1.0, 0.4}};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
@@ -580,6 +627,13 @@ TEST(Check, ACrestAsHighAsTheEndsOfItsBed) {
   expect_only(check(spec), Severity::error, {"wall 'wall1' has a crest at (1.5, 0.6)", "0.1 m", "lower the crest"});
   spec.walls[0].points[3][1] = 0.4;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  // In a period the bed has no ends.
+  spec.walls[0].points = {{0, 0.1}, {1, 0}, {1.5, 0.3}, {3, 0.1}};
+  spec.fluid = {polygon_fluid({{0, 0.1}, {1, 0}, {1.5, 0.3}, {3, 0.1}, {3, 0.5}, {0, 0.5}})};
+  spec.domain.periodic_x = {0.0, 3.0};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.domain.periodic_x.clear();
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.3})};
   // A beach that is the end of its bed, and a bed that ends open.
   spec.walls = {polyline({{0, 0.5}, {0, 0}, {1, 0}, {3, 0.6}})};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
