@@ -14,7 +14,6 @@
 #include "geometry/face.h"
 #include "geometry/facing.h"
 #include "geometry/from_spec.h"
-#include "geometry/images.h"
 #include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
@@ -57,7 +56,6 @@ class WallForceProbe {
         takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
         about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
                                           : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
-        domain_(boundary.domain),
         age_(age_of_forces(spec)),
         reach_((1.5 * dummy_layers(spec) + patch_margin) * spacing_),
         paths_(boundary.walls.size()),
@@ -101,13 +99,10 @@ class WallForceProbe {
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
     if ((takes_all_and_rests() && !has_air) || (rest && !wetted_.centres().empty())) return;
     wetted_.place(boundary, patches_);
-    around_all_ = {};
     around_chosen_ = {};
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      around_all_.extend(wetted_.centres()[k]);
       if (chosen_[k] > 0.0) around_chosen_.extend(wetted_.centres()[k]);
     }
-    around_all_.widen(reach_);
     around_chosen_.widen(reach_);
   }
 
@@ -270,26 +265,15 @@ class WallForceProbe {
   }
 
   bool is_near_chosen(const Vec<Dim>& x) const {
-    bool is_near = around_chosen_.contains(x);
-    visit_images<Dim>(domain_, Box<Dim>(x), around_all_,
-                      [&](const Vec<Dim>& moved) { is_near = is_near || around_chosen_.contains(x + moved); });
+    bool is_near = false;
+    wetted_.visit_images_of(x, [&](const Vec<Dim>& image) { is_near = is_near || around_chosen_.contains(image); });
     return is_near;
   }
 
-  /// Calls visit(k, weight, offset) for each patch k near x, also across a periodic boundary, with its weight by size
-  /// and distance.
+  /// Calls visit(k, weight, offset) for each patch k near x, with its weight by size and distance.
   template <class Visit>
   void for_each_patch_near(const Vec<Dim>& x, Visit&& visit) const {
-    for_each_patch_near_image(x, visit);
-    visit_images<Dim>(domain_, Box<Dim>(x), around_all_,
-                      [&](const Vec<Dim>& moved) { for_each_patch_near_image(x + moved, visit); });
-  }
-
-  template <class Visit>
-  void for_each_patch_near_image(const Vec<Dim>& x, Visit&& visit) const {
-    wetted_.grid().for_each_near(x, [&](std::int32_t k) {
-      if (wetted_.share(k) == 0.0) return;
-      const Vec<Dim> offset = x - wetted_.centres()[k];
+    wetted_.visit_near(x, [&](std::int32_t k, const Vec<Dim>& offset) {
       const double squared = offset.squaredNorm();
       if (squared >= reach_ * reach_) return;
       const double nearness = 1.0 - std::sqrt(squared) / reach_;
@@ -329,14 +313,12 @@ class WallForceProbe {
   std::vector<double> chosen_;  ///< selected fraction of each patch
   bool takes_all_;
   Vec<Dim> about_;
-  PeriodicDomain<Dim> domain_;
   double age_;                                       ///< of forces (age_of_forces)
   double reach_;                                     ///< m; R
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
   WettedPatches<Dim> wetted_;
-  Box<Dim> around_all_;     ///< contains all forces that any patch takes a fraction of
   Box<Dim> around_chosen_;  ///< contains all forces of which chosen patches take a fraction
 };
 

@@ -20,7 +20,7 @@ constexpr double reach_of_cover = 0.05;
 
 template <int Dim>
 WettedPatches<Dim>::WettedPatches(const CaseSpec& spec, const Boundary<Dim>& boundary, double spacing, double reach)
-    : spacing_(spacing), reach_(reach), is_hull_(boundary.walls.size(), 0) {
+    : domain_(boundary.domain), spacing_(spacing), reach_(reach), is_hull_(boundary.walls.size(), 0) {
   Others rest{-1, std::vector<std::uint8_t>(boundary.walls.size(), 0)};
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (spec.walls[w].drive.by == Drive::By::body || boundary.walls[w].is_plate) continue;
@@ -47,6 +47,9 @@ void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const Wa
   share_.assign(patches.size(), 1.0);
   for_each(patches.size(), [&](std::size_t k) { find_part(boundary, patches[k], k); });
   grid_ = CellGrid<Dim>(centres_, reach_);
+  around_ = {};
+  for (const Vec<Dim>& centre : centres_) around_.extend(centre);
+  around_.widen(reach_);
   for_each(patches.size(), [&](std::size_t k) {
     if (is_under_wall(boundary, patches, k)) share_[k] = 0.0;
   });

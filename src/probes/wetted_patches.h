@@ -9,6 +9,7 @@
 
 #include "base/box.h"
 #include "case/spec.h"
+#include "geometry/images.h"
 #include "geometry/wall_patches.h"
 #include "neighbours/cell_grid.h"
 
@@ -28,8 +29,22 @@ class WettedPatches {
   const std::vector<Vec<Dim>>& centres() const { return centres_; }
   /// Fraction of a patch that is in front of all other walls.
   double share(std::int32_t patch) const { return share_[patch]; }
-  /// The centres by place.
-  const CellGrid<Dim>& grid() const { return grid_; }
+  /// Calls visit(image) for x, and for its images in other periods that are within reach of patches.
+  template <class Visit>
+  void visit_images_of(const Vec<Dim>& x, Visit&& visit) const {
+    visit(x);
+    visit_images<Dim>(domain_, Box<Dim>(x), around_, [&](const Vec<Dim>& moved) { visit(Vec<Dim>(x + moved)); });
+  }
+  /// Calls visit(k, offset) for each patch k that is not dry and near an image of x, with the offset of that image from
+  /// its centre.
+  template <class Visit>
+  void visit_near(const Vec<Dim>& x, Visit&& visit) const {
+    visit_images_of(x, [&](const Vec<Dim>& image) {
+      grid_.for_each_near(image, [&](std::int32_t k) {
+        if (share_[k] > 0.0) visit(k, Vec<Dim>(image - centres_[k]));
+      });
+    });
+  }
 
  private:
   /// Walls that a place may be behind: a hull, or all walls that are no hulls.
@@ -42,13 +57,15 @@ class WettedPatches {
   void find_part(const Boundary<Dim>& boundary, const WallPatch<Dim>& patch, std::size_t k);
   bool is_under_wall(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches, std::size_t k) const;
 
+  PeriodicDomain<Dim> domain_;
   double spacing_;
   double reach_;
   std::vector<std::uint8_t> is_hull_;  ///< by wall
   std::vector<Others> others_;         ///< empty without hulls
   std::vector<Vec<Dim>> centres_;
   std::vector<double> share_;
-  CellGrid<Dim> grid_;
+  CellGrid<Dim> grid_;  ///< the centres by place
+  Box<Dim> around_;     ///< contains all places within reach of the centres
 };
 
 }  // namespace tailwater
