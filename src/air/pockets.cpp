@@ -20,7 +20,7 @@ namespace {
 /// [dx]; edge of a cube as large as the smallest void, without the cells near water, that begins as a pocket or remains
 /// one.
 constexpr double min_edge_at_begin = 2.0;
-constexpr double min_edge = 1.0;
+constexpr double min_pocket_edge = 1.0;
 
 /// [dx]; displacement of the water after which the gas of a torn pocket is lost.
 constexpr double max_torn_distance = 2.0;
@@ -41,7 +41,7 @@ struct MinCells {
   template <int Dim>
   MinCells(const VoidGrid<Dim>& grid, double spacing)
       : at_begin(power<Dim>(min_edge_at_begin * spacing) / grid.cell_volume()),
-        to_remain(power<Dim>(min_edge * spacing) / grid.cell_volume()) {}
+        to_remain(power<Dim>(min_pocket_edge * spacing) / grid.cell_volume()) {}
 
   double at_begin;
   double to_remain;

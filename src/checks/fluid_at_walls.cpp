@@ -17,7 +17,7 @@
 namespace tailwater {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// The expected places of the first particles in front of a wall, for the spacing of the case.
 struct Standing {
@@ -40,8 +40,8 @@ struct Contact {
   std::size_t in_front = 0;
   std::size_t behind = 0;
   std::size_t too_near = 0;
-  double deepest = 0.0;       ///< m behind the wall, positive
-  double nearest = infinite;  ///< m in front of it
+  double deepest = 0.0;        ///< m behind the wall, positive
+  double nearest = unlimited;  ///< m in front of it
   Vec<Dim> deepest_at, nearest_at;
 
   /// If two places are equally near or deep, the first one counts.
@@ -63,7 +63,7 @@ struct Contact {
 /// Distance of a block from a face that it is straight in front of.
 template <int Dim>
 struct Approach {
-  double distance = infinite;  ///< m
+  double distance = unlimited;  ///< m
   Vec<Dim> at;
 
   void add(const Approach& later) {
@@ -123,7 +123,7 @@ Contacts<Dim> contacts_of(const Boundary<Dim>& boundary, const FluidParticles<Di
   for (std::size_t i = 0; i < fluid.position.size(); ++i) {
     const Vec<Dim>& x = fluid.position[i];
     if ((x - open).norm() < clear - far) continue;
-    const NearestWall<Dim> near = boundary.nearest(x, infinite);
+    const NearestWall<Dim> near = boundary.nearest(x, unlimited);
     if (near.signed_distance > 0.0) {
       open = x;
       clear = near.signed_distance;

@@ -28,7 +28,7 @@ void find_crossings(std::span<const WallFace<2>> faces, double tolerance, Report
 }
 
 /// The edges of a polygon of water.
-std::vector<WallFace<2>> outline_of(const FluidTable& block, const CaseLabel& label) {
+std::vector<WallFace<2>> outline_faces_of(const FluidTable& block, const CaseLabel& label) {
   std::vector<WallFace<2>> edges;
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const auto from = to_vec<2>(block.points[k], label, "points");
@@ -53,11 +53,12 @@ Findings check_self_crossing(const CaseSpec& spec, const Boundary<2>& boundary) 
   for (std::size_t b = 0; b < spec.fluid.size(); ++b) {
     if (spec.fluid[b].shape != BlockShape::polygon) continue;
     const CaseLabel label = fluid_label(spec, b);
-    find_crossings(outline_of(spec.fluid[b], label), tolerance, [&](const Vec<2>& at, const WallFace<2>& /*edge*/) {
-      findings.push_back(Finding::error("fluid-crosses-itself",
-                                        {"the outline of {} crosses itself at {}", label, place(at)},
-                                        {"correct the order of its points"}));
-    });
+    find_crossings(outline_faces_of(spec.fluid[b], label), tolerance,
+                   [&](const Vec<2>& at, const WallFace<2>& /*edge*/) {
+                     findings.push_back(Finding::error("fluid-crosses-itself",
+                                                       {"the outline of {} crosses itself at {}", label, place(at)},
+                                                       {"correct the order of its points"}));
+                   });
   }
   return findings;
 }

@@ -139,7 +139,9 @@ std::vector<Lip<Dim>> find_lips(const Boundary<Dim>& boundary, const FacesBehind
   std::vector<Lip<Dim>> lips;
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
-    for (const auto& [g, other, is_image] : faces.at_corners_of(face)) {
+    for (const FaceOrImage<Dim>& beside : faces.at_corners_of(face)) {
+      const int g = beside.index;
+      const WallFace<Dim>& other = beside.face;
       const double facing = -face.normal.dot(other.normal);
       if (g <= f || facing <= 0.0 || facing >= max_facing_of_wedge) continue;
       const std::vector<Vec<Dim>> shared = shared_corners(face, other, tolerance);
@@ -194,7 +196,9 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
   };
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
-    for (const auto& [g, other, is_image] : faces_behind.of(face, dx)) {
+    for (const FaceOrImage<Dim>& behind_face : faces_behind.of(face, dx)) {
+      const int g = behind_face.index;
+      const WallFace<Dim>& other = behind_face.face;
       const double facing = -face.normal.dot(other.normal);
       const std::pair<int, int> walls = std::minmax(face.wall, other.wall);
       const bool is_plate = boundary.walls[face.wall].is_plate || boundary.walls[other.wall].is_plate;
@@ -214,7 +218,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
       reported.insert(walls);
       const Amount thickness{thickness_at(*foot), "m"};
       const std::string behind = face.wall == other.wall ? "the water" : wall_label(boundary, other.wall).text();
-      if (is_image) {
+      if (behind_face.is_image) {
         findings.push_back(Finding::error(
             "wall-between-periods",
             {"{} is only {:.3g} thick at {}, with {} of the next period on its other side: its {} layers of wall "

@@ -3,7 +3,7 @@
 namespace tailwater {
 namespace {
 
-constexpr double min_bend = 0.4;  // sine of the angle between faces that make a corner
+constexpr double min_bend_at_foot = 0.4;  // sine of the angle between faces that make a corner
 
 /// The direction into the corner of the walls at `x`; none if `out` does not lead past it.
 template <int Dim>
@@ -16,9 +16,9 @@ std::optional<Vec<Dim>> into_corner(const Boundary<Dim>& boundary, const Vec<Dim
     if (boundary.walls[face.wall].is_plate || face.wall == own) return;
     if ((closest_point(face, x) - x).norm() > lengths.tolerance()) return;
     normals += face.normal;
-    leads_past = leads_past || face.normal.dot(out) > min_bend;
+    leads_past = leads_past || face.normal.dot(out) > min_bend_at_foot;
   });
-  if (!leads_past || normals.norm() < min_bend) return std::nullopt;
+  if (!leads_past || normals.norm() < min_bend_at_foot) return std::nullopt;
   return Vec<Dim>(-normals.normalized());
 }
 

@@ -12,7 +12,7 @@ namespace {
 /// The iteration ends when the pressure changes by less than this fraction of its rms value, or after a maximum number
 /// of passes. With the smallest factor below, 0.7^30 = 2e-5 of the initial difference remains by then.
 constexpr double pass_tolerance = 1e-3;
-constexpr int max_passes = 30;
+constexpr int max_projections = 30;
 
 /// The paper's under-relaxation, after (F27).
 constexpr double relax_pressure = 0.4;
@@ -51,7 +51,7 @@ StepReport repeated_projection_step(Flow<Dim>& flow, const StepStart<Dim>& start
   WallDrive<Dim> drive = drive_walls(flow, start.wall_velocity, dt);
   const std::vector<double> no_target(particles.owned, 0.0);  // (F19)
   std::optional<std::vector<double>> divergence_old;
-  for (bool settled = false; !settled && report.passes < max_passes;) {
+  for (bool settled = false; !settled && report.passes < max_projections;) {
     const auto pressure_before = owned_part(particles.pressure, particles.owned);
     const auto velocity_before = owned_part(particles.velocity, particles.owned);
     const auto position_before = owned_part(particles.position, particles.owned);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int averages = 3;
 
-constexpr double largest_change = 0.03;
+constexpr double max_change_by_pressure = 0.03;
 /// Factors of the step, from one to the next.
 constexpr double strongest_decrease = 0.5;
 constexpr double strongest_increase = 1.2;
@@ -74,7 +74,7 @@ double change_by_pressure(const Flow<Dim>& flow, std::span<const Vec<Dim>> befor
 }
 
 double longest_step_after(double change, double dt, double shortest) {
-  const double factor = largest_change / std::max(change, largest_change / strongest_increase);
+  const double factor = max_change_by_pressure / std::max(change, max_change_by_pressure / strongest_increase);
   return std::max(shortest, dt * std::max(factor, strongest_decrease));
 }
 
