@@ -171,6 +171,31 @@ std::optional<Vec<Dim>> place_with_other_behind(const WallFace<Dim>& face, const
   return std::nullopt;
 }
 
+/// The finding at a place of a face with another one behind it.
+template <int Dim>
+Finding thin_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const WallFace<Dim>& face,
+                  const FaceOrImage<Dim>& behind, const Vec<Dim>& where, double width) {
+  const int layers = dummy_layers(spec);
+  const double needed = layers * spec.particles.spacing;
+  const Amount thickness{width, "m"};
+  const CaseLabel owner = wall_label(boundary, face.wall);
+  const int other = behind.face.wall;
+  const std::string beyond = face.wall == other ? "the water" : wall_label(boundary, other).text();
+  if (behind.is_image) {
+    return Finding::error(
+        "wall-between-periods",
+        {"{} is only {:.3g} thick at {}, with {} of the next period on its other side: its {} layers of wall "
+         "particles need {:.6g} m",
+         owner, thickness, place(where), beyond, layers, needed},
+        {"leave it out there (a box: with open), because the case repeats itself, or remove domain.periodic_*"});
+  }
+  return Finding::error(
+      "wall-too-thin",
+      {"{} is only {:.3g} thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m", owner,
+       thickness, place(where), beyond, layers, needed},
+      {"make it thicker, or the spacing smaller, or draw it without thickness, with shape = \"plate\""});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -216,22 +241,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
       // A body that reaches through the bed does no harm: there is no water below.
       if (!foot || !is_wet(f) || !is_wet(g)) continue;
       reported.insert(walls);
-      const Amount thickness{thickness_at(*foot), "m"};
-      const std::string behind = face.wall == other.wall ? "the water" : wall_label(boundary, other.wall).text();
-      if (behind_face.is_image) {
-        findings.push_back(Finding::error(
-            "wall-between-periods",
-            {"{} is only {:.3g} thick at {}, with {} of the next period on its other side: its {} layers of wall "
-             "particles need {:.6g} m",
-             wall_label(boundary, face.wall), thickness, place(*foot), behind, dummy_layers(spec), needed},
-            {"leave it out there (a box: with open), because the case repeats itself, or remove domain.periodic_*"}));
-        continue;
-      }
-      findings.push_back(Finding::error(
-          "wall-too-thin",
-          {"{} is only {:.3g} thick at {}, with {} on its other side: its {} layers of wall particles need {:.6g} m",
-           wall_label(boundary, face.wall), thickness, place(*foot), behind, dummy_layers(spec), needed},
-          {"make it thicker, or the spacing smaller, or draw it without thickness, with shape = \"plate\""}));
+      findings.push_back(thin_wall(spec, boundary, face, behind_face, *foot, thickness_at(*foot)));
     }
   });
   return findings;
