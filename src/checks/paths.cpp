@@ -103,7 +103,7 @@ class PathWalk {
       const double to = end * (k + 1) / min_samples;
       Places after = places_at(to);
       follow(end * k / min_samples, before, to, after);
-      if (has_moved()) look_at_water(to);
+      if ((room_ || !drawn_.ends.empty()) && has_moved()) look_at_water(to);
       before = std::move(after);
     }
     return std::move(findings_);
@@ -240,7 +240,7 @@ class PathWalk {
         std::ranges::any_of(findings_, [](const Finding& finding) { return finding.severity == Severity::error; });
     if (has_error) return;
     if (room_) look_for_room(time);
-    if constexpr (Dim == 2) look_for_gaps();
+    if (!drawn_.ends.empty()) look_for_gaps();
     places_of_water_ = places_;
   }
 
