@@ -6,6 +6,7 @@
 #include "bodies/contacts.h"
 #include "bodies/narrow_gaps.h"
 #include "bodies/part_in_front.h"
+#include "geometry/images.h"
 #include "geometry/screen.h"
 #include "neighbours/neighbourhood.h"
 
@@ -157,18 +158,24 @@ template <int Dim>
 typename NarrowGaps<Dim>::OtherWall NarrowGaps<Dim>::other_wall(int hull, const Vec<Dim>& x, double reach) const {
   const double dx = flow_.setup.scale.spacing;
   OtherWall nearest{-1, reach, Vec<Dim>::Zero()};
-  for (std::size_t s = 0; s < hulls_.surfaces.size(); ++s) {
-    const ContactSurface<Dim>& surface = hulls_.surfaces[s];
-    if (surface.hull == hull) continue;
-    const Vec<Dim> drawn = placements_[s].inverse(x);
-    const NearestWall<Dim> wall = surface.boundary.nearest(drawn, reach);
-    if (wall.face < 0 || wall.signed_distance >= nearest.distance) continue;
-    nearest.wall = surface.boundary.faces[wall.face].wall;
-    nearest.distance = wall.signed_distance;
-    nearest.normal = placements_[s].linear * (std::abs(wall.signed_distance) > corner_tolerance * dx
-                                                  ? Vec<Dim>((drawn - wall.point) / wall.signed_distance)
-                                                  : surface.boundary.faces[wall.face].normal);
-  }
+  const auto look_from = [&](const Vec<Dim>& place) {
+    for (std::size_t s = 0; s < hulls_.surfaces.size(); ++s) {
+      const ContactSurface<Dim>& surface = hulls_.surfaces[s];
+      if (surface.hull == hull) continue;
+      const Vec<Dim> drawn = placements_[s].inverse(place);
+      const NearestWall<Dim> wall = surface.boundary.nearest(drawn, reach);
+      if (wall.face < 0 || wall.signed_distance >= nearest.distance) continue;
+      nearest.wall = surface.boundary.faces[wall.face].wall;
+      nearest.distance = wall.signed_distance;
+      nearest.normal = placements_[s].linear * (std::abs(wall.signed_distance) > corner_tolerance * dx
+                                                    ? Vec<Dim>((drawn - wall.point) / wall.signed_distance)
+                                                    : surface.boundary.faces[wall.face].normal);
+    }
+  };
+  look_from(x);
+  const PeriodicDomain<Dim>& domain = flow_.setup.domain;
+  visit_images<Dim>(domain, Box<Dim>(x), space_around<Dim>(domain, reach),
+                    [&](const Vec<Dim>& by) { look_from(x + by); });
   return nearest;
 }
 

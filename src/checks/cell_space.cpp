@@ -7,6 +7,7 @@
 
 #include "base/box.h"
 #include "geometry/from_spec.h"
+#include "geometry/images.h"
 
 namespace tailwater {
 template <int Dim>
@@ -21,7 +22,7 @@ std::vector<WallFace<Dim>> faces_with(const Boundary<Dim>& boundary, const std::
 
 template <int Dim>
 CellSpace<Dim>::CellSpace(const CaseSpec& spec, std::vector<WallFace<Dim>> faces, const Box<Dim>& water, double most)
-    : tolerance_(mesh_tolerance * spec.particles.spacing) {
+    : domain_(periodic_domain<Dim>(spec.domain)), tolerance_(mesh_tolerance * spec.particles.spacing) {
   const Box<Dim> box = water.merged(box_around(faces));
   low_ = box.min();
   const Vec<Dim> high = box.max();
@@ -95,6 +96,14 @@ std::optional<typename CellSpace<Dim>::Cell> CellSpace<Dim>::next(Cell c, int ax
 template <int Dim>
 void CellSpace<Dim>::set_faces(std::vector<WallFace<Dim>> faces) {
   faces_ = std::move(faces);
+  image_of_.clear();
+  const Box<Dim> space = space_around<Dim>(domain_, size_.maxCoeff());
+  for (int f = 0, count = static_cast<int>(faces_.size()); f < count; ++f) {
+    visit_images<Dim>(domain_, faces_[f].box(), space, [&](const Vec<Dim>& by) {
+      faces_.push_back(faces_[f].moved(by));
+      image_of_.push_back(f);
+    });
+  }
   const auto for_each_near = [&](auto&& visit) {
     for (std::size_t f = faces_.size(); f-- > 0;) {
       visit_around(faces_[f], faces_[f], [&](const Cell& c) { visit(index(c), static_cast<int>(f)); });
@@ -138,13 +147,13 @@ template <int Dim>
 int CellSpace<Dim>::face_at(const Cell& c) const {
   const Vec<Dim> x = centre(c);
   for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
-    if ((closest_point(faces_[near_list_[k]], x) - x).norm() <= tolerance_) return near_list_[k];
+    if ((closest_point(faces_[near_list_[k]], x) - x).norm() <= tolerance_) return drawn(near_list_[k]);
   }
   return -1;
 }
 
 template <int Dim>
-int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
+int CellSpace<Dim>::first_passed(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
   int first = -1;
   double least = std::numeric_limits<double>::infinity();  // fraction of the line before the first face
   for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
@@ -160,28 +169,34 @@ int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<
 }
 
 template <int Dim>
+int CellSpace<Dim>::face_between(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const {
+  const int first = first_passed(c, from, to);
+  return first < 0 ? first : drawn(first);
+}
+
+template <int Dim>
 int CellSpace<Dim>::face_beside(const Cell& c, int axis, int step) const {
   Cell beside = c;
-  beside[axis] += step;  // also beyond a periodic end: faces have no images
+  beside[axis] += step;  // also beyond a periodic end
   return face_between(c, centre(c), centre(beside));
 }
 
 template <int Dim>
 template <class Visit>
 void CellSpace<Dim>::visit_fronts_beside(const Cell& c, int axis, int step, Visit&& visit) const {
-  const int first = face_beside(c, axis, step);
-  if (first < 0) return;
   Cell beside = c;
   beside[axis] += step;
   const Vec<Dim> from = centre(c);
   const Vec<Dim> to = centre(beside);
+  const int first = first_passed(c, from, to);
+  if (first < 0) return;
   const auto share_to = [&](const WallFace<Dim>& face) {
     return face.height(from) / (face.height(from) - face.height(to));
   };
   const double nearest = share_to(faces_[first]) + corner_tolerance;
   for (std::size_t k = near_faces_[index(c)]; k < near_faces_[index(c) + 1]; ++k) {
     const WallFace<Dim>& face = faces_[near_list_[k]];
-    if (face.height(from) >= 0.0 && passes(face, from, to) && share_to(face) <= nearest) visit(near_list_[k]);
+    if (face.height(from) >= 0.0 && passes(face, from, to) && share_to(face) <= nearest) visit(drawn(near_list_[k]));
   }
 }
 

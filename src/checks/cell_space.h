@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/box.h"
@@ -44,7 +45,7 @@ class CellSpace {
   /// The neighbour of a cell; empty if it is outside all cells.
   std::optional<Cell> next(Cell c, int axis, int step) const;
 
-  const std::vector<WallFace<Dim>>& faces() const { return faces_; }
+  std::span<const WallFace<Dim>> faces() const { return std::span(faces_).first(faces_.size() - image_of_.size()); }
   /// Replaces the faces, as when walls have moved.
   void set_faces(std::vector<WallFace<Dim>> faces);
 
@@ -88,7 +89,17 @@ class CellSpace {
   }
 
  private:
-  std::vector<WallFace<Dim>> faces_;
+  /// The first of the faces and images that the line passes, as face_between.
+  int first_passed(const Cell& c, const Vec<Dim>& from, const Vec<Dim>& to) const;
+  /// The index of a face or, for an image, of the face of which it is one.
+  int drawn(int face) const {
+    const int image = face - static_cast<int>(faces().size());
+    return image < 0 ? face : image_of_[image];
+  }
+
+  PeriodicDomain<Dim> domain_;
+  std::vector<WallFace<Dim>> faces_;  ///< as given, then their images in other periods
+  std::vector<int> image_of_;         ///< for each image, the index of its face
   double tolerance_;
   Vec<Dim> low_, size_;
   Cell count_;

@@ -53,7 +53,7 @@ Findings check_place(const CaseSpec& spec, const Boundary<3>& boundary, int wall
   const Box<3> others = box_of_others(spec, boundary, wall, water);
   if (boundary.walls[wall].moves() || others.isEmpty()) return {};
   const CaseLabel label = wall_label(boundary, wall);
-  if (!own.intersects(others)) {
+  if (!own.intersects(Box<3>(others).widen(spec.particles.spacing))) {
     return {Finding::warning(
         "mesh-beside-water",
         {"{}: file {} reaches from {} to {}, and the water, the openings and all other walls from {} to {}, so it "

@@ -91,8 +91,7 @@ class FacesBehind {
     boundary.visit_plain_faces([&](int f) {
       faces_.push_back({f, boundary.faces[f], false});
       visit_images<Dim>(boundary.domain, boundary.faces[f].box(), space, [&](const Vec<Dim>& moved) {
-        faces_.push_back({f, boundary.faces[f], true});
-        for (Vec<Dim>& corner : faces_.back().face.corners) corner += moved;
+        faces_.push_back({f, boundary.faces[f].moved(moved), true});
       });
     });
     for (int k = 0; k < static_cast<int>(faces_.size()); ++k) {

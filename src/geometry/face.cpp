@@ -16,6 +16,13 @@ double WallFace<Dim>::measure() const {
 }
 
 template <int Dim>
+WallFace<Dim> WallFace<Dim>::moved(const Vec<Dim>& by) const {
+  WallFace face = *this;
+  for (Vec<Dim>& corner : face.corners) corner += by;
+  return face;
+}
+
+template <int Dim>
 Box<Dim> WallFace<Dim>::box() const {
   Box<Dim> box;
   for (const Vec<Dim>& corner : corners) box.extend(corner);

@@ -27,6 +27,7 @@ struct WallFace {
   double height(const Vec<Dim>& x) const { return normal.dot(x - corners[0]); }
   /// Length (2D, m) or area (3D, m^2).
   double measure() const;
+  WallFace moved(const Vec<Dim>& by) const;
   /// The axis-parallel box around the face.
   Box<Dim> box() const;
 };

@@ -23,6 +23,18 @@ Box<Dim> space_around(const PeriodicDomain<Dim>& domain, double margin) {
   return space;
 }
 
+/// The equivalent of `position` inside a periodic domain.
+template <int Dim>
+Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position) {
+  for (int d = 0; d < Dim; ++d) {
+    if (!domain[d]) continue;
+    const auto [low, high] = *domain[d];
+    const double length = high - low;
+    position[d] -= length * std::floor((position[d] - low) / length);
+  }
+  return position;
+}
+
 /// Whether `x` is within `tolerance` (m) of a plane between two periods.
 template <int Dim>
 bool is_in_periodic_plane(const PeriodicDomain<Dim>& domain, const Vec<Dim>& x, double tolerance) {

@@ -1,10 +1,10 @@
 #include "neighbours/halo.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/box.h"
 #include "base/for_each.h"
+#include "geometry/images.h"
 
 namespace tailwater {
 
@@ -55,17 +55,6 @@ void Halo<Dim>::exchange_positions(std::vector<Vec<Dim>>& position) const {
 }
 
 template <int Dim>
-Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position) {
-  for (int d = 0; d < Dim; ++d) {
-    if (!domain[d]) continue;
-    const auto [low, high] = *domain[d];
-    const double length = high - low;
-    position[d] -= length * std::floor((position[d] - low) / length);
-  }
-  return position;
-}
-
-template <int Dim>
 void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles) {
   if (std::ranges::none_of(domain, [](const auto& interval) { return interval.has_value(); })) return;
   for_each(particles.owned,
@@ -97,7 +86,6 @@ Halo<Dim> make_halo(const Communicator& ranks, const PeriodicDomain<Dim>& domain
 template struct Halo<2>;
 template struct Halo<3>;
 TAILWATER_IN_2D_AND_3D(image_shifts);
-TAILWATER_IN_2D_AND_3D(wrapped);
 TAILWATER_IN_2D_AND_3D(wrap_positions);
 TAILWATER_IN_2D_AND_3D(make_halo);
 

@@ -29,10 +29,6 @@ struct Halo {
 template <int Dim>
 std::vector<Vec<Dim>> image_shifts(const PeriodicDomain<Dim>& domain);
 
-/// The equivalent of `position` inside a periodic domain.
-template <int Dim>
-Vec<Dim> wrapped(const PeriodicDomain<Dim>& domain, Vec<Dim> position);
-
 /// Moves owned particles that left a periodic domain in again at its other end.
 template <int Dim>
 void wrap_positions(const PeriodicDomain<Dim>& domain, Particles<Dim>& particles);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "geometry/images.h"
 #include "neighbours/cell_grid.h"
 #include "neighbours/halo.h"
 #include "neighbours/pairs.h"

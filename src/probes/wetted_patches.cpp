@@ -1,6 +1,7 @@
 #include "probes/wetted_patches.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/for_each.h"
 #include "geometry/facing.h"
@@ -38,10 +39,11 @@ WettedPatches<Dim>::WettedPatches(const CaseSpec& spec, const Boundary<Dim>& bou
 template <int Dim>
 void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
   for (Others& other : others_) {
-    other.box = {};
+    other.around = {};
     for (const WallFace<Dim>& face : boundary.faces) {
-      if (face.wall == other.hull) other.box.extend(face.box());
+      if (other.walls[face.wall] != 0) other.around.extend(face.box());
     }
+    other.around.widen(other.hull < 0 ? 2.0 * reach_ : longest_patch_edge * spacing_);
   }
   centres_.resize(patches.size());
   share_.assign(patches.size(), 1.0);
@@ -61,12 +63,29 @@ bool WettedPatches<Dim>::is_under_wall(const Boundary<Dim>& boundary, std::span<
                                        std::size_t k) const {
   const WallFace<Dim>& own = boundary.faces[patches[k].face];
   bool found = false;
-  grid_.for_each_near(centres_[k], [&](std::int32_t m) {
-    const WallFace<Dim>& other = boundary.faces[patches[m].face];
-    if (found || other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) return;
-    found = (closest_point(other, centres_[k]) - centres_[k]).norm() < reach_of_cover * spacing_;
+  visit_images_of(centres_[k], [&](const Vec<Dim>& x) {
+    grid_.for_each_near(x, [&](std::int32_t m) {
+      const WallFace<Dim>& other = boundary.faces[patches[m].face];
+      if (found || other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) return;
+      found = (closest_point(other, x) - x).norm() < reach_of_cover * spacing_;
+    });
   });
   return found;
+}
+
+/// The wall of `others` nearest to x or to an image of it; none if they do not matter.
+template <int Dim>
+NearestWall<Dim> WettedPatches<Dim>::nearest(const Boundary<Dim>& boundary, const Others& others,
+                                             const Vec<Dim>& x) const {
+  NearestWall<Dim> nearest;
+  const auto look_from = [&](const Vec<Dim>& from) {
+    const NearestWall<Dim> seen = nearest_among<Dim>(boundary, others.walls, from, 2.0 * reach_);
+    const bool is_nearer = nearest.face < 0 || std::abs(seen.signed_distance) < std::abs(nearest.signed_distance);
+    if (seen.face >= 0 && is_nearer) nearest = seen;
+  };
+  if (others.around.contains(x)) look_from(x);
+  visit_images<Dim>(domain_, Box<Dim>(x), others.around, [&](const Vec<Dim>& by) { look_from(x + by); });
+  return nearest;
 }
 
 template <int Dim>
@@ -74,24 +93,20 @@ void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatc
   const int wall = boundary.faces[patch.face].wall;
   const Vec<Dim> centre = patch.centre(boundary);
   centres_[k] = centre;
-  const double reach = 2.0 * reach_;
   const double size = longest_patch_edge * spacing_;
   std::vector<const Others*> cutting;
   for (const Others& other : others_) {
     const bool is_alone = other.hull < 0 ? is_hull_[wall] == 0 : other.hull == wall;
     if (is_alone) continue;
-    Box<Dim> around = other.box;
-    around.widen(size);
-    if (other.hull >= 0 && !around.contains(centre)) continue;
-    const NearestWall<Dim> nearest = nearest_among<Dim>(boundary, other.walls, centre, reach);
-    if (nearest.face < 0 || nearest.signed_distance > size) continue;
-    if (nearest.signed_distance < -size) share_[k] = 0.0;
+    const NearestWall<Dim> wall_there = nearest(boundary, other, centre);
+    if (wall_there.face < 0 || wall_there.signed_distance > size) continue;
+    if (wall_there.signed_distance < -size) share_[k] = 0.0;
     cutting.push_back(&other);
   }
   if (cutting.empty() || share_[k] == 0.0) return;
   const auto is_behind = [&](const Vec<Dim>& x) {
     return std::ranges::any_of(cutting, [&](const Others* other) {
-      return nearest_among<Dim>(boundary, other->walls, x, reach).signed_distance < -reach_of_cover * spacing_;
+      return nearest(boundary, *other, x).signed_distance < -reach_of_cover * spacing_;
     });
   };
   double wet = 0.0;

@@ -22,7 +22,7 @@ class WettedPatches {
   /// twice as far behind other walls may count as wet.
   WettedPatches(const CaseSpec& spec, const Boundary<Dim>& boundary, double spacing, double reach);
 
-  /// Determines the parts at the present places of the faces.
+  /// Determines the parts at the present places of the faces. A moving hull may have left the domain at a periodic end.
   void place(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches);
 
   /// m; of the wet part of each patch, or of a dry patch.
@@ -51,8 +51,10 @@ class WettedPatches {
   struct Others {
     int hull;                         ///< index into Boundary::walls, or -1
     std::vector<std::uint8_t> walls;  ///< by wall, whether it belongs to them
-    Box<Dim> box = {};                ///< around the hull
+    Box<Dim> around = {};             ///< contains all places whose distance from them matters
   };
+
+  NearestWall<Dim> nearest(const Boundary<Dim>& boundary, const Others& others, const Vec<Dim>& x) const;
 
   void find_part(const Boundary<Dim>& boundary, const WallPatch<Dim>& patch, std::size_t k);
   bool is_under_wall(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches, std::size_t k) const;

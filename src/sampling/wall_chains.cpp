@@ -1,10 +1,11 @@
 // Wall particles in 2D. The faces form chains. A chain is cut into runs at its sharp corners. Each row of particles
 // follows the runs at its own distance behind the wall; its corners are the intersections of the shifted faces
-// (mitres).
+// (mitres). A wall that goes on in the next period is joined to itself, and cut into runs there.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "sampling/wall_layers.h"
 
@@ -16,9 +17,18 @@ constexpr double min_distance_to_tip = 0.3;  // dx, for the particles in the tip
 constexpr double sharp_turn_cosine = 0.866;  // a corner that turns by more than 30 degrees gets a particle of its own
 constexpr double folded_back_cosine = -0.9;  // faces that turn by more than 154 degrees have no useful mitre
 
-/// The joints between the faces of a 2D boundary at shared corners: -1 for a face with a free end.
+/// The joint of a face to the next one, or to an image of it.
+struct Joint {
+  int face = -1;                  ///< -1: the end is free
+  Vec<2> moved = Vec<2>::Zero();  ///< m; of the next face to the period of this one
+
+  bool exists() const { return face >= 0; }
+  bool is_between_periods() const { return !moved.isZero(0.0); }
+};
+
+/// The joints between the faces of a 2D boundary at shared corners.
 struct Joints {
-  std::vector<int> next, previous;
+  std::vector<Joint> next, previous;
   std::vector<int> chain;  ///< index of the connected chain of each face
 };
 
@@ -30,70 +40,85 @@ Joints join_faces(const Boundary<2>& boundary, double tolerance) {
   struct Candidate {
     double fluid_angle;
     int from, to;
+    Vec<2> moved;
   };
   std::vector<Candidate> candidates;
+  const auto consider = [&](int i, int j, const Vec<2>& moved) {
+    const Vec<2>& n = faces[i].normal;
+    const Vec<2>& m = faces[j].normal;
+    const double turn_cosine = n.dot(m);
+    const bool meet = (faces[i].corners[1] - faces[j].corners[0] - moved).norm() <= tolerance;
+    if (!meet || turn_cosine <= folded_back_cosine) return;
+    const double left_turn = std::atan2(n[0] * m[1] - n[1] * m[0], turn_cosine);
+    candidates.push_back({std::numbers::pi - left_turn, i, j, moved});
+  };
   for (int i = 0; i < count; ++i) {
+    Box<2> around(faces[i].corners[1]);
+    around.widen(tolerance);
     for (int j = 0; j < count; ++j) {
-      const double turn_cosine = faces[i].normal.dot(faces[j].normal);
-      if (i != j && turn_cosine > folded_back_cosine &&
-          (faces[i].corners[1] - faces[j].corners[0]).norm() <= tolerance) {
-        const Vec<2>& n = faces[i].normal;
-        const Vec<2>& m = faces[j].normal;
-        const double left_turn = std::atan2(n[0] * m[1] - n[1] * m[0], turn_cosine);
-        candidates.push_back({std::numbers::pi - left_turn, i, j});
-      }
+      if (i != j) consider(i, j, Vec<2>::Zero());
+      visit_images<2>(boundary.domain, Box<2>(faces[j].corners[0]), around,
+                      [&](const Vec<2>& moved) { consider(i, j, moved); });
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.fluid_angle < b.fluid_angle; });
-  Joints joints{std::vector<int>(count, -1), std::vector<int>(count, -1), std::vector<int>(count, -1)};
+  Joints joints{std::vector<Joint>(count), std::vector<Joint>(count), std::vector<int>(count, -1)};
   for (const Candidate& c : candidates) {
-    if (joints.next[c.from] < 0 && joints.previous[c.to] < 0) {
-      joints.next[c.from] = c.to;
-      joints.previous[c.to] = c.from;
+    if (!joints.next[c.from].exists() && !joints.previous[c.to].exists()) {
+      joints.next[c.from] = {c.to, c.moved};
+      joints.previous[c.to] = {c.from, -c.moved};
     }
   }
   int chains = 0;
   for (int f = 0; f < count; ++f) {
     if (joints.chain[f] < 0) {
-      for (int g = f; g >= 0 && joints.chain[g] < 0; g = joints.next[g]) joints.chain[g] = chains;
-      for (int g = joints.previous[f]; g >= 0 && joints.chain[g] < 0; g = joints.previous[g]) joints.chain[g] = chains;
+      for (int g = f; g >= 0 && joints.chain[g] < 0; g = joints.next[g].face) joints.chain[g] = chains;
+      for (int g = joints.previous[f].face; g >= 0 && joints.chain[g] < 0; g = joints.previous[g].face) {
+        joints.chain[g] = chains;
+      }
       ++chains;
     }
   }
   return joints;
 }
 
-bool is_sharp(const Boundary<2>& boundary, int from, int to) {
-  return boundary.faces[from].normal.dot(boundary.faces[to].normal) < sharp_turn_cosine;
-}
+bool is_sharp(const WallFace<2>& from, const WallFace<2>& to) { return from.normal.dot(to.normal) < sharp_turn_cosine; }
 
-/// A run: faces joined without a sharp corner. It ends at sharp corners or free ends; a smooth closed curve has none.
+/// A run: faces joined without a sharp corner. It ends at sharp corners, between periods or at free ends; a smooth
+/// closed curve has none.
 struct Run {
   std::vector<int> faces;
-  int before = -1;  ///< face across the sharp corner at its start; -1: a free end
-  int after = -1;
+  std::optional<WallFace<2>> before = {};  ///< the face joined to its start, where it is in this period; free without
+  std::optional<WallFace<2>> after = {};   ///< likewise at its end
   bool is_closed = false;
 };
 
 std::vector<Run> make_runs(const Boundary<2>& boundary, const Joints& joints) {
-  const int count = static_cast<int>(boundary.faces.size());
+  const std::vector<WallFace<2>>& faces = boundary.faces;
+  const int count = static_cast<int>(faces.size());
+  const auto beside = [&](const Joint& joint) {
+    return joint.exists() ? std::optional(faces[joint.face].moved(joint.moved)) : std::nullopt;
+  };
+  // Whether a run ends where a face is joined to the next one.
+  const auto divides = [&](int from, const Joint& joint) {
+    return !joint.exists() || joint.is_between_periods() || is_sharp(faces[from], faces[joint.face]);
+  };
   std::vector<bool> is_taken(count, false);
   std::vector<Run> runs;
   const auto follow = [&](int first) {
     Run run;
-    run.before = joints.previous[first];
-    for (int f = first;;) {
+    run.before = beside(joints.previous[first]);
+    for (int f = first;; f = joints.next[f].face) {
       run.faces.push_back(f);
       is_taken[f] = true;
-      run.after = joints.next[f];
-      if (run.after < 0 || is_taken[run.after] || is_sharp(boundary, f, run.after)) break;
-      f = run.after;
+      if (divides(f, joints.next[f]) || is_taken[joints.next[f].face]) break;
     }
+    run.after = beside(joints.next[run.faces.back()]);
     return run;
   };
   for (int f = 0; f < count; ++f) {
-    if (joints.previous[f] < 0 || is_sharp(boundary, joints.previous[f], f)) runs.push_back(follow(f));
+    if (divides(f, joints.previous[f])) runs.push_back(follow(f));
   }
   for (int f = 0; f < count; ++f) {
     if (!is_taken[f]) {
@@ -115,30 +140,29 @@ struct RowOfPlaces {
   double share;  ///< volume of their particles, over dx^2
 };
 
-/// The row at the distance `depth` behind a run; its last point is `free_end` steps from a free end. A sharp corner
-/// belongs to the run that starts there.
+/// The row at the distance `depth` behind a run; its last point is `free_end` steps from a free end, and from a plane
+/// between two periods where the wall goes on without a sharp corner. Such a corner belongs to the run that starts
+/// there.
 RowOfPlaces place_row(const Boundary<2>& boundary, const Run& run, double depth, double spacing, double free_end) {
   const auto face = [&](int f) -> const WallFace<2>& { return boundary.faces[f]; };
   const WallFace<2>& first = face(run.faces.front());
   const WallFace<2>& last = face(run.faces.back());
   std::vector<Vec<2>> corners;
-  corners.push_back(run.before < 0 ? Vec<2>(first.corners[0] - depth * first.normal)
-                                   : mitre(face(run.before), first, depth));
+  corners.push_back(run.before ? mitre(*run.before, first, depth) : Vec<2>(first.corners[0] - depth * first.normal));
   for (std::size_t k = 1; k < run.faces.size(); ++k) {
     corners.push_back(mitre(face(run.faces[k - 1]), face(run.faces[k]), depth));
   }
-  corners.push_back(run.after < 0 ? Vec<2>(last.corners[1] - depth * last.normal)
-                                  : mitre(last, face(run.after), depth));
+  corners.push_back(run.after ? mitre(last, *run.after, depth) : Vec<2>(last.corners[1] - depth * last.normal));
   std::vector<double> along{0.0};
   for (std::size_t k = 1; k < corners.size(); ++k) along.push_back(along.back() + (corners[k] - corners[k - 1]).norm());
 
   // Distances of the first and last point from the run's ends, in steps.
-  const double head = run.is_closed ? 0.5 : run.before < 0 ? free_end : 0.0;
-  const double tail = run.is_closed ? 0.5 : run.after < 0 ? free_end : 0.0;
+  const double head = run.is_closed ? 0.5 : run.before && is_sharp(*run.before, first) ? 0.0 : free_end;
+  const double tail = run.is_closed ? 0.5 : run.after && is_sharp(last, *run.after) ? 0.0 : free_end;
   const int steps =
       std::max(head + tail > 0.0 ? 0 : 1, static_cast<int>(std::lround(along.back() / spacing - head - tail)));
   const double step = along.back() / (steps + head + tail);
-  const bool leaves_out_last = run.after >= 0 && !run.is_closed;
+  const bool leaves_out_last = run.after && tail == 0.0;
 
   // In shorter runs some points are too close together to be kept; the remaining ones keep the full volume.
   const bool is_regular = steps + head + tail >= 2.0;
@@ -160,9 +184,10 @@ RowOfPlaces place_row(const Boundary<2>& boundary, const Run& run, double depth,
 void fill_tips(const Boundary<2>& body, const Joints& joints, const WallLayers& layers,
                WallParticleCollector<2>& collector) {
   for (std::size_t f = 0; f < body.faces.size(); ++f) {
-    if (joints.next[f] < 0) continue;
+    const Joint& joint = joints.next[f];
+    if (!joint.exists()) continue;
     const WallFace<2>& from = body.faces[f];
-    const WallFace<2>& to = body.faces[joints.next[f]];
+    const WallFace<2> to = body.faces[joint.face].moved(joint.moved);
     const bool is_convex = from.normal[0] * to.normal[1] - from.normal[1] * to.normal[0] < 0.0;
     if (!is_convex || from.normal.dot(to.normal) > -corner_tolerance) continue;
     const Vec<2> tip = from.corners[1];
@@ -174,30 +199,34 @@ void fill_tips(const Boundary<2>& body, const Joints& joints, const WallLayers& 
   }
 }
 
-/// The faces of each chain.
-std::vector<std::vector<int>> faces_by_chain(const Joints& joints) {
-  std::vector<std::vector<int>> chains;
+/// The faces of each chain, and their images within `margin` (m) of the domain.
+std::vector<std::vector<WallFace<2>>> faces_by_chain(const Boundary<2>& body, const Joints& joints, double margin) {
+  const Box<2> space = space_around<2>(body.domain, margin);
+  std::vector<std::vector<WallFace<2>>> chains;
   for (std::size_t f = 0; f < joints.chain.size(); ++f) {
     chains.resize(std::max<std::size_t>(chains.size(), joints.chain[f] + 1));
-    chains[joints.chain[f]].push_back(static_cast<int>(f));
+    std::vector<WallFace<2>>& chain = chains[joints.chain[f]];
+    chain.push_back(body.faces[f]);
+    visit_images<2>(body.domain, body.faces[f].box(), space,
+                    [&](const Vec<2>& by) { chain.push_back(body.faces[f].moved(by)); });
   }
   return chains;
 }
 
 /// The wall place at `x`: the nearest point of the chain, and the normals of all faces of the chain at that distance.
-WallPlace<2> place_behind(const Boundary<2>& body, const std::vector<int>& chain, const Vec<2>& x, double tolerance) {
+WallPlace<2> place_behind(const std::vector<WallFace<2>>& chain, const Vec<2>& x, double tolerance) {
   WallPlace<2> place{x, x, {}, -1};
   double nearest = std::numeric_limits<double>::max();
-  for (const int f : chain) {
-    const Vec<2> point = closest_point(body.faces[f], x);
+  for (const WallFace<2>& face : chain) {
+    const Vec<2> point = closest_point(face, x);
     const double distance = (x - point).norm();
     if (distance < nearest - tolerance) {
       nearest = distance;
       place.foot = point;
       place.normals.clear();
-      place.wall = body.faces[f].wall;
+      place.wall = face.wall;
     }
-    if (distance <= nearest + tolerance) place.normals.push_back(body.faces[f].normal);
+    if (distance <= nearest + tolerance) place.normals.push_back(face.normal);
   }
   return place;
 }
@@ -209,7 +238,7 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
   const double farthest = farthest_share * layers.count * layers.spacing;
   const double free_end = layers.starts_on_wall ? 0.0 : 0.5;
   const Joints joints = join_faces(body, tolerance);
-  const std::vector<std::vector<int>> chains = faces_by_chain(joints);
+  const std::vector<std::vector<WallFace<2>>> chains = faces_by_chain(body, joints, 2.0 * farthest);
   const std::vector<Run> runs = make_runs(body, joints);
   WallParticleCollector<2> collector(body, layers);
   if (!layers.starts_on_wall) fill_tips(body, joints, layers, collector);
@@ -219,7 +248,7 @@ WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers
       const int chain = joints.chain[run.faces.front()];
       const RowOfPlaces row = place_row(body, run, depth, layers.spacing, free_end);
       for (const Vec<2>& x : row.places) {
-        WallPlace<2> place = place_behind(body, chains[chain], x, tolerance);
+        WallPlace<2> place = place_behind(chains[chain], x, tolerance);
         place.share = row.share;
         // The row folds over itself inside a convex corner. Points there are nearer to the chain than the row is.
         const double distance = (x - place.foot).norm();

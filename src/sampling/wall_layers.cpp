@@ -77,12 +77,27 @@ WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, con
       reach_(layers.starts_on_wall ? 0.0 : layers.count * layers.spacing),
       taken_((min_separation - corner_tolerance) * layers.spacing),
       plain_(reach_over_depth * layers.count * layers.spacing) {
+  const Box<Dim> space = space_around<Dim>(body.domain, plain_.reach());
   body.visit_plain_faces([&](int f) {
-    const WallFace<Dim>& face = body.faces[f];
-    const Box<Dim> box = face.box();
-    plain_.add(f, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
-    all_plain_.push_back(f);
+    const WallFace<Dim>& drawn = body.faces[f];
+    plain_faces_.push_back({f, drawn});
+    visit_images<Dim>(body.domain, drawn.box(), space, [&](const Vec<Dim>& by) {
+      plain_faces_.push_back({f, drawn.moved(by)});
+    });
   });
+  for (int k = 0; k < static_cast<int>(plain_faces_.size()); ++k) {
+    const WallFace<Dim>& face = plain_faces_[k].face;
+    const Box<Dim> box = face.box();
+    plain_.add(k, box.min(), box.max(), [&](const Vec<Dim>& x) { return (closest_point(face, x) - x).norm(); });
+    all_plain_.push_back(k);
+  }
+}
+
+template <int Dim>
+void WallParticleCollector<Dim>::take(const Vec<Dim>& x) {
+  taken_.add(x);
+  visit_images<Dim>(body_.domain, Box<Dim>(x), space_around<Dim>(body_.domain, seam_),
+                    [&](const Vec<Dim>& by) { taken_.add(x + by); });
 }
 
 template <int Dim>
@@ -117,7 +132,7 @@ std::vector<WallFace<Dim>> WallParticleCollector<Dim>::faces_in_front_of(const W
     const double distance = (closest_point(face, x) - x).norm();
     if (distance < reach_) found.emplace_back(distance, face);
   };
-  for (const int f : faces_between(place)) look_at(body_.faces[f]);
+  for (const int f : faces_between(place)) look_at(plain_faces_[f].face);
   if constexpr (Dim == 3) {
     const Vec<3> around = Vec<3>::Constant(reach_);
     for (const WallMesh& mesh : body_.meshes) {
@@ -136,7 +151,7 @@ bool WallParticleCollector<Dim>::sees(const WallPlace<Dim>& place, const WallFac
   WallPlace<Dim> through = place;
   through.foot = closest_point(face, place.stands_at());
   return !is_behind_mesh(through, nullptr) && std::ranges::none_of(faces_between(place), [&](int f) {
-    return crosses(body_.faces[f], place.stands_at(), through.foot, tolerance_);
+    return crosses(plain_faces_[f].face, place.stands_at(), through.foot, tolerance_);
   });
 }
 
@@ -148,11 +163,12 @@ bool WallParticleCollector<Dim>::has_edge_between(const Vec<Dim>& x, const WallF
   const int looks = static_cast<int>(std::ceil(offset.norm() / look_distance_));
   Vec<Dim> normal = a.normal;
   for (int look = 1; look <= looks; ++look) {
-    const int f = body_.nearest(from + static_cast<double>(look) / looks * offset, reach_).face;
+    const Vec<Dim> there = from + static_cast<double>(look) / looks * offset;
+    const int f = body_.nearest(wrapped<Dim>(body_.domain, there), reach_).face;
     if (f < 0 || body_.faces[f].normal.dot(normal) < edge_cosine) return true;
     normal = body_.faces[f].normal;
   }
-  return false;
+  return b.normal.dot(normal) < edge_cosine;  // at a corner the nearest face may be the one before it
 }
 
 template <int Dim>
@@ -182,8 +198,8 @@ Mat<Dim> WallParticleCollector<Dim>::normals_beyond_edges(const WallPlace<Dim>& 
 
 template <int Dim>
 void WallParticleCollector<Dim>::keep(const WallPlace<Dim>& place, std::int64_t number) {
-  taken_.add(place.position);
-  if (!share_.holds(place.position)) return;
+  take(place.position);
+  if (!share_.holds(wrapped<Dim>(body_.domain, place.position))) return;
   Vec<Dim> sum = Vec<Dim>::Zero();
   for (const Vec<Dim>& n : place.normals) sum += n;
   particles_.position.push_back(place.stands_at());

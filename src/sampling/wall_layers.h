@@ -11,6 +11,7 @@
 
 #include "geometry/boundary.h"
 #include "geometry/face_grid.h"
+#include "geometry/images.h"
 #include "geometry/point_grid.h"
 #include "sampling/wall_particles.h"
 
@@ -63,12 +64,12 @@ class WallParticleCollector {
   std::int64_t take_number() { return particles_.numbers++; }
 
   /// Whether a place is in the requested part of space, or in its seam.
-  bool wants(const Vec<Dim>& x) const { return share_.is_near(x, seam_); }
+  bool wants(const Vec<Dim>& x) const { return share_.is_near(wrapped<Dim>(body_.domain, x), seam_); }
 
   /// Keeps the place if no other particle is near.
   void add(const WallPlace<Dim>& place) {
     const std::int64_t number = take_number();
-    if (wants(place.position) && !taken_.has_near(place.position)) keep(place, number);
+    if (wants(place.position) && is_free(place.position)) keep(place, number);
   }
 
   /// Keeps the place if no other particle is near and no face of another wall lies between the place and its foot.
@@ -83,10 +84,11 @@ class WallParticleCollector {
   template <class IsOwn>
   void add_unless_behind_another(const WallPlace<Dim>& place, std::int64_t number, IsOwn&& is_own,
                                  const WallMesh* own_mesh = nullptr) {
-    if (taken_.has_near(place.position)) return;
+    if (!is_free(place.position)) return;
     const auto hides = [&](int f) {
-      return !is_own(f) && crosses(body_.faces[f], place.stands_at(), place.foot, tolerance_) &&
-             !crosses_own_wall(place, body_.faces[f].wall);
+      const auto& [drawn, face] = plain_faces_[f];
+      return !is_own(drawn) && crosses(face, place.stands_at(), place.foot, tolerance_) &&
+             !crosses_own_wall(place, face.wall);
     };
     if (!is_behind_mesh(place, own_mesh) && std::ranges::none_of(faces_between(place), hides)) keep(place, number);
   }
@@ -97,7 +99,16 @@ class WallParticleCollector {
   WallParticles<Dim> particles() && { return std::move(particles_); }
 
  private:
-  /// The faces outside meshes that may lie between a place and its foot.
+  /// A face that belongs to no mesh, or its image in another period.
+  struct PlainFace {
+    int drawn;  ///< index into Boundary::faces
+    WallFace<Dim> face;
+  };
+
+  bool is_free(const Vec<Dim>& x) const { return !taken_.has_near(x); }
+  /// Marks a place and its images as taken.
+  void take(const Vec<Dim>& x);
+  /// Indices of the plain faces that may lie between a place and its foot.
   std::span<const int> faces_between(const WallPlace<Dim>& place) const {
     return (place.stands_at() - place.foot).norm() <= plain_.reach() ? plain_.near(place.foot) : all_plain_;
   }
@@ -122,8 +133,9 @@ class WallParticleCollector {
   double look_distance_;  ///< m
   double reach_;          ///< m; distance up to which dummies interact with water
   PointGrid<Dim> taken_;
-  FaceGrid<Dim> plain_;         ///< faces that belong to no mesh
-  std::vector<int> all_plain_;  ///< indices of all faces of `plain_`
+  std::vector<PlainFace> plain_faces_;  ///< with their images near the domain
+  FaceGrid<Dim> plain_;                 ///< `plain_faces_` by place
+  std::vector<int> all_plain_;          ///< all indices of `plain_faces_`
   WallParticles<Dim> particles_;
 };
 
@@ -137,8 +149,9 @@ std::vector<WallParticles<2>> sample_beyond_ends(const Boundary<2>& boundary, co
 /// 3D: axis-parallel boxes (wall_boxes.cpp).
 void sample_boxes(const Boundary<3>& body, const WallLayers& layers, WallParticleCollector<3>& collector);
 
-/// 3D: meshes (wall_meshes.cpp), on the nodes of a lattice. Throws InputError if the layers start on the wall.
-void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice,
+/// 3D: the first `count` meshes (wall_meshes.cpp), on the nodes of a lattice. Throws InputError if the layers start on
+/// the wall.
+void sample_meshes(const Boundary<3>& body, int count, const WallLayers& layers, const Lattice<3>& lattice,
                    WallParticleCollector<3>& collector);
 
 /// Plates (wall_plates.cpp), one part per side. The particles of both sides of a plate overlap in space, on both of its

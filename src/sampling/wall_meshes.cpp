@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,12 +59,14 @@ class SpaceBehind {
   const WallMesh& mesh() const { return mesh_; }
   const Vec<3>& normal_of(int face) const { return body_.faces[face].normal; }
 
-  /// Whether `x`, whose nearest place of the mesh is `place`, is beside the rim and not behind the mesh.
+  /// Whether `x`, whose nearest place of the mesh is `place`, is beside the rim and not behind the mesh, or is nearer
+  /// to a mesh that begins there.
   bool is_beyond_rim(const Vec<3>& x, const SurfacePlace& place) const {
     if (!place.is_on_rim) return false;
     if (ends_at_plate(mesh_, place)) return true;
     const Vec<3> normal = mesh_.surface->mesh().area_normal(place.triangle).normalized();
-    return normal.dot(x - place.point) > min_behind * place.signed_distance || is_before_another(x, place);
+    if (normal.dot(x - place.point) > min_behind * place.signed_distance) return true;
+    return is_nearer_to_next(x, place) || is_before_another(x, place);
   }
 
   /// Another open mesh within `distance` of `x` that begins at the rim of this one and leads backwards, so that the two
@@ -94,10 +97,17 @@ class SpaceBehind {
     return false;
   }
 
+  /// Whether an open mesh that begins at the rim is nearer to `x`.
+  bool is_nearer_to_next(const Vec<3>& x, const SurfacePlace& place) const {
+    const double distance = (x - place.point).norm();
+    return is_met_ && nearest_among<3>(body_, meets_rim_, x, (1.0 - corner_tolerance) * distance).face >= 0;
+  }
+
   /// Whether another wall begins at the rim, such as that of a pipe behind a hole, and `x` is in front of it.
   bool is_before_another(const Vec<3>& x, const SurfacePlace& place) const {
     const NearestWall<3> other = nearest_among<3>(body_, is_other_, x, (x - place.point).norm() + gap_);
-    return other.face >= 0 && other.signed_distance > 0.0;
+    // In the plane of its rim a place has no side.
+    return other.signed_distance > 0.0 && body_.faces[other.face].height(x) > corner_tolerance * gap_;
   }
 
   const Boundary<3>& body_;
@@ -194,8 +204,9 @@ void sample_beyond_rim(const WallMesh& mesh, const WallLayers& layers, const Lat
 
 }  // namespace
 
-void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice,
+void sample_meshes(const Boundary<3>& body, int count, const WallLayers& layers, const Lattice<3>& lattice,
                    WallParticleCollector<3>& collector) {
+  const std::span<const WallMesh> meshes(body.meshes.data(), static_cast<std::size_t>(count));
   if (layers.starts_on_wall && !body.meshes.empty()) {
     throw CaseError(
         "mesh-needs-robust",
@@ -204,7 +215,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
   }
   std::vector<Proposal> proposals;
   PointGrid<3> cells(corner_tolerance * layers.spacing);  // of the proposals
-  for (const WallMesh& mesh : body.meshes) {
+  for (const WallMesh& mesh : meshes) {
     const MeshSurface& surface = *mesh.surface;
     const SpaceBehind space(body, mesh, layers.spacing);
     const auto propose = [&](const Vec<3>& x, const SurfacePlace& place) {
@@ -243,7 +254,7 @@ void sample_meshes(const Boundary<3>& body, const WallLayers& layers, const Latt
     collector.add_unless_behind_another(
         proposal.place, proposal.number, [](int) { return false; }, proposal.mesh);
   }
-  for (const WallMesh& mesh : body.meshes) sample_beyond_rim(mesh, layers, lattice, collector);
+  for (const WallMesh& mesh : meshes) sample_beyond_rim(mesh, layers, lattice, collector);
 }
 
 }  // namespace tailwater

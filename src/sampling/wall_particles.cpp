@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/rotation.h"
+#include "sampling/lone_body.h"
 #include "sampling/wall_layers.h"
 
 namespace tailwater {
@@ -16,17 +17,6 @@ namespace {
 constexpr double reach_to_wall = 8.0;
 /// Fraction of half a cell. A plate that cuts off less than this does not divide the cell.
 constexpr double min_part = 0.05;
-
-// The functions that sample the walls in each dimension.
-WallParticles<2> sample(const Boundary<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
-  return sample_chains(body, layers);
-}
-WallParticles<3> sample(const Boundary<3>& body, const WallLayers& layers, const Lattice<3>& lattice) {
-  WallParticleCollector<3> collector(body, layers);
-  sample_boxes(body, layers, collector);
-  sample_meshes(body, layers, lattice, collector);
-  return std::move(collector).particles();
-}
 
 /// Appends `part` to `all`. Earlier parts have taken `on_wall` of the numbers for particles on the wall, and `behind`
 /// of those for particles behind it.
@@ -67,25 +57,15 @@ WallParticles<Dim> joined(std::vector<WallParticles<Dim>> parts) {
   return all;
 }
 
-/// A body with its own faces only, without plates.
-template <int Dim>
-Boundary<Dim> body_alone(const Boundary<Dim>& boundary, int body) {
-  Boundary<Dim> alone;
-  alone.walls = boundary.walls;
-  std::ranges::copy_if(boundary.meshes, std::back_inserter(alone.meshes),
-                       [&](const WallMesh& mesh) { return boundary.walls[mesh.wall].body == body; });
-  // Meshes come first, because their faces must stay consecutive.
-  for (WallMesh& mesh : alone.meshes) {
-    const auto from = boundary.faces.begin();
-    const int first = static_cast<int>(alone.faces.size());
-    alone.faces.insert(alone.faces.end(), from + mesh.first_face, from + mesh.end_face());
-    mesh.first_face = first;
-  }
-  boundary.visit_plain_faces([&](int f) {
-    const WallProperties& wall = boundary.walls[boundary.faces[f].wall];
-    if (wall.body == body && !wall.is_plate) alone.faces.push_back(boundary.faces[f]);
-  });
-  return alone;
+// The functions that sample a body in each dimension.
+WallParticles<2> sample(const LoneBody<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
+  return sample_chains(body.boundary, layers);
+}
+WallParticles<3> sample(const LoneBody<3>& body, const WallLayers& layers, const Lattice<3>& lattice) {
+  WallParticleCollector<3> collector(body.boundary, layers);
+  sample_boxes(body.boundary, layers, collector);
+  sample_meshes(body.boundary, body.meshes, layers, lattice, collector);
+  return std::move(collector).particles();
 }
 
 /// Samples each body as if it were alone, because bodies separate.
@@ -95,7 +75,8 @@ WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers
   for (const WallProperties& wall : boundary.walls) bodies.insert(wall.body);
   std::vector<WallParticles<Dim>> parts;
   for (const int body : bodies)
-    parts.push_back(sample(body_alone(boundary, body), layers.of_wall(body != resting_body), lattice));
+    parts.push_back(sample(body_alone(boundary, body, reach_to_wall * layers.spacing),
+                           layers.of_wall(body != resting_body), lattice));
   for (WallParticles<Dim>& side : sample_plates<Dim>(boundary, layers, lattice)) parts.push_back(std::move(side));
   if constexpr (Dim == 2) {
     // Plates and free ends have no particles on the wall itself.
@@ -192,10 +173,10 @@ WallParticles<Dim> sample_on_lattice(const Boundary<Dim>& boundary, const WallLa
     std::set<int> bodies;
     for (const WallMesh& mesh : boundary.meshes) bodies.insert(boundary.walls[mesh.wall].body);
     for (const int body : bodies) {
-      const Boundary<3> alone = body_alone(boundary, body);
+      const LoneBody<3> alone = body_alone(boundary, body, reach_to_wall * layers.spacing);
       const WallLayers of_body = layers.of_wall(body != resting_body);
-      WallParticleCollector<3> collector(alone, of_body);
-      sample_meshes(alone, of_body, lattice, collector);
+      WallParticleCollector<3> collector(alone.boundary, of_body);
+      sample_meshes(alone.boundary, alone.meshes, of_body, lattice, collector);
       parts.push_back(std::move(collector).particles());
     }
     Boundary<3> sheets = boundary;

@@ -611,6 +611,17 @@ TEST(Check, AWallAtAPeriodicBoundary) {
   EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
 }
 
+// Water meets the face from the next period.
+TEST(Check, ABlockWithAFaceInAPeriodicBoundary) {
+  CaseSpec spec = empty_case(0.1);
+  spec.domain.periodic_x = {0.0, 2.0};
+  spec.walls = {polyline({{0, 0}, {2, 0}}), box_wall({0, 0}, {0.6, 0.8}, {}, FluidSide::outside)};
+  spec.fluid = {box_fluid({0.6, 0}, {2, 0.6})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.walls[1].open = {"-x"};
+  expect_among(check(spec), Severity::error, {"the water can reach the back of wall 'wall2'"});
+}
+
 // Its wall particles would be wrapped into one period, hundreds on top of each other.
 TEST(Check, AWallLongerThanThePeriod) {
   CaseSpec spec = empty_case(0.1);

@@ -137,12 +137,15 @@ TEST(CheckMeshes, AMeshAroundAnOpeningIsNotBesideTheRest) {
   for (int k = 0; k < 4; ++k) add_quad(plane, k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4);
   CaseSpec spec = empty_case(0.1, 3);
   spec.walls = {folder.wall(plane, FluidSide::front)};
-  spec.fluid = {box_fluid({0.0, -0.2, -0.2}, {0.4, 0.2, 0.2})};
+  spec.fluid = {box_fluid({0.2, -0.2, -0.2}, {0.4, 0.2, 0.2})};
   const auto count = [&] {
     const Boundary<3> boundary = make_boundary<3>(spec);
     return check_meshes(spec, boundary, make_fluid_particles(spec, boundary)).size();
   };
   EXPECT_EQ(count(), 1u) << "no opening";
+  spec.fluid[0].min[0] = 0.0;
+  EXPECT_EQ(count(), 0u) << "water on the mesh";
+  spec.fluid[0].min[0] = 0.2;
   InletTable inlet;
   inlet.from = {0.0, -0.2, -0.2};
   inlet.to = {0.0, 0.2, 0.2};

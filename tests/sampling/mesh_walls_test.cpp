@@ -54,6 +54,38 @@ TEST(MeshWall, OfABoxHasTheWallParticlesOfABox) {
   }
 }
 
+// One bed drawn from a crest and from a trough: a wall goes on in the next period.
+TEST(MeshWall, DoesNotDependOnWhereAPeriodBegins) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.domain.periodic_x = {0.0, 2.4};
+  spec.domain.periodic_y = {0.0, 1.2};
+  spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {2.4, 1.2, 0.6})};
+  const auto bed_through = [&](const std::vector<double>& levels) {
+    TriangleMesh bed;
+    for (int k = 0; k < 5; ++k) {
+      for (const double y : {0.0, 1.2}) bed.points.emplace_back(0.6 * k, y, levels[k]);
+      if (k > 0) add_quad(bed, 2 * k - 2, 2 * k, 2 * k + 1, 2 * k - 1);
+    }
+    spec.walls = {folder.wall(bed, FluidSide::above)};
+    return walls_of(spec);
+  };
+  const WallParticles<3> from_trough = bed_through({0.0, 0.3, 0.0, 0.2, 0.0});
+  const WallParticles<3> from_crest = bed_through({0.3, 0.0, 0.2, 0.0, 0.3});
+  ASSERT_EQ(from_crest.size(), from_trough.size());
+  PointGrid<3> places(0.1 * spec.particles.spacing);  // cells are cut alike on both sides of a crest to some per cent
+  const auto in_period = [](const Vec<3>& x) {
+    return Vec<3>(x[0] - 2.4 * std::floor(x[0] / 2.4), x[1] - 1.2 * std::floor(x[1] / 1.2), x[2]);
+  };
+  for (const Vec<3>& x : from_trough.position) places.add(in_period(x));
+  for (std::size_t i = 0; i < from_crest.size(); ++i) {
+    int same = -1;
+    places.visit_near(in_period(from_crest.position[i] + Vec<3>(0.6, 0.0, 0.0)), [&](int k) { same = k; });
+    ASSERT_GE(same, 0) << from_crest.position[i].transpose();
+    EXPECT_NEAR(from_crest.share[i], from_trough.share[same], 0.04) << from_crest.position[i].transpose();
+  }
+}
+
 // Two overlapping spheres, whose particles compete for cells.
 TEST(MeshWall, HasTheSameParticlesInShares) {
   const MeshFolder folder;

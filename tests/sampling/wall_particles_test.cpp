@@ -63,6 +63,28 @@ void expect_behind_walls(const WallParticles<Dim>& particles, Boundary<Dim> boun
   EXPECT_GE(min_distance(particles), (0.5 - 1e-6) * spacing);
 }
 
+// One bed drawn from a crest and from a trough: a wall goes on in the next period.
+TEST(Dummies, DoNotDependOnWhereAPeriodBegins) {
+  CaseSpec spec = empty_case(0.1);
+  spec.domain.periodic_x = {0.0, 2.4};
+  spec.walls = {polyline({{0.0, 0.0}, {0.6, 0.3}, {1.2, 0.0}, {1.8, 0.2}, {2.4, 0.0}})};
+  const WallParticles<2> from_trough = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  spec.walls = {polyline({{0.0, 0.3}, {0.6, 0.0}, {1.2, 0.2}, {1.8, 0.0}, {2.4, 0.3}})};
+  const WallParticles<2> from_crest = make_dummy_particles<2>(make_boundary<2>(spec), 0.1, 3);
+  ASSERT_EQ(from_crest.size(), from_trough.size());
+  for (std::size_t i = 0; i < from_crest.size(); ++i) {
+    Vec<2> x = from_crest.position[i] + Vec<2>(0.6, 0.0);
+    if (x[0] > 2.4 - round_off) x[0] -= 2.4;
+    const int same = find_at<2>(from_trough, x);
+    ASSERT_GE(same, 0) << x.transpose();
+    EXPECT_LT((from_crest.blocked[i] - from_trough.blocked[same]).norm(), round_off) << x.transpose();
+    const Mat<2>& beyond = from_crest.beyond_edges[i];  // normals in columns, in any order
+    const Mat<2>& expected = from_trough.beyond_edges[same];
+    EXPECT_LT((beyond * beyond.transpose() - expected * expected.transpose()).norm(), round_off) << x.transpose();
+    EXPECT_NEAR(from_crest.share[i], from_trough.share[same], round_off) << x.transpose();
+  }
+}
+
 // The wall is extended by the depth of its layers beyond each end at which no wall of the same body stands.
 TEST(Dummies, ContinueAWallBeyondItsFreeEnds) {
   CaseSpec spec = empty_case(0.1);

@@ -605,6 +605,27 @@ TEST(BlockBesideAPeriodicBoundary, HasNoForceAlongThePeriod) {
   EXPECT_NEAR(Reader<2>(spec, flow).force()[0], 0.0, 0.05 * side);
 }
 
+// Neither the bed below the block nor the gap between them was found in the next period.
+TEST(BlockMovingAcrossAPeriodicBoundary, StandsOnTheBedOfTheNextPeriod) {
+  constexpr double dx = 0.1;
+  CaseSpec spec = empty_case(dx);
+  spec.domain.periodic_x = {0.0, 2.4};
+  WallTable block = box_wall({1.9, 0.0}, {2.3, 0.9}, {}, FluidSide::outside);
+  block.name = "block";
+  block.displacement = {"t", 0.0};
+  spec.walls = {testing_cases::polyline({{0.0, 0.0}, {2.4, 0.0}}), block};
+  spec.fluid = {box_fluid({0.0, 0.0}, {2.4, 0.6})};
+  spec.fluid[0].velocity = {1.0, 0.0};
+  spec.probes = {force_probe({0.0, 0.0}, {"block"})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const double below = spec.physics.density * g * 0.6 * 0.4;  // if water were there
+  while (flow.state.time < 0.7) {
+    step(flow);
+    EXPECT_NEAR(Reader<2>(spec, flow).force()[1], 0.0, 0.02 * below) << flow.state.time;
+  }
+}
+
 /// A block hangs from the lid of a sealed tank of air and is drawn on into the lid, where no air reaches the lid.
 TEST(LidOverAir, HasNoForceBehindABlock) {
   constexpr double dx = 0.05, overpressure = 5000.0, width = 0.2;
