@@ -81,7 +81,7 @@ std::vector<double> without_balanced_pressure(const Flow<Dim>& flow, double dens
 
 template <int Dim>
 std::vector<double> balanced_pressure(const Flow<Dim>& flow) {
-  const double density = flow.is_open() ? balanced_density(flow) : 0.0;
+  const double density = balanced_density(flow);
   if (density == 0.0) return {};
   const std::vector<double>& pressure = flow.state.particles.pressure;
   const std::vector<double> rest = without_balanced_pressure(flow, density, pressure);

@@ -51,8 +51,8 @@ template <int Dim>
 std::vector<double> without_balanced_pressure(const Flow<Dim>& flow, double density,
                                               const std::vector<double>& pressure);
 
-/// rho_b g . x + c of owned particles [Pa], the pressure of the last step that balances the weight in a conduit; empty
-/// where there is none. Collective.
+/// rho_b g . x + c of owned particles [Pa], the pressure of the last step that balances the weight; empty where there
+/// is none. Collective.
 template <int Dim>
 std::vector<double> balanced_pressure(const Flow<Dim>& flow);
 

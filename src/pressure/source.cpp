@@ -21,12 +21,12 @@ std::vector<double> target_divergence(const Flow<Dim>& flow, std::vector<Mat<Dim
   return target;
 }
 
-/// The terms that close rows draw the pressure towards 0. In a conduit they draw it towards the balanced one instead:
-/// its level moves nothing.
+/// The terms that close rows draw the pressure towards 0. Where water fills its walls they draw it towards the balanced
+/// one instead, which moves nothing.
 template <int Dim>
 void add_closing_of_balanced_pressure(const Flow<Dim>& flow, std::vector<double>& source) {
   const std::vector<double> balanced = balanced_pressure(flow);
-  if (balanced.empty() || flow.surroundings.interfaces.are_any()) return;
+  if (balanced.empty()) return;
   const std::vector<std::size_t> water =
       indices_where(balanced.size(), [&](std::size_t i) { return flow.role[i] == Role::water; });
   std::vector<double> weight(water.size());

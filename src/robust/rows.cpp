@@ -82,7 +82,10 @@ template <int Dim>
 void RobustDiscretisation<Dim>::find_air_weights(const Flow<Dim>& flow, std::span<const std::size_t> particles,
                                                  std::span<double> weights) const {
   for_each(particles.size(), [&](std::size_t n) {
-    weights[n] = closing_weight(flow, particles[n], flow.equation->rows.sum_of_weights(particles[n]));
+    const std::size_t i = particles[n];
+    const Interfaces& interfaces = flow.surroundings.interfaces;
+    const double density = interfaces.are_any() ? interfaces.density[i] : 1.0;  // of all neighbours
+    weights[n] = closing_weight(flow, i, density * flow.equation->rows.sum_of_weights(i)) / density;
   });
 }
 

@@ -189,12 +189,43 @@ TEST(RayleighTaylor, GrowsAsLinearTheory) {
   EXPECT_LT(std::abs(growth / sigma - 1.0), 0.05);
 }
 
+// Thorpe (1968): in the middle of a closed tube of two layers of equal depth that leans by the angle a from t = 0 on,
+// the velocities are +-g sin(a) t (r_2 - r_1)/(r_2 + r_1). What closes the rows of the equation drew the pressure of
+// the weight towards 0. All water then flowed to one end, with twice this velocity at 0.2 s.
+TEST(LayersInALeaningTube, SlideAsInTheory) {
+  constexpr double H = 0.2, leaning = 0.1745;
+  CaseSpec spec = tank_case<2>(H / 12, 10.0 * H, H);
+  spec.walls[0].max[1] = H;
+  spec.walls[0].open.clear();
+  spec.physics.gravity = {g * std::sin(leaning), -g * std::cos(leaning)};
+  spec.liquids = {water_like("water", 1000.0), water_like("oil", 900.0)};
+  FluidTable oil = spec.fluid[0];
+  spec.fluid[0].max[1] = oil.min[1] = 0.5 * H;
+  spec.fluid[0].liquid = "water";
+  oil.liquid = "oil";
+  spec.fluid.push_back(oil);
+  Flow<2> flow = make_flow<2>(spec);
+  while (flow.state.time < 0.4) step(flow);
+  const double expected = g * std::sin(leaning) * flow.state.time * 100.0 / 1900.0;
+  for (const int liquid : {0, 1}) {
+    const Particles<2>& particles = flow.state.particles;
+    const auto is_in_middle = [&](std::size_t i) {
+      return particles.is_fluid(i) && flow.setup.liquids.of(particles.id[i]) == liquid &&
+             std::abs(particles.position[i][0] - 5.0 * H) < H;
+    };
+    const Vec<2> sums = sum_over(particles.owned, Vec<2>(0.0, 0.0), [&](std::size_t i) {
+      return is_in_middle(i) ? Vec<2>(particles.velocity[i][0], 1.0) : Vec<2>(0.0, 0.0);
+    });
+    EXPECT_NEAR(sums[0] / sums[1], liquid == 0 ? expected : -expected, 0.05 * expected) << liquid;
+  }
+}
+
 // The front of brine that displaces fresh water along the floor of a full box has the speed 1/2 sqrt(g' H) of Benjamin
-// (1968) from one to two depths behind the gate.
+// (1968) from one to two depths behind the gate. With 12 rows it is 3 to 6 % too slow.
 TEST(LockExchange, HasTheFrontSpeedOfBenjamin) {
   constexpr double H = 0.2;
   constexpr double ratio = 0.98;
-  CaseSpec spec = tank_case<2>(H / 12, 5.0 * H, H);
+  CaseSpec spec = tank_case<2>(H / 16, 5.0 * H, H);
   spec.walls[0].max[1] = H;
   spec.walls[0].open.clear();
   spec.liquids = {water_like("brine", 1000.0 / ratio), water_like("fresh", 1000.0)};
@@ -208,7 +239,7 @@ TEST(LockExchange, HasTheFrontSpeedOfBenjamin) {
     const Particles<2>& particles = flow.state.particles;
     return largest_over(particles.owned, 0.0, [&](std::size_t i) {
       const bool is_brine = particles.is_fluid(i) && flow.setup.liquids.of(particles.id[i]) == 0;
-      return is_brine ? particles.position[i][0] + 0.5 * H / 12 : 0.0;
+      return is_brine ? particles.position[i][0] + 0.5 * H / 16 : 0.0;
     });
   };
   while (front() < 3.5 * H) step(flow);
@@ -217,7 +248,7 @@ TEST(LockExchange, HasTheFrontSpeedOfBenjamin) {
   while (front() < 4.5 * H) step(flow);
   const double speed = (front() - from) / (flow.state.time - start);
   const double error = speed / (0.5 * std::sqrt(g * (1.0 - ratio) * H)) - 1.0;
-  record_error("lock_exchange", 2, H / 12, std::abs(error));
+  record_error("lock_exchange", 2, H / 16, std::abs(error));
   EXPECT_LT(std::abs(error), 0.05);
 }
 
