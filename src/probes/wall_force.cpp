@@ -84,7 +84,9 @@ class WallForceProbe {
     const std::vector<AffineMap<Dim>> velocity = find_velocities(context);
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       const WallLoads<Dim> whole = loads_at(context, i);
-      return whole.force().isZero(0.0) || takes_all_and_rests() ? whole : part_of(whole, context, i, velocity, chosen_);
+      if (whole.force().isZero(0.0) || takes_all_and_rests()) return whole;
+      if (!takes_all_ && !is_near(around_chosen_, context.particles.position[i])) return WallLoads<Dim>();
+      return part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
     return loads + loads_beside_walls(context, velocity) + loads_of_air(context, velocity);
@@ -99,17 +101,12 @@ class WallForceProbe {
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
     if ((takes_all_and_rests() && !has_air) || (rest && !wetted_.centres().empty())) return;
     wetted_.place(boundary, patches_);
-    around_chosen_ = {};
-    for (std::size_t k = 0; k < patches_.size(); ++k) {
-      if (chosen_[k] > 0.0) around_chosen_.extend(wetted_.centres()[k]);
-    }
-    around_chosen_.widen(reach_);
+    around_chosen_ = box_around(chosen_);
   }
 
   /// Beside another wall the pressure force on a hull is more than the force of its pairs. The difference has its
   /// reaction on that wall, so the sum over all walls does not change. Collective.
-  WallLoads<Dim> loads_beside_walls(const ProbeContext<Dim>& context,
-                                    const std::vector<AffineMap<Dim>>& velocity) const {
+  WallLoads<Dim> loads_beside_walls(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) {
     WallLoads<Dim> sum;
     const auto& all = context.wall_forces->beside_walls;
     for (const ForceBesideWall<Dim>& one : all) {
@@ -155,15 +152,17 @@ class WallForceProbe {
   /// The forces of pairs on all walls for which is_part(wall), without friction. Collective.
   template <class IsPart>
   WallLoads<Dim> pressure_of_pairs(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
-                                   IsPart&& is_part) const {
+                                   IsPart&& is_part) {
     std::vector<double> share(patches_.size());
     for (std::size_t k = 0; k < patches_.size(); ++k) {
       share[k] = is_part(context.boundary.faces[patches_[k].face].wall) ? 1.0 : 0.0;
     }
+    const Box<Dim> around = box_around(share);
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       WallLoads<Dim> whole = loads_at(context, i);
       whole.friction.setZero();
-      return whole.pressure.isZero(0.0) ? WallLoads<Dim>() : part_of(whole, context, i, velocity, share);
+      const bool is_part_of_it = !whole.pressure.isZero(0.0) && is_near(around, context.particles.position[i]);
+      return is_part_of_it ? part_of(whole, context, i, velocity, share) : WallLoads<Dim>();
     });
     loads.gather(context.ranks);
     return loads;
@@ -227,17 +226,17 @@ class WallForceProbe {
 
   /// The part of the loads through particle i on patches of which the fractions `taken` count.
   WallLoads<Dim> part_of(const WallLoads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
-                         const std::vector<AffineMap<Dim>>& velocity, std::span<const double> taken) const {
+                         const std::vector<AffineMap<Dim>>& velocity, std::span<const double> taken) {
     const Vec<Dim>& x = context.particles.position[i];
     const bool is_own = taken.data() == chosen_.data();
-    if (is_own && !takes_all_ && !is_near_chosen(x)) return {};
-    const bool is_water = context.particles.is_fluid(i);
+    find_shares_near(context.boundary, x, context.particles.is_fluid(i));
     Sharing<Dim> all;
     Sharing<Dim> chosen;
-    for_each_share_near(context.boundary, x, is_water, [&](std::int32_t k, const PatchWeights& weight, const auto& n) {
-      all.add(1.0, weight, n);
-      if (taken[k] > 0.0) chosen.add(taken[k], weight, n);
-    });
+    for (const PatchShare& share : shares_) {
+      const Vec<Dim>& n = context.boundary.faces[patches_[share.patch].face].normal;
+      all.add(1.0, share.weights, n);
+      if (taken[share.patch] > 0.0) chosen.add(taken[share.patch], share.weights, n);
+    }
     WallLoads<Dim> loads;
     if (all.of_pressure.weight == 0.0) return is_own && takes_all_ ? whole : loads;
     const Vec<Dim> pressure = all.of_pressure.across_inverse(whole.pressure);
@@ -245,68 +244,70 @@ class WallForceProbe {
     loads.pressure = chosen.of_pressure.across() * pressure;
     loads.friction = chosen.of_friction.along() * friction;
     const Vec<Dim> on_wall = loads.friction.isZero(0.0) ? x : foot(context, x);
-    if (has_power_) {
-      for_each_share_near(
-          context.boundary, x, is_water, [&](std::int32_t k, const PatchWeights& weight, const auto& n) {
-            const int wall = context.boundary.faces[patches_[k].face].wall;
-            if (taken[k] == 0.0 || !moves(wall)) return;
-            Sharing<Dim> share;
-            share.add(taken[k], weight, n);
-            // Friction acts on the wall itself. Pressure acts across it, so its power is the same from the particle.
-            for (const auto& [force, place] : {std::pair(Vec<Dim>(share.of_pressure.across() * pressure), x),
-                                               std::pair(Vec<Dim>(share.of_friction.along() * friction), on_wall)}) {
-              loads.power -= force.dot(velocity[wall](place));
-              loads.moment -= moment_of<Dim>(age_ * context.dt * velocity[wall](place), force);  // where the wall was
-            }
-          });
+    for (const auto& [k, weights] : shares_) {
+      const WallFace<Dim>& face = context.boundary.faces[patches_[k].face];
+      if (!has_power_ || taken[k] == 0.0 || !moves(face.wall)) continue;
+      Sharing<Dim> share;
+      share.add(taken[k], weights, face.normal);
+      // Friction acts on the wall itself. Pressure acts across it, so its power is the same from the particle.
+      for (const auto& [force, place] : {std::pair(Vec<Dim>(share.of_pressure.across() * pressure), x),
+                                         std::pair(Vec<Dim>(share.of_friction.along() * friction), on_wall)}) {
+        loads.power -= force.dot(velocity[face.wall](place));
+        loads.moment -= moment_of<Dim>(age_ * context.dt * velocity[face.wall](place), force);  // where the wall was
+      }
     }
     loads.moment += moment(x, loads.pressure) + moment(on_wall, loads.friction);
     return loads;
   }
 
-  bool is_near_chosen(const Vec<Dim>& x) const {
+  bool is_near(const Box<Dim>& around, const Vec<Dim>& x) const {
     bool is_near = false;
-    wetted_.visit_images_of(x, [&](const Vec<Dim>& image) { is_near = is_near || around_chosen_.contains(image); });
+    wetted_.visit_images_of(x, [&](const Vec<Dim>& image) { is_near = is_near || around.contains(image); });
     return is_near;
   }
 
-  /// Calls visit(k, weight, offset) for each patch k near x, with its weight by size and distance.
-  template <class Visit>
-  void for_each_patch_near(const Vec<Dim>& x, Visit&& visit) const {
+  /// Contains all forces of which patches with a `taken` part take some.
+  Box<Dim> box_around(std::span<const double> taken) const {
+    Box<Dim> around;
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      if (taken[k] > 0.0) around.extend(wetted_.centres()[k]);
+    }
+    return around.widen(reach_);
+  }
+
+  /// Sets `shares_` to the patches near a particle at x, with their weights by size and distance. The particle's own
+  /// patches are those whose side it is on: behind the plane for a wall particle, in front of it for water. The
+  /// pressure's force counts for all patches except those that face the nearest own patch. So no force is transferred
+  /// across a gap or through a thin body. Friction counts for the own patches.
+  void find_shares_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, bool is_water) {
+    const auto normal_of = [&](std::int32_t k) -> const Vec<Dim>& { return boundary.faces[patches_[k].face].normal; };
+    shares_.clear();
+    double largest = 0.0;
+    Vec<Dim> own_normal = Vec<Dim>::Zero();
     wetted_.visit_near(x, [&](std::int32_t k, const Vec<Dim>& offset) {
       const double squared = offset.squaredNorm();
       if (squared >= reach_ * reach_) return;
       const double nearness = 1.0 - std::sqrt(squared) / reach_;
       const double measure = wetted_.share(k) * patches_[k].measure;
-      visit(k, measure * (nearness * nearness) * (nearness * nearness), offset);
-    });
-  }
-
-  /// Calls body(k, weights, normal) for each patch k near a particle at x. The particle's own patches are those whose
-  /// side it is on: behind the plane for a wall particle, in front of it for water. The pressure's force counts for all
-  /// patches except those that face the nearest own patch. So no force is transferred across a gap or through a thin
-  /// body. Friction counts for the own patches.
-  template <class Body>
-  void for_each_share_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, bool is_water, Body&& body) const {
-    const auto normal_of = [&](std::int32_t k) -> const Vec<Dim>& { return boundary.faces[patches_[k].face].normal; };
-    const auto is_own = [&](std::int32_t k, const Vec<Dim>& offset) {
-      return (normal_of(k).dot(offset) < 0.0) != is_water;
-    };
-    double largest = 0.0;
-    Vec<Dim> own_normal = Vec<Dim>::Zero();
-    for_each_patch_near(x, [&](std::int32_t k, double weight, const Vec<Dim>& offset) {
-      if (weight <= largest || !is_own(k, offset)) return;
+      const double weight = measure * (nearness * nearness) * (nearness * nearness);
+      const bool is_own = (normal_of(k).dot(offset) < 0.0) != is_water;
+      shares_.push_back({k, {weight, is_own ? weight : weight_of_others * weight}});
+      if (weight <= largest || !is_own) return;
       largest = weight;
       own_normal = normal_of(k);
     });
-    for_each_patch_near(x, [&](std::int32_t k, double weight, const Vec<Dim>& offset) {
-      const bool own = is_own(k, offset);
-      const bool takes_pressure = own || !face_each_other<Dim>(normal_of(k), own_normal);
-      body(k,
-           PatchWeights{takes_pressure ? weight : weight_of_others * weight, own ? weight : weight_of_others * weight},
-           normal_of(k));
-    });
+    for (auto& [k, weights] : shares_) {
+      const bool is_own = weights.of_friction == weights.of_pressure;
+      const bool takes_pressure = is_own || !face_each_other<Dim>(normal_of(k), own_normal);
+      if (!takes_pressure) weights.of_pressure *= weight_of_others;
+    }
   }
+
+  /// A patch near a particle.
+  struct PatchShare {
+    std::int32_t patch;
+    PatchWeights weights;
+  };
 
   double spacing_;  ///< m; dx at the chosen walls
   std::vector<WallPatch<Dim>> patches_;
@@ -319,7 +320,8 @@ class WallForceProbe {
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
   WettedPatches<Dim> wetted_;
-  Box<Dim> around_chosen_;  ///< contains all forces of which chosen patches take a fraction
+  Box<Dim> around_chosen_;          ///< box_around(chosen_)
+  std::vector<PatchShare> shares_;  ///< of the particle that is being read
 };
 
 /// Largest and mean force so far, as numbers that a checkpoint saves.
