@@ -78,6 +78,24 @@ void check_swing(const CaseSpec& spec, const CaseLabel& label, int wall, Finding
       {"give the angle in rad: a degree is pi/180"}));
 }
 
+/// Adds a warning for each zone of damping at a wall that moves, as in a tank that is shaken.
+template <int Dim>
+void check_damping_at(const CaseSpec& spec, const Boundary<Dim>& drawn, int wall, Findings& findings) {
+  if (spec.walls[wall].drive.by != Drive::By::wall) return;
+  for (const DampingTable& zone : spec.damping) {
+    const CaseLabel owner("damping", zone.name);
+    const Box<Dim> box(to_vec<Dim>(zone.min, owner, "min"), to_vec<Dim>(zone.max, owner, "max"));
+    const bool is_there = std::ranges::any_of(
+        drawn.faces, [&](const WallFace<Dim>& face) { return face.wall == wall && face.box().intersects(box); });
+    if (!is_there) continue;
+    findings.push_back(Finding::warning(
+        "damping-at-moving-wall",
+        {"{} lies at {}, which moves, and the zone stays where it is drawn and slows the water down to rest", owner,
+         wall_label(drawn, wall)},
+        {"leave out the zone, or end it before the wall"}));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -91,6 +109,7 @@ Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, co
     if (starts_where_it_is_drawn(spec, drawn, wall, findings) && drawn.walls[wall].moves()) moving.push_back(wall);
   }
   if (moving.empty()) return findings;
+  for (const int wall : moving) check_damping_at(spec, drawn, wall, findings);
   append(findings, check_motion_files(spec, drawn, fluid));
   if (has_error(findings)) return findings;  // a path that jumps is not checked further
   if constexpr (Dim == 2) append(findings, check_free_ends(spec, drawn));

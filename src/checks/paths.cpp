@@ -212,16 +212,18 @@ class PathWalk {
         const auto found = collision(faces_[f], faces_[g], faces_before_[f], faces_before_[g], dx_);
         if (!found) continue;
         collided_.insert(std::minmax(wall, other));
-        findings_.push_back(found->is_crossing
-                                ? Finding::error("walls-cross",
-                                                 {"{} crosses {} at t = {:.6g} at {}", label(wall), label(other),
-                                                  Amount{time, "s"}, place(found->where)},
-                                                 {"change its path, or draw it shorter"})
-                                : Finding::error("walls-closer-than-spacing",
-                                                 {"{} comes closer than a spacing to {} at t = {:.6g} at {}: the water "
-                                                  "between them would be compressed",
-                                                  label(wall), label(other), Amount{time, "s"}, place(found->where)},
-                                                 {"end its path at least {:.6g} m before", dx_}));
+        findings_.push_back(
+            found->is_crossing ? Finding::error("walls-cross",
+                                                {"{} crosses {} at t = {:.6g} at {}", label(wall), label(other),
+                                                 Amount{time, "s"}, place(found->where)},
+                                                {"change its path, or draw it shorter"})
+                               : Finding::error("walls-closer-than-spacing",
+                                                {"{} comes closer than a spacing to {} at t = {:.6g} at {}: the water "
+                                                 "between them would be compressed",
+                                                 label(wall), label(other), Amount{time, "s"}, place(found->where)},
+                                                {"end its path at least {:.6g} m before, where some water still "
+                                                 "passes, or draw it with shape = \"plate\", which may end on the wall",
+                                                 dx_}));
         return;
       }
     }

@@ -10,6 +10,7 @@
 #include "case/formulation.h"
 #include "geometry/ducts.h"
 #include "geometry/from_spec.h"
+#include "geometry/wall_label.h"
 #include "motion/floating_body.h"
 #include "porous/porous_region.h"
 
@@ -145,6 +146,22 @@ void require_bodies_off_layers(const CaseSpec& spec, const Boundary<Dim>& bounda
   }
 }
 
+/// Throws CaseError for a layer at a wall that moves, as in a tank that is shaken: layers do not move.
+template <int Dim>
+void require_layers_off_moving_walls(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  for (const PorousTable& table : spec.porous) {
+    const Box<Dim> layer = PorousRegion<Dim>(spec, table).box();
+    for (const WallFace<Dim>& face : boundary.faces) {
+      const bool moves = boundary.walls[face.wall].moves() && spec.walls[face.wall].drive.by == Drive::By::wall;
+      if (!moves || !face.box().intersects(layer)) continue;
+      throw CaseError("porous-layer-at-moving-wall",
+                      {"{} lies at {}, which moves, and layers stay where they are drawn",
+                       CaseLabel("porous", table.name), wall_label(boundary, face.wall)},
+                      {"leave out the motion, or end the layer before the wall"});
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -152,6 +169,7 @@ void require_sound_layers(const CaseSpec& spec, const Boundary<Dim>& boundary, c
   require_layers_in_case(spec, boundary);
   require_open_ends_in_open_water(spec, boundary, field);
   require_bodies_off_layers(spec, boundary);
+  require_layers_off_moving_walls(spec, boundary);
 }
 
 TAILWATER_IN_2D_AND_3D(require_sound_layers);

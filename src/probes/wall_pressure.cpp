@@ -19,6 +19,9 @@ namespace {
 /// e; relative weight with which the walls impose no acceleration. It matters only in directions that no wall blocks.
 constexpr double weight_of_rest = 1e-3;
 
+/// dx; distance from a plate at which only the water of one side is seen.
+constexpr double beside_plate = 0.01;
+
 /// A point of a wall, which moves with the wall.
 template <int Dim>
 struct PointOnWall {
@@ -276,13 +279,16 @@ std::vector<AirPush<Dim>> pushes_of_air(const ProbeContext<Dim>& context, std::s
     if (pressure == 0.0 || is_covered<Dim>(context.boundary, face.normal, centre + 0.5 * dx * face.normal, 4.0 * dx)) {
       continue;
     }
-    pushes.push_back({face.wall, centre, -chosen[k] * patches[k].measure * pressure * face.normal});
+    // On a plate itself, the water of both of its sides would count.
+    const bool is_plate = context.boundary.walls[face.wall].is_plate;
+    const Vec<Dim> place = is_plate ? Vec<Dim>(centre + beside_plate * dx * face.normal) : centre;
+    pushes.push_back({face.wall, centre, place, -chosen[k] * patches[k].measure * pressure * face.normal});
   }
   std::vector<double> sums(2 * pushes.size());
   const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
   for_each(pushes.size(), [&](std::size_t n) {
     WallPressureSums<Dim> here;
-    for (const Vec<Dim>& shift : shifts) here.add_owned(context, pushes[n].centre, shift);
+    for (const Vec<Dim>& shift : shifts) here.add_owned(context, pushes[n].place, shift);
     sums[2 * n] = here.water;
     sums[2 * n + 1] = here.wall;
   });

@@ -87,6 +87,7 @@ template <int Dim>
 struct AirPush {
   int wall;  ///< index into Boundary::walls
   Vec<Dim> centre;
+  Vec<Dim> place;  ///< at the centre, on the side of the patch
   Vec<Dim> force;  ///< N; in 2D per metre of width
 };
 

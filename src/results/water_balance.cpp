@@ -69,11 +69,11 @@ std::vector<Vec<Dim>> images_along(const PeriodicDomain<Dim>& domain, const Vec<
 }
 
 /// Whether water that is beyond the box around the walls falls onto the front of one, as spray above an open tank does.
-/// Without gravity no water leaves for good: true.
+/// Without gravity, or where the case repeats itself along it, no water leaves for good: true.
 template <int Dim>
 bool falls_back(const Flow<Dim>& flow, const Box<Dim>& box, const Vec<Dim>& x) {
   const Vec<Dim>& gravity = flow.setup.gravity;
-  if (gravity.norm() == 0.0) return true;
+  if (flow.setup.gravity_across().norm() == 0.0) return true;
   const double length = box.exteriorDistance(x) + box.diagonal().norm() + flow.setup.scale.spacing;
   const Vec<Dim> fall = length * gravity.normalized();
   Landing first;

@@ -611,6 +611,21 @@ TEST(Check, AWallAtAPeriodicBoundary) {
   EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
 }
 
+TEST(Check, DampingInATankThatMoves) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 0.8}, {0, 0}, {2, 0}, {2, 0.8}})};
+  spec.fluid = {box_fluid({0, 0}, {2, 0.4})};
+  DampingTable zone;
+  zone.name = "sponge";
+  zone.min = {1.0, 0.0};
+  zone.max = {2.0, 0.8};
+  zone.strength = 1.0;
+  spec.damping = {zone};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.walls[0].displacement = {"0.1*sin(2*t)", 0.0};
+  expect_only(check(spec), Severity::warning, {"'sponge' lies at wall 'wall1', which moves"});
+}
+
 // Water meets the face from the next period.
 TEST(Check, ABlockWithAFaceInAPeriodicBoundary) {
   CaseSpec spec = empty_case(0.1);

@@ -626,6 +626,37 @@ TEST(BlockMovingAcrossAPeriodicBoundary, StandsOnTheBedOfTheNextPeriod) {
   }
 }
 
+// Water stands on one side of a plate and compressed air on the other. Water on the far side counted as covering the
+// side of the air, if the corners were drawn in one order.
+TEST(PlateBetweenWaterAndAir, HasTheForceOfBothInAnyOrderOfItsCorners) {
+  constexpr double dx = 0.04, height = 0.6, depth = 0.4, overpressure = 3000.0;
+  for (const bool is_reversed : {false, true}) {
+    CaseSpec spec = tank_case<2>(dx, 1.0, depth);
+    spec.walls[0].max = {1.0, height};
+    spec.walls[0].open = {};
+    spec.fluid[0].max[0] = 0.5;
+    WallTable plate;
+    plate.name = "plate";
+    plate.shape = WallShape::plate;
+    plate.points = {{0.5, 0.0}, {0.5, height}};
+    if (is_reversed) std::ranges::reverse(plate.points);
+    spec.walls.push_back(plate);
+    spec.air.pockets = AirPockets::isothermal;
+    PocketTable air, beside;
+    air.at = {0.8, 0.3};
+    air.overpressure = overpressure;
+    beside.at = {0.2, 0.5};
+    spec.pockets = {air, beside};
+    spec.probes = {force_probe({0.0, 0.0}, {"plate"})};
+    Flow<2> flow = make_flow<2>(spec);
+    start(flow);
+    step(flow);
+    step(flow);
+    const double expected = 0.5 * spec.physics.density * g * depth * depth - overpressure * height;
+    EXPECT_NEAR(Reader<2>(spec, flow).force()[0], expected, 0.03 * std::abs(expected)) << is_reversed;
+  }
+}
+
 /// A block hangs from the lid of a sealed tank of air and is drawn on into the lid, where no air reaches the lid.
 TEST(LidOverAir, HasNoForceBehindABlock) {
   constexpr double dx = 0.05, overpressure = 5000.0, width = 0.2;
