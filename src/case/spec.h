@@ -991,7 +991,7 @@ struct LimitsTable {
     v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
              "The run warns when the energy, without the work of walls, has risen by more than this fraction of m g "
              "L/2 plus the kinetic energy and the work of open ends. A smaller rise than the energy of lifting the "
-             "water by dx/10 plus a tenth of that work does not count. 0: never");
+             "water by dx/10 plus a tenth of that work and a twentieth of the work of walls does not count. 0: never");
     v.number("energy_stop", self.energy_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
     v.number("volume_warning", self.volume_warning, "", Range::at_least(0.0),
              "The run warns when the mean density of the water away from the surface is off by more than this "

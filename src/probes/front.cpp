@@ -9,13 +9,18 @@
 
 namespace tailwater {
 
+/// Particles in the support around one at the tip of a tongue two rows thick, on the lattice: 5 and 27. Inside a sheet
+/// one row thick there are 4 and 24.
+template <int Dim>
+constexpr int neighbours_of_tip = Dim == 2 ? 5 : 25;
+
 template <int Dim>
 bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
   int neighbours = 0;
   for_each_weight(context, context.particles.position[i], [&](std::int32_t j, double) {
     if (j != i && context.particles.is_fluid(j)) ++neighbours;
   });
-  return neighbours >= Dim + 3;
+  return neighbours >= neighbours_of_tip<Dim>;
 }
 
 namespace {

@@ -23,6 +23,7 @@ class RunStatistics {
   double energy_rise() const { return energy_rise_; }
   /// J; work of the pressure at open ends.
   double work_of_ends() const { return brought_by_ends_; }
+  double work_of_walls() const { return brought_by_walls_; }
 
   /// Blocks "steps", "pressure_solver", "energy", "volume" and "interventions" of the summary.
   Json json(std::size_t fluid_particles, std::size_t fluid_particles_at_start) const;

@@ -46,19 +46,21 @@ TYPED_TEST(FrontTest, SprayAheadIsNotConnected) {
   using T = typename TestFixture::TankOf;
   constexpr int dim = TestFixture::dimension;
   T tank = TestFixture::column();
-  // Dim + 3 drops, each within the support of all others but one neighbour short of being connected.
-  for (int k = 0; k < dim + 3; ++k) {
+  // Drops, each within the support of all others but one neighbour short of being connected.
+  constexpr int drops = dim == 2 ? 5 : 25;
+  constexpr double step = 0.02;
+  for (int k = 0; k < drops; ++k) {
     Vec<dim> x = Vec<dim>::Constant(0.5);
-    x[0] = 0.7 + 0.1 * k * T::dx;
+    x[0] = 0.7 + step * k * T::dx;
     tank.add(x, true, 0.0);
   }
   tank.locate();
-  const double edge = 0.7 + (0.1 * (dim + 2) + 0.5) * T::dx;
+  const double edge = 0.7 + (step * (drops - 1) + 0.5) * T::dx;
   EXPECT_NEAR(TestFixture::front(tank)[0], edge, 1e-12);
   EXPECT_NEAR(TestFixture::front(tank)[1], 0.3, 1e-12);
   // One more drop behind them makes up the number.
   Vec<dim> x = Vec<dim>::Constant(0.5);
-  x[0] = 0.7 - 0.1 * T::dx;
+  x[0] = 0.7 - step * T::dx;
   tank.add(x, true, 0.0);
   tank.locate();
   EXPECT_NEAR(TestFixture::front(tank)[1], edge, 1e-12);
