@@ -27,9 +27,14 @@ For users who look up an error or a warning. Every error about a case and every 
 Search this page for the id. An error stops the command, and a warning does not. Most errors of the command line, of
 files and of the solver have no id. `tailwater check --json` has the id under `id`, and the lines under `warnings` in
 `summary.json` end with it. `…` stands for names, places and numbers, and `key` for a key of the case file.
-The last column names the tables of the case file that such messages are about. `any` stands for one of all tables and
-`several` for more than one. `motions, bodies, zones` are `[[motion]]`, `[[body]]`, `[[damping]]` and the like, `files`
-are CSV files that the table names.
+
+The last column names the tables of the case file that a message is about:
+
+- `any`: one table, of any kind;
+- `several`: tables that do not fit each other;
+- `motions, bodies, zones`: `[[gate]]`, `[[wave_maker]]`, `[[body]]`, `[[mooring]]`, `[[damping]]` or `[[refinement]]`;
+- `files`: CSV files that the table names.
+
 [Troubleshooting](../guide/troubleshooting.md) explains the most frequent messages. `scripts/message_reference.py`
 writes this page from the source.
 """

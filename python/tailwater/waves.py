@@ -270,7 +270,7 @@ def damper_power(run, names, gauges, period):
 
 
 def overtopping_numbers(run, name, window, period, height):
-    """Mean discharge with its interval, and the volumes of single waves, of a discharge probe behind a crest."""
+    """Mean discharge with its interval, and the volumes of single waves, of a discharge probe on a crest."""
     volume = run.curve(name, "volume_m3").window(*window)
     if volume.time.size < 2:
         raise DataError(f"{run.path}: probe '{name}' has no readings between {window[0]:.4g} and {window[1]:.4g} s")
@@ -310,7 +310,7 @@ def regular_harmonics(gauges, period, is_given):
 def analyse(run, names=(), start=None, end=None, depth=None, period=None, responses=(), overtopping=()):
     """(numbers, spectra) of a run's gauges between two times (s).
 
-    `period` (s) is that of regular waves, found if it is not given; `responses` names motion and force probes, `overtopping`
+    `period` (s) is that of regular waves, by default the best fit; `responses` names motion and force probes, `overtopping`
     discharge probes. Throws DataError."""
     gauges = Gauges(run, list(names), start, end)
     window = (float(gauges.time[0]), float(gauges.time[-1]))
@@ -504,11 +504,11 @@ def main(arguments):
     parser.add_argument("--from", type=number, dest="start", metavar="S", help="start of the window, s (start of the run)")
     parser.add_argument("--to", type=number, dest="end", metavar="S", help="end of the window, s (end of the run)")
     parser.add_argument("--depth", type=number, metavar="M", help="still-water depth, m (mean of the gauges)")
-    parser.add_argument("--period", type=number, metavar="S", help="period of regular waves, s (found); the window may then be "
-                        "as short as one period")
+    parser.add_argument("--period", type=number, metavar="S", help="period of regular waves, s (best fit); with it the window "
+                        "may be as short as one period")
     parser.add_argument("--response", action="append", default=[], metavar="PROBE", help="motion or force probe: response to "
                         "the incident waves, mean and drift; may be repeated")
-    parser.add_argument("--overtopping", action="append", default=[], metavar="PROBE", help="discharge probe behind a crest: "
+    parser.add_argument("--overtopping", action="append", default=[], metavar="PROBE", help="discharge probe on a crest: "
                         "overtopping volumes; may be repeated")
     parser.add_argument("--solitary", action="store_true", help="evaluate a solitary wave: height and speed")
     options = parser.parse_args(arguments)

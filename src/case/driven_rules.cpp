@@ -29,7 +29,7 @@ void check_plate(const Coordinates& from, const Coordinates& to, AxisDirection s
                  from.size() == 2 ? "upright or level segment" : "axis-parallel rectangle");
   } else if (axis >= from.size() || flat[0] != "xyz"[axis]) {
     const std::string message = fmt::format(
-        "the plane through from and to is at one {}, so its sides are \"-{}\" and \"+{}\"; give one of them", flat,
+        "the plane through from and to is normal to {}, so its sides are \"-{}\" and \"+{}\"; give one of them", flat,
         flat, flat);
     if (reader.given("side") != nullptr) {
       reader.wrong("plate-side", "side", message);

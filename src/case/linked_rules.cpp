@@ -158,7 +158,7 @@ void read_linked_files(InletTable& inlet, TableReader& reader) {
   }
   if (discharge.anywhere() && velocity.anywhere()) {
     const std::string_view key = velocity.in_case ? "velocity" : discharge.in_case ? "discharge" : "file";
-    reader.wrong("inlet-flow-twice", key, "an inlet has a discharge or a velocity; remove one of the two");
+    reader.wrong("inlet-flow-twice", key, "an inlet has either a discharge or a velocity; remove one of the two");
   }
   if (inlet.profile && !discharge.anywhere() && !velocity.anywhere()) {
     reader.wrong("inlet-profile-without-flow", "profile",

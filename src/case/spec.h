@@ -166,8 +166,8 @@ struct LiquidTable {
              "Time of a Carreau liquid; its viscosity falls beyond the shear rate of 1 over this time");
     v.number("rest_viscosity", self.rest_viscosity, "Pa s", Range::above(0.0),
              "Largest viscosity that the yield stress, or thinning, gives the liquid at rest, with which it creeps "
-             "below the yield stress (default: 1000 times the viscosity at the shear rate at which the yield stress "
-             "is half of the stress; without yield stress 1000 times the consistency)");
+             "below the yield stress (default: 1000 times the yield stress over the shear rate at which it is half of "
+             "the stress, for a Bingham liquid 1000 times viscosity; without yield stress 1000 times the consistency)");
   }
 };
 

@@ -290,7 +290,7 @@ void check(const OutletTable& outlet, TableReader& reader) {
   check_section(outlet, reader);
   if (outlet.beyond == Beyond::air && may_bring_water(outlet) && !reader.is_wrong("beyond")) {
     reader.wrong("level-beyond-air", "beyond",
-                 "is air: the water leaves as a free jet, on which a level has no effect; remove this key or level");
+                 "the water leaves as a free jet, on which a level has no effect; remove this key or the level");
   }
 }
 
