@@ -89,7 +89,7 @@ def main(arguments):
                         help="3D: view direction, from the centre of the walls to the camera "
                              f"({' '.join(f'{value:g}' for value in plots.LOOK_FROM)})")
     parser.add_argument("--colour", choices=("speed", "pressure", "spacing", "liquid"), default="speed",
-                        help="quantity that the colour of the water shows (speed); spacing is for zones of refinement")
+                        help="what the colour of the water shows (speed): zones of refinement have several spacings")
     options = parser.parse_args(arguments)
     if options.count < 1:
         parser.error(f"--count {options.count}: at least 1")

@@ -20,7 +20,7 @@ constexpr DeclaredColumn impulse_on_wall{"impulse", impulse, "integral of the pr
 // Computed from the impulse, so that no step between two lines of the table is left out.
 const std::vector<DeclaredResult> wall_pressure_results{{"pressure", "", "impulse", rate},
                                                         {"largest pressure", "largest", "impulse", max_rate},
-                                                        {"rise", "risen in", "impulse", rise},
+                                                        {"rise", "rise time", "impulse", rise},
                                                         {"impulse", "impulse", "impulse", last}};
 
 const std::vector<ProbeInfo> of_surface{
@@ -55,7 +55,7 @@ const std::vector<ProbeInfo> of_surface{
      "Height of the water on walls, above the origin",
      {{"connected", length, "highest place that is connected with the water below", by_default},
       {"highest", length, "highest wet place", possible}},
-     {{"run-up", "", "connected", max}, {"highest drop", "drops to", "highest", max}},
+     {{"run-up", "", "connected", max}, {"highest drop", "highest wet place", "highest", max}},
      {{"largest_connected", length, "maximum of `connected_m`"},
       {"time_of_largest", time, "time of that maximum"},
       {"largest_highest", length, "maximum of `highest_m`"}}},
@@ -164,7 +164,7 @@ const std::vector<ProbeInfo> of_flow{
       {"density_error_rms", number, "its root mean square"},
       {"volume_out", volume, "volume that has left through open ends", by_default},
       {"volume_in", volume, "volume that has entered through open ends", possible}},
-     {{"particles", "", "particles", last},
+     {{"particles", "particles", "particles", last},
       {"volume in", "in", "volume_in", last},
       {"volume out", "out", "volume_out", last}}},
 };

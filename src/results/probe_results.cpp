@@ -53,7 +53,7 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
       return quantity(largest.value(), fmt::format("{}, mean over {:.2g} s", at(largest.time()), over));
     }
     case Statistic::rise:
-      return quantity(column.largest_rate.rise(), "from a tenth of it");
+      return quantity(column.largest_rate.rise(), "from a tenth to the largest");
     case Statistic::max:
     case Statistic::max_magnitude:
       return quantity(column.largest, at(column.time_of_largest));

@@ -145,10 +145,8 @@ TEST_F(Results, AreToldInWords) {
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]",
             "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,0,0\n1.5,99,50\n2,9000,6050\n3,7000,7050\n4,900,7950\n", 4.0, 3),
-      "950.0 Pa (mean of the second half, still falling), largest 12000 Pa (at 2 s, mean over 0.5 s), risen in 0.5000 "
-      "s (from a tenth "
-      "of it), "
-      "impulse 7950 Pa s (at 4 s)");
+      "950.0 Pa (mean of the second half, still falling), largest 12000 Pa (at 2 s, mean over 0.5 s), rise time "
+      "0.5000 s (from a tenth to the largest), impulse 7950 Pa s (at 4 s)");
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]", "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,12,12\n2,9,21\n", 2.0, 3),
       "9.000 Pa (mean of the second half), largest 12.00 Pa (at 1 s, mean over 1 s), impulse 21.00 Pa s (at 2 s)");
