@@ -222,8 +222,8 @@ class EndFlowCheck {
       look_at_froude(time, q, depth);
     } else if (const double most = critical_discharge(end_), all = std::abs(end_.discharge(time, depth)); all > most) {
       error("inflow-exceeds-opening",
-            {"{}: at t = {:.6g} s more water enters than the opening can pass: {:.4g}, while critical flow fills "
-             "its section, {:.4g} m high, at {:.4g}",
+            {"{}: at t = {:.6g} s more water enters than the opening can pass: {:.4g}, but critical flow in the full "
+             "opening, {:.4g} m high, is {:.4g}",
              label_, time, Amount{all, discharge_unit}, end_.height, Amount{most, discharge_unit}},
             {"make it higher, let less enter ({}), or give a supercritical flow its level too", unit_hint});
     }
