@@ -167,7 +167,8 @@ struct LiquidTable {
     v.number("rest_viscosity", self.rest_viscosity, "Pa s", Range::above(0.0),
              "Largest viscosity that the yield stress, or thinning, gives the liquid at rest, with which it creeps "
              "below the yield stress (default: 1000 times the yield stress over the shear rate at which it is half of "
-             "the stress, for a Bingham liquid 1000 times viscosity; without yield stress 1000 times the consistency)");
+             "the stress, for a Bingham liquid 1000 times its viscosity; without yield stress 1000 times the "
+             "consistency, at least 1000 Pa s)");
   }
 };
 
