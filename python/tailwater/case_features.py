@@ -64,8 +64,8 @@ def dimension_of(case):
 
 # The page that describes the limit, the limit, and the features of the cases to which it applies (none: every case).
 LIMITS = (
-    ("docs/limits.md#robustness", "The two outermost particle rows and all walls sustain no tension: water that moves away from "
-     "a wall separates from it, and a siphon drains at its crown.", set()),
+    ("docs/limits.md#robustness", "By default the two outermost particle rows and all walls sustain no tension: water that moves "
+     "away from a wall separates from it, and a siphon drains at its crown.", set()),
     ("docs/limits.md#scope", "Surface tension is not simulated.", set()),
     ("docs/limits.md#accuracy", "Only walls generate turbulence: bores, jumps and plunging jets do not dissipate by "
      "turbulence in the bulk.", set()),
@@ -89,8 +89,8 @@ LIMITS = (
      {"wall mesh"}),
     ("docs/theory/geometry.md", "A slot of one particle row passes too little water, and a slot narrower than half a spacing is "
      "closed.", {"plate", "gate"}),
-    ("docs/theory/friction.md", "Boundary layers count as turbulent from y u_tau/nu = 11.3 on; a layer that stays laminar for longer "
-     "has less friction.", {"rough wall"}),
+    ("docs/theory/friction.md", "Boundary layers count as turbulent from y u_tau/nu = 11.3 on; a layer that stays laminar "
+     "for longer has less friction.", {"rough wall"}),
     ("docs/limits.md#robustness", "The published formulations are noisy, and one of them fails in long violent flows.",
      {"published formulation"}),
 )
