@@ -50,7 +50,7 @@ Mat<Dim> corrected_gradient(const Pairs<Dim>& pairs, std::size_t i, const Mat<Di
 }
 
 /// Gradient as above over neighbours with these volumes, with M of the same sum, and so exact for linear fields. M has
-/// the eigenvalue 0.45 across a wall or a surface; the correction is full from 0.25 on, and there is none below 0.1 (a
+/// the eigenvalue 1/2 across a wall or a surface; the correction is full from 0.25 on, and there is none below 0.1 (a
 /// single row).
 template <int Dim, class Volume>
 Mat<Dim> gradient_over(const Pairs<Dim>& pairs, std::size_t i, std::span<const Float4> field, Volume&& volume) {
