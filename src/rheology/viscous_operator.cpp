@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// Least eigenvalues of the moment below which there is no gradient, and above which it counts in full. Across a
-/// surface it is 0.45, of a single row 0.
+/// surface it is 1/2 on a lattice, of a single row 0.
 constexpr double no_moment = 0.1;
 constexpr double full_moment = 0.25;
 
