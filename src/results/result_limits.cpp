@@ -19,7 +19,7 @@ constexpr double resolved_lift = 0.05;
 /// relative error of (dx/depth)^2, and some per cent more where the flow turns: 5 % for a box that fills through its
 /// floor.
 constexpr double doubt_of_ends = 0.1;
-/// The same for walls: the sum of their work misses (dx/depth)^2, 4 % for a piston that lifts 12 rows.
+/// Fraction of the work of walls, whose sum misses (dx/depth)^2, 4 % for a piston that lifts 12 rows.
 constexpr double doubt_of_walls = 0.05;
 
 /// Factor of growth since its warning above which an error is reported again.
