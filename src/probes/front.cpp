@@ -15,12 +15,12 @@ template <int Dim>
 constexpr int neighbours_of_tip = Dim == 2 ? 5 : 25;
 
 template <int Dim>
-bool is_connected(const ProbeContext<Dim>& context, std::int32_t i) {
+bool is_connected(const ProbeContext<Dim>& context, std::int32_t i, int least) {
   int neighbours = 0;
   for_each_weight(context, context.particles.position[i], [&](std::int32_t j, double) {
     if (j != i && context.particles.is_fluid(j)) ++neighbours;
   });
-  return neighbours >= neighbours_of_tip<Dim>;
+  return neighbours >= least;
 }
 
 namespace {
@@ -49,7 +49,7 @@ Front find_front(const ProbeContext<Dim>& context, const Vec<Dim>& direction) {
   const double front = heap.front().first;
   // Checks the foremost particles one by one until one is connected.
   while (!heap.empty()) {
-    if (is_connected(context, heap.front().second)) return {front, heap.front().first};
+    if (is_connected(context, heap.front().second, neighbours_of_tip<Dim>)) return {front, heap.front().first};
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
   }

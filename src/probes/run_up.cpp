@@ -15,6 +15,9 @@ namespace {
 
 constexpr double wetting_distance = 1.0;  // dx; a row of particles on a wall is half of that away
 constexpr double height_of_bin = 2.0;     // dx
+/// Particles in the support around one of a film that is connected with the water below; splashes have fewer.
+template <int Dim>
+constexpr int neighbours_of_film = Dim + 3;
 
 template <int Dim>
 struct RunUp {
@@ -73,7 +76,9 @@ struct RunUp {
       if (height <= heights.low) continue;
       highest_now = std::max(highest_now, height);
       const auto k = std::min(static_cast<std::size_t>((height - heights.low) / bin), connected.size() - 1);
-      if (-height < connected[k] && is_connected(context, static_cast<std::int32_t>(i))) connected[k] = -height;
+      if (-height < connected[k] && is_connected(context, static_cast<std::int32_t>(i), neighbours_of_film<Dim>)) {
+        connected[k] = -height;
+      }
     }
     context.ranks.min_of_each(connected);
     highest_now = context.ranks.largest(highest_now);
