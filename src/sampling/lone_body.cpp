@@ -22,6 +22,7 @@ void append_mesh_images(int m, double margin, Boundary<3>& body) {
     image.points = mesh.points;
     for (Vec<3>& x : image.points) x += by;
     surface->visit_in(space.min() - by, space.max() - by, [&](int t) { image.triangles.push_back(mesh.triangles[t]); });
+    if (image.triangles.empty()) return;  // only the box around the mesh reaches there
     const int wall = static_cast<int>(body.walls.size());
     body.walls.push_back(body.walls[body.meshes[m].wall]);
     body.meshes.push_back({.surface = std::make_shared<const MeshSurface>(std::move(image)),
