@@ -244,11 +244,11 @@ class WallForceProbe {
     loads.pressure = chosen.of_pressure.across() * pressure;
     loads.friction = chosen.of_friction.along() * friction;
     const Vec<Dim> on_wall = loads.friction.isZero(0.0) ? x : foot(context, x);
-    for (const auto& [k, weights] : shares_) {
-      const WallFace<Dim>& face = context.boundary.faces[patches_[k].face];
-      if (!has_power_ || taken[k] == 0.0 || !moves(face.wall)) continue;
+    for (const PatchShare& near : shares_) {
+      const WallFace<Dim>& face = context.boundary.faces[patches_[near.patch].face];
+      if (!has_power_ || taken[near.patch] == 0.0 || !moves(face.wall)) continue;
       Sharing<Dim> share;
-      share.add(taken[k], weights, face.normal);
+      share.add(taken[near.patch], near.weights, face.normal);
       // Friction acts on the wall itself. Pressure acts across it, so its power is the same from the particle.
       for (const auto& [force, place] : {std::pair(Vec<Dim>(share.of_pressure.across() * pressure), x),
                                          std::pair(Vec<Dim>(share.of_friction.along() * friction), on_wall)}) {
@@ -291,21 +291,21 @@ class WallForceProbe {
       const double measure = wetted_.share(k) * patches_[k].measure;
       const double weight = measure * (nearness * nearness) * (nearness * nearness);
       const bool is_own = (normal_of(k).dot(offset) < 0.0) != is_water;
-      shares_.push_back({k, {weight, is_own ? weight : weight_of_others * weight}});
+      shares_.push_back({k, is_own, {weight, is_own ? weight : weight_of_others * weight}});
       if (weight <= largest || !is_own) return;
       largest = weight;
       own_normal = normal_of(k);
     });
-    for (auto& [k, weights] : shares_) {
-      const bool is_own = weights.of_friction == weights.of_pressure;
-      const bool takes_pressure = is_own || !face_each_other<Dim>(normal_of(k), own_normal);
-      if (!takes_pressure) weights.of_pressure *= weight_of_others;
+    for (PatchShare& share : shares_) {
+      const bool takes_pressure = share.is_own || !face_each_other<Dim>(normal_of(share.patch), own_normal);
+      if (!takes_pressure) share.weights.of_pressure *= weight_of_others;
     }
   }
 
   /// A patch near a particle.
   struct PatchShare {
     std::int32_t patch;
+    bool is_own;  ///< whether the particle is on its side
     PatchWeights weights;
   };
 
