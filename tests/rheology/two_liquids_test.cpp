@@ -18,6 +18,14 @@ LiquidTable water_like(const char* name, double density_of_liquid) {
   return liquid;
 }
 
+/// A box full of water.
+CaseSpec closed_box(double dx, double length, double height) {
+  CaseSpec spec = tank_case<2>(dx, length, height);
+  spec.walls[0].max[1] = height;
+  spec.walls[0].open.clear();
+  return spec;
+}
+
 /// Divides the first block of a case at the height `h`, where the liquids below and above it meet.
 void fill_with_layers(CaseSpec& spec, double h, double density_below, double density_above) {
   spec.liquids = {water_like("below", density_below), water_like("above", density_above)};
@@ -125,9 +133,7 @@ TEST(Layers, FallAlongAPeriod) {
 /// sinh(k y) and sinh(k (2 h - y)) cos(k x) times V/sinh(k h). Disordered: water on a lattice that strain changes is
 /// not in balance under pressure.
 CaseSpec wave_case(double density_below, double density_above, double V) {
-  CaseSpec spec = tank_case<2>(0.25 / 10, 1.0, 0.5);
-  spec.walls[0].max[1] = 0.5;
-  spec.walls[0].open.clear();
+  CaseSpec spec = closed_box(0.25 / 10, 1.0, 0.5);
   spec.particles.jitter = 0.1;
   fill_with_layers(spec, 0.25, density_below, density_above);
   const std::string k = "3.14159265";
@@ -194,16 +200,9 @@ TEST(RayleighTaylor, GrowsAsLinearTheory) {
 // the weight towards 0. All water then flowed to one end, with twice this velocity at 0.2 s.
 TEST(LayersInALeaningTube, SlideAsInTheory) {
   constexpr double H = 0.2, leaning = 0.1745;
-  CaseSpec spec = tank_case<2>(H / 12, 10.0 * H, H);
-  spec.walls[0].max[1] = H;
-  spec.walls[0].open.clear();
+  CaseSpec spec = closed_box(H / 12, 10.0 * H, H);
   spec.physics.gravity = {g * std::sin(leaning), -g * std::cos(leaning)};
-  spec.liquids = {water_like("water", 1000.0), water_like("oil", 900.0)};
-  FluidTable oil = spec.fluid[0];
-  spec.fluid[0].max[1] = oil.min[1] = 0.5 * H;
-  spec.fluid[0].liquid = "water";
-  oil.liquid = "oil";
-  spec.fluid.push_back(oil);
+  fill_with_layers(spec, 0.5 * H, 1000.0, 900.0);
   Flow<2> flow = make_flow<2>(spec);
   while (flow.state.time < 0.4) step(flow);
   const double expected = g * std::sin(leaning) * flow.state.time * 100.0 / 1900.0;
@@ -225,9 +224,7 @@ TEST(LayersInALeaningTube, SlideAsInTheory) {
 TEST(LockExchange, HasTheFrontSpeedOfBenjamin) {
   constexpr double H = 0.2;
   constexpr double ratio = 0.98;
-  CaseSpec spec = tank_case<2>(H / 16, 5.0 * H, H);
-  spec.walls[0].max[1] = H;
-  spec.walls[0].open.clear();
+  CaseSpec spec = closed_box(H / 16, 5.0 * H, H);
   spec.liquids = {water_like("brine", 1000.0 / ratio), water_like("fresh", 1000.0)};
   FluidTable fresh = spec.fluid[0];
   spec.fluid[0].max[0] = fresh.min[0] = 2.5 * H;
