@@ -206,6 +206,16 @@ std::string refusal_of(const CaseSpec& spec) {
   return "";
 }
 
+TEST(PorousTank2D, RefusesALayerInATankThatMoves) {
+  CaseSpec spec = tank_case<2>(0.05, 1.0, 0.5);
+  spec.walls[0].name = "tank";
+  spec.porous = {layer_of({0.0, 0.0}, {1.0, 0.2}, 0.4, 1.0)};
+  EXPECT_EQ(refusal_of(spec), "");
+  spec.walls[0].displacement = {"0.1*sin(t)", 0.0};
+  EXPECT_NE(refusal_of(spec).find("porous 'layer' lies at wall 'tank', which moves"), std::string::npos)
+      << refusal_of(spec);
+}
+
 TEST(PorousTank2D, RefusesALayerOutsideOfTheCase) {
   CaseSpec spec = tank_case<2>(0.05, 1.0, 0.5);
   spec.porous = {layer_of({2.0, 0.0}, {3.0, 1.0}, 0.4, 1.0)};
