@@ -159,8 +159,8 @@ void print_refinement(const CaseSpec& spec, const Flow<Dim>& flow, const RunEsti
   const double largest = cost * std::min(most, of_one_spacing);
   fmt::print(
       "            the time step is that of {:.4g} m; with this spacing everywhere {:.0f} fluid particles\n"
-      "            cost over that of such a run: about {:.2g} at the start{}\n"
-      "            calm water beside a border that lies deep keeps moving at 0.002 sqrt(g depth)\n",
+      "            cost: about {:.2g} of such a run at the start{}\n"
+      "            calm water beside a deep border keeps moving at 0.002 sqrt(g depth)\n",
       finest, of_one_spacing, at_start, largest > at_start ? fmt::format(", at most {:.2g}", largest) : "");
 }
 
