@@ -91,21 +91,22 @@ std::string section_of(const ProbeInfo& info) {
 std::string probe_reference_markdown() {
   std::string text =
       "# Output of probes\n\n"
-      "For users who read the results of probes. [theory/probes.md](../theory/probes.md) defines the numbers, and\n"
-      "[case-file.md](case-file.md#probe) lists the keys of a probe. Units are SI. In 2D forces, volumes and energies "
-      "are per\nmetre of width. `tailwater run --help-case=probes > docs/reference/probes.md` writes this page; "
-      "change\n`src/case/probe_types.cpp` instead.\n\n"
-      "[examples.md](examples.md#types-of-probes) shows each type in a case.\n\n"
-      "- *Columns* are those of `probes/NAME.csv`, after `time_s`. The last cell shows whether a `[[measurement]]` can "
-      "name\n  the column, without its unit: `force_x`. A measurement without `column` is compared with the default "
-      "(the first of\n  several columns).\n"
-      "- *Results* are printed at the end of a run and by `tailwater info`; they are in `summary.json`, in `results`.\n"
-      "  Compare largest pressures at first contacts over the same `averaging_time`. For dx up to H/30 the\n"
-      "  default does not depend on dx.\n"
-      "  A mean is *still rising* if the averages over the four quarters of the second half increase from quarter to\n"
-      "  quarter, by more than 1 % in all, and *still falling* if they decrease. A longer run then gives another "
-      "mean.\n"
-      "- *Totals* are numbers of the whole run in `summary.json`, in `probes`.\n";
+      "For users who read the results of probes. [theory/probes.md](../theory/probes.md) defines the numbers,\n"
+      "[case-file.md](case-file.md#probe) lists the keys of a probe, and [examples.md](examples.md#types-of-probes) "
+      "shows each\ntype in a case. Units are SI. In 2D forces, volumes and energies are per metre of width.\n\n"
+      "Each section has up to three tables:\n\n"
+      "- *Columns* are those of `probes/NAME.csv`, after `time_s`. The cell *measurement* shows whether a "
+      "`[[measurement]]` can\n  name the column, without its unit, as in `force_x`. A measurement without `column` is "
+      "compared with the default. If\n  the default has several columns, it is the first of them.\n"
+      "- *Results* are printed at the end of a run and by `tailwater info`. They are in `summary.json`, in `results`.\n"
+      "- *Totals* are numbers of the whole run. They are in `summary.json`, in `probes`.\n\n"
+      "A mean is marked *still rising* if the averages over the four quarters of the second half increase from quarter "
+      "to\nquarter, by more than 1 % in all, and *still falling* if they decrease. A longer run then gives another "
+      "mean.\n\n"
+      "Compare largest pressures at first contacts over the same `averaging_time`. Its default depends on dx if dx is "
+      "coarser\nthan H/30.\n\n"
+      "`tailwater run --help-case=probes > docs/reference/probes.md` writes this page. Change\n"
+      "`src/case/probe_types.cpp` instead.\n";
   for (std::size_t k = 0; k < choices<ProbeType>.size(); ++k) text += section_of(info_of(static_cast<ProbeType>(k)));
   return text;
 }
