@@ -81,7 +81,8 @@ PASSED = {"case-not-readable": "the case cannot be read", "expression-invalid": 
           "linked-file": "the line of the named file and its fault", "list-expected": "give a list of …",
           "override-misplaced": "the key of --set does not exist, or is not written as table.key=value",
           "balance-limit-passed": "at t = … s the energy of the water rose, or its mean density was off, by … %, more than "
-                                  "limits.energy_warning or limits.volume_warning",
+                                  "limits.energy_warning or limits.volume_warning; remedy: use a smaller particles.spacing or "
+                                  "scheme.courant",
           "balance-worst": "until t = … s the energy of the water rose, or its mean density was off, by … %, the largest "
                            "value in this run",
           "checkpoint-damaged": "the faults of the newest checkpoints; continuing from the last intact one"}
@@ -158,7 +159,8 @@ def message_at(found, source):
     kind = found["maker"]
     severity = "warning" if kind.endswith("warn") or kind.endswith("warning") else "error"
     if found["id"] in PASSED:
-        return Message(severity, PASSED[found["id"]], "")
+        problem, _, remedy = PASSED[found["id"]].partition("; remedy: ")
+        return Message(severity, problem, remedy)
     first = next(k for k, argument in enumerate(arguments) if is_text(argument) and argument != "{}")
     if arguments[first].startswith("{"):
         problem, remedy = (text_of(argument, source, found.start()) if argument != "{}" else ""

@@ -26,10 +26,11 @@ void require_thin_liquids(const CaseSpec& spec, const Setup<Dim>& setup) {
     if (is_thin[k] == 0) thick = &spec.liquids[k];
   }
   if (thick == nullptr) return;
-  throw CaseError("body-in-thick-liquid",
-                  {"{} floats beside {}, which is too viscous: its friction on a body that moves is not computed",
-                   CaseLabel("body", spec.bodies[0].name), CaseLabel("liquid", thick->name)},
-                  {"draw the body as a wall, or give the liquid less viscosity"});
+  throw CaseError(
+      "body-in-thick-liquid",
+      {"{} floats beside {}, which is too viscous: the friction of such a liquid on a moving body is not computed",
+       CaseLabel("body", spec.bodies[0].name), CaseLabel("liquid", thick->name)},
+      {"draw the body as a wall, or give the liquid less viscosity"});
 }
 
 template <int Dim>
@@ -209,15 +210,16 @@ void FloatingBodies<Dim>::warn(const Flow<Dim>& flow) {
       is_told_of_end_[b] = true;
       tailwater::warn("body-reached-end-of-period",
                       "body '{}' has come to the end of the period by t = {:.4f} s, and the water beyond the end does "
-                      "not see it: its forces are wrong from now on; use a longer period, or moor the body",
+                      "not see it: its forces are wrong from now on; remedy: use a longer period, or moor the body",
                       bodies[b].name, flow.state.time);
     }
     if (!is_lost[b] || is_told_[b]) continue;
     is_told_[b] = true;
-    tailwater::warn("body-left-walls",
-                    "body '{}' has fallen below all walls by t = {:.4f} s and takes no further part, because nothing "
-                    "can bring it back; open ends do not take bodies: close the way out, or moor the body",
-                    bodies[b].name, flow.state.time);
+    tailwater::warn(
+        "body-left-walls",
+        "body '{}' has fallen below all walls by t = {:.4f} s and is no longer computed, because nothing can "
+        "bring it back; remedy: close the way out (bodies cannot pass open ends), or moor the body",
+        bodies[b].name, flow.state.time);
   }
 }
 

@@ -71,10 +71,12 @@ void check_levels_of_fills(const CaseSpec& spec, const toml::table& root, Proble
   for (std::size_t k = 0; k < spec.fluid.size(); ++k) {
     const toml::node* node = root["fluid"][k]["level"].node();
     if (spec.fluid[k].shape != BlockShape::fill || node == nullptr) continue;
-    problems.wrong("fill-gravity-not-down", CaseLabel("fluid", k).with_key("level"), *node,
-                   fmt::format("is a {0}, but physics.gravity does not point down along {0}; turn the case so that it "
-                               "does, or draw the water as a box or a {1}",
-                               dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
+    problems.wrong(
+        "fill-gravity-not-down", CaseLabel("fluid", k).with_key("level"), *node,
+        fmt::format(
+            "is a height along {0}, but physics.gravity does not point down along {0}; turn the case so that it "
+            "does, or draw the water as a box or a {1}",
+            dimension == 2 ? "y" : "z", dimension == 2 ? "polygon" : "mesh"));
   }
 }
 
@@ -133,8 +135,9 @@ void check_bodies(const CaseSpec& spec, const toml::table& root, Problems& probl
         wrong("body-wall-moves",
               fmt::format("wall '{}' has a motion of its own; remove its displacement, rotation and motion", name));
       } else if (!is_closed) {
-        wrong("body-wall-open",
-              fmt::format("wall '{}' is not closed; draw a polygon, a box without open faces, or a mesh", name));
+        wrong("body-wall-open", fmt::format("wall '{}' is not closed, so the body has no volume; draw a polygon, a box "
+                                            "without open faces, or a mesh",
+                                            name));
       } else if (wall->shape != WallShape::mesh && wall->fluid_side != FluidSide::outside) {
         wrong("body-wall-water-inside",
               fmt::format("wall '{}' has the water inside; give it fluid_side = \"outside\"", name));
@@ -221,7 +224,7 @@ void check_surroundings_of_liquid(const CaseSpec& spec, const toml::table& root,
     const std::optional<double> given = root["physics"][key].value<double>();
     if (!given || *given == of_liquid) return;
     problems.wrong("liquid-has-own-value", CaseLabel("physics").with_key(key), *root["physics"][key].node(),
-                   fmt::format("liquid \"{}\" has its own value; remove this key", liquid.name));
+                   fmt::format("has no effect, because liquid \"{}\" has its own value; remove this key", liquid.name));
   };
   check_number("density", liquid.density);
   check_number("viscosity", kinematic_viscosity(liquid));
@@ -296,10 +299,11 @@ void check_densities(const CaseSpec& spec, const toml::table& root, Problems& pr
   const auto [light, heavy] = std::ranges::minmax_element(spec.liquids, {}, &LiquidTable::density);
   if (heavy->density <= largest_density_ratio * light->density) return;
   const auto k = static_cast<std::size_t>(light - spec.liquids.begin());
-  problems.add("liquid-densities-too-far", &root["liquid"][k].node()->source(), CaseLabel("liquid", k),
-               fmt::format("liquid[{}]: its density {:g} kg/m^3 is less than 1/{:g} of {:g}, that of \"{}\"; give "
-                           "densities within this ratio, and model air with [air] or as empty space",
-                           k, light->density, largest_density_ratio, heavy->density, heavy->name));
+  problems.add(
+      "liquid-densities-too-far", &root["liquid"][k].node()->source(), CaseLabel("liquid", k),
+      fmt::format("liquid[{}]: its density {:g} kg/m^3 is less than 1/{:g} of that of \"{}\", {:g} kg/m^3; give "
+                  "densities within this ratio, and model air with [air] or as empty space",
+                  k, light->density, largest_density_ratio, heavy->name, heavy->density));
 }
 
 /// The solve of viscous forces of liquids includes walls and open ends, but not all features that act on water.

@@ -251,8 +251,8 @@ void report_forces_across(const CaseSpec& spec, const Boundary<Dim>& boundary, c
     if (probe.type != ProbeType::force || reads(gap.wall) == reads(gap.other)) continue;
     findings.push_back(Finding::warning(
         "force-across-gap",
-        {"{}: across the narrow gap at {} the forces on {} and {} are not separated: of the force on one side of the "
-         "plate 37, 22, 12 and 3 % go to the other wall with 1, 2, 3 and 4 spacings",
+        {"{}: across the narrow gap at {} the probe cannot separate the forces on {} and {}: in a gap of 1, 2, 3 or 4 "
+         "spacings, 37, 22, 12 or 3 % of the force on one side of the plate go to the wrong wall",
          label(probe), place(gap.where), wall_label(boundary, gap.wall), wall_label(boundary, gap.other)},
         {"let the probe read both walls, use wall-pressure probes, or use a spacing of at most {:.3g} m",
          gap.width / rows_of_good_gap}));

@@ -236,8 +236,8 @@ class EndFlowCheck {
     if (critical == 0.0 || critical >= dx_) return;
     findings_.push_back(Finding::warning(
         "inflow-thinner-than-spacing",
-        {"{}: the flow is critical at a depth of {:.3g} at most, less than the spacing of {:.3g} m: where nothing dams "
-         "it, it enters one spacing deep and slower",
+        {"{}: the critical depth of the inflow is {:.3g} at most, less than the spacing of {:.3g} m: unless something "
+         "dams the water, it enters one spacing deep and too slowly",
          label_, Amount{critical, "m"}, dx_},
         {"use a smaller spacing"}));
   }
@@ -288,10 +288,10 @@ class EndFlowCheck {
       }
       if (level > end_.floor + end_.height && !has_lid_) {
         warn("rating-curve-above-opening",
-             {"{} = {:.4g} at q = {:.4g}, of up to {:.4g} that flow in, is above the top of the opening, {:.6g} m, "
-              "where there is no wall",
-              label_.with_key("level"), Amount{level, "m"}, q, Amount{inflow_, discharge_unit},
-              end_.floor + end_.height},
+             {"{} = {:.4g} at q = {:.4g} is above the top of the opening, {:.6g} m, where there is no wall; up to "
+              "{:.4g} flow in",
+              label_.with_key("level"), Amount{level, "m"}, Amount{q, discharge_unit}, end_.floor + end_.height,
+              Amount{inflow_, discharge_unit}},
              {"make the opening and the walls beside it higher, or correct the expression"});
         return;
       }

@@ -201,7 +201,7 @@ Findings check_fluid_at_walls(const CaseSpec& spec, const Boundary<Dim>& boundar
     if (!is_gap || !reported.insert({wall, block}).second) return;
     findings.push_back(Finding::warning(
         "water-leaves-gap-at-wall",
-        {"there is a gap between {} and {}: the nearest particle stands {:.2f} from the wall, at {}, instead of {:.2f}",
+        {"water may enter the gap between {} and {}: the nearest particle is {:.2f} from the wall, at {}, not {:.2f}",
          fluid_label(spec, block), wall_label(boundary, wall), Amount{distance / dx, "spacings"}, place(at), regular},
         {"put the block's edge on the wall, or at least two spacings away from it"}));
   };

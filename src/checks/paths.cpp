@@ -259,9 +259,10 @@ class PathWalk {
       if (!opens || !drawn_.walls[wall].moves() || !opened_.insert(wall).second) continue;
       findings_.push_back(Finding::warning(
           "wall-comes-off",
-          {"{} comes off another wall as it moves, at its end {}: nothing holds water that gets behind it", label(wall),
-           place(drawn_.faces[end.face].corners[end.corner])},
-          {"draw the wall longer there, as the side of a block that rises, or with shape = \"plate\" or two faces"}));
+          {"{} comes off another wall as it moves, at its end {}: water can get behind it there, and nothing holds "
+           "this water",
+           label(wall), place(drawn_.faces[end.face].corners[end.corner])},
+          {"draw the wall longer there (as the side of a block), with shape = \"plate\", or with two faces"}));
     }
   }
 

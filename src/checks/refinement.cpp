@@ -92,12 +92,11 @@ Findings check_depth(const CaseSpec& spec, const Box<Dim>& all, const typename S
   double deepest = 0.0;
   visit_depths<Dim>(spec, zone, zone.box.intersection(all), [&](double depth) { deepest = std::max(deepest, depth); });
   if (deepest >= zone.border - spec.particles.spacing) return {};
-  return {Finding::error(
-      "zone-too-thin",
-      {"{} is at most {:.4g} deep behind its edges, but the transition to its spacing takes {:.4g} m: no part of the "
-       "zone would be as fine as prescribed",
-       owner, Amount{deepest, "m"}, zone.border},
-      {"make the polygon wider, let it reach beyond the outermost walls, or use a lower level"})};
+  return {Finding::error("zone-too-thin",
+                         {"{} reaches at most {:.4g} inwards from its edges, but the transition to its spacing takes "
+                          "{:.4g} m: no part of the zone would be as fine as prescribed",
+                          owner, Amount{deepest, "m"}, zone.border},
+                         {"make the polygon wider, let it reach beyond the outermost walls, or use a lower level"})};
 }
 
 /// A zone that moves beside others.

@@ -186,7 +186,8 @@ Finding thin_wall(const CaseSpec& spec, const Boundary<Dim>& boundary, const Wal
         {"{} is only {:.3g} thick at {}, with {} of the next period on its other side: its {} layers of wall "
          "particles need {:.6g} m",
          owner, thickness, place(where), beyond, layers, needed},
-        {"leave it out there (a box: with open), because the case repeats itself, or remove domain.periodic_*"});
+        {"leave the wall out there (of a box: open = [...]), because the case repeats itself, or remove "
+         "domain.periodic_*"});
   }
   return Finding::error(
       "wall-too-thin",

@@ -60,7 +60,8 @@ template <int Dim>
 std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary,
                                   std::span<const WallPatch<Dim>> patches) {
   if (patches.empty())
-    throw CaseError("probe-without-wall", {"{}: the case has no wall", label(probe)}, {"remove the probe"});
+    throw CaseError("probe-without-wall", {"{}: needs a wall, and the case has no wall", label(probe)},
+                    {"draw a wall, or remove the probe"});
   const ChosenWalls<Dim> chosen(probe, spec, boundary);
   const double spacing = spec.particles.spacing;
   std::vector<double> shares(patches.size(), 0.0);

@@ -67,7 +67,7 @@ Box<Dim> box_of(const CaseSpec& spec, const RefinementTable& table, const Bounda
   }
   if (!surface_is_across(spec)) {
     throw CaseError("zone-surface-not-level",
-                    {"{0} follows a surface across {1}, and gravity does not act along -{1}", owner, "xyz"[Dim - 1]},
+                    {"{} follows a level water surface, and gravity does not act along -{}", owner, "xyz"[Dim - 1]},
                     {"give shape = \"polygon\", or turn the case"});
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();

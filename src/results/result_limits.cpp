@@ -73,7 +73,8 @@ void ResultLimits::check(Limit& limit, double time, double error, double harmles
   }
   if (limit.warning > 0.0 && error > std::max(limit.warning, harmless) && limit.told == 0.0) {
     limit.told = growth;
-    warn("balance-limit-passed", describe("warning", limit.warning));
+    warn("balance-limit-passed", "{}; remedy: use a smaller particles.spacing or scheme.courant",
+         describe("warning", limit.warning));
   }
 }
 

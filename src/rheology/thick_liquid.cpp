@@ -46,8 +46,8 @@ void refuse_coulomb_friction(const Boundary<Dim>& boundary) {
     if (boundary.walls[wall].coulomb_friction == 0.0) continue;
     throw CaseError(
         "coulomb-wall-without-thick-liquid",
-        {"{}: slip = \"coulomb\" has no meaning here, because only the solve for the viscous forces of thick "
-         "liquids contains this friction, and the viscous forces of this case are explicit",
+        {"{}: slip = \"coulomb\" has no effect here, because this friction is computed only together with the "
+         "implicit viscous forces of thick liquids, and the viscous forces of this case are explicit",
          wall_label(boundary, static_cast<int>(wall))},
         {"give slip = \"no-slip\", or a [[liquid]] with more viscosity or a yield stress"});
   }

@@ -796,7 +796,7 @@ const std::vector<BadInput> table{
     {"level_of_a_fill_where_gravity_is_sideways",
      required_keys + "[physics]\ngravity = [9.81, 0]\n[[fluid]]\nshape = \"fill\"\nseed = [0.5, 0.5]\nlevel = 1\n",
      "8:9",
-     {"fluid[0].level = 1: is a y, but physics.gravity does not point down along y", "turn the case"}},
+     {"fluid[0].level = 1: is a height along y, but physics.gravity does not point down along y", "turn the case"}},
 };
 
 class BadInputTest : public testing::TestWithParam<BadInput> {};

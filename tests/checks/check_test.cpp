@@ -1228,7 +1228,8 @@ TEST(Check, ZonesOfOtherShapesAreRefusedWhereTheyDoNotWork) {
   zone.shape = ZoneShape::polygon;
   zone.points = {{-1.0, -1.0}, {2.0, -1.0}, {2.0, 3.0 * dx}, {-1.0, 2.5 * dx}};
   spec.refinement = {zone};
-  expect_only(check(spec), Severity::error, {"refinement 'zone'", "deep behind its edges", "4 m: no part of the zone"});
+  expect_only(check(spec), Severity::error,
+              {"refinement 'zone'", "inwards from its edges", "4 m: no part of the zone"});
   spec.refinement[0].points = {{-1.0, -1.0}, {2.0, -1.0}, {2.0, 9.0 * dx}, {-1.0, 7.0 * dx}};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   zone.shape = ZoneShape::walls;
@@ -1678,7 +1679,7 @@ TEST(Check, ALevelThatTheDischargeTakesOutOfItsOpeningIsReported) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec.outlets[0].level = "0.3 + 1.1*q";
   expect_only(check(spec), Severity::warning,
-              {"outlet 'outlet1': level = 0.8", "of up to 0.5 m^2/s that flow in, is above the top of the opening"});
+              {"outlet 'outlet1': level = 0.8", "is above the top of the opening", "up to 0.5 m^2/s flow in"});
   spec.outlets[0].level = "0.6 - 0.2*q";
   expect_only(check(spec), Severity::warning,
               {"outlet 'outlet1': level falls from 0.6 m to 0.595 where q grows to 0.025 m^2/s", "grows with q"});
