@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
 #include "base/box.h"
 #include "geometry/crossing.h"
 #include "geometry/face_grid.h"
@@ -260,9 +261,12 @@ NearestWall<Dim> Boundary<Dim>::nearest(const Vec<Dim>& x, double search_distanc
     const NearestWall<Dim> wall = search_filed({*this, x, distance}).nearest();
     if (wall.face >= 0) return behind_crossing(*this, x, distance, wall, search_filed);
     if (search_distance <= filed_distance) return wall;
-    return search_all<Dim>(*this, {*this, x, search_distance}).nearest();
   }
-  return behind_crossing(*this, x, search_distance, search_all<Dim>(*this, {*this, x, search_distance}).nearest(),
+  const NearestWall<Dim> wall = search_all<Dim>(*this, {*this, x, search_distance}).nearest();
+  TAILWATER_ASSERT(wall.face >= 0 || faces.empty() || std::isfinite(search_distance),
+                   "a search without a limit finds a wall");
+  if (filed_distance > 0.0) return wall;
+  return behind_crossing(*this, x, search_distance, wall,
                          [&](const WallSearch<Dim>& search) { return search_all(*this, search); });
 }
 

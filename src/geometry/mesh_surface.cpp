@@ -77,7 +77,7 @@ struct MeshSurface::Tree {
   /// sibling branches first. The limit may decrease meanwhile, which excludes branches with a larger order.
   template <class Order, class Limit, class Visit>
   void walk(Order&& order, Limit&& limit, Visit&& visit) const {
-    if (boxes.getRootIndex() < 0) return;
+    // A single triangle has no box of its own: its root is -1, of which the triangle is the child.
     std::vector<std::pair<double, int>> waiting{{0.0, boxes.getRootIndex()}};
     while (!waiting.empty()) {
       const auto [rank, node] = waiting.back();

@@ -274,6 +274,25 @@ TEST(MeshSurface, FindsTheTriangleThatAPathCrosses) {
   EXPECT_EQ(surface.first_crossed({-3.0, 0.1, 0.2}, {-1.5, 0.1, 0.2}, 1e-9), -1);
 }
 
+TEST(MeshSurface, MayBeASingleTriangle) {
+  TriangleMesh mesh;
+  mesh.points = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  mesh.triangles = {{0, 1, 2}};
+  const MeshSurface surface(mesh);
+  EXPECT_NEAR(surface.nearest({0.2, 0.2, 0.3}, infinite).signed_distance, 0.3, 1e-12);
+  EXPECT_NEAR(surface.nearest({0.2, 0.2, -0.3}, infinite).signed_distance, -0.3, 1e-12);
+  EXPECT_EQ(surface.nearest({0.2, 0.2, 0.3}, 0.2).triangle, -1);
+  EXPECT_EQ(surface.first_crossed({0.2, 0.2, 1.0}, {0.2, 0.2, -1.0}, 1e-9), 0);
+  EXPECT_EQ(surface.first_crossed({0.8, 0.8, 1.0}, {0.8, 0.8, -1.0}, 1e-9), -1);
+  const auto is_met = [&](const Vec<3>& low, const Vec<3>& high) {
+    int met = 0;
+    surface.visit_in(low, high, [&](int) { ++met; });
+    return met == 1;
+  };
+  EXPECT_TRUE(is_met({0.1, 0.1, -0.1}, {0.2, 0.2, 0.1}));
+  EXPECT_FALSE(is_met({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}));
+}
+
 TEST(MeshWall, ThatMovesIsFoundWhereItIs) {
   const MeshFolder folder;
   CaseSpec spec = empty_case(0.1, 3);
