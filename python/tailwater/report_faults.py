@@ -41,11 +41,16 @@ def energy_of(summary):
     return dict(energy) if energy else {}
 
 
-def change_of(run, answer):
-    """[(kind, details)] of an answer that is a mean and still changes at the end of the run."""
+def faults_of_answer(run, answer):
+    """[(kind, details)] of an answer from few readings, or that is a mean and still changes at the end of the run."""
     quantities = run.results.get(answer["probe"], {}).get("quantities", [])
     what = next((one["what"] for one in quantities if one["name"] == answer["quantity"]), "")
-    return [("the answer is not steady", what)] if "still" in what else []
+    found = [("the answer is not steady", what)] if "still" in what else []
+    short = re.compile(rf"probe '{re.escape(answer['probe'])}': interval = .* gives (\d+ readings?)")
+    told = next((match[1] for match in map(short.search, run.summary.get("warnings", [])) if match), "")
+    if "reading" in what or told:
+        found.append(("the answer is from few readings", what if "reading" in what else told))
+    return found
 
 
 def faults_of_run(run, answer):
@@ -55,7 +60,7 @@ def faults_of_run(run, answer):
         reached, end = summary.get("time_s", {}).get("reached"), run.case["time"]["end"]
         place = f"at t = {reached:.4g} of {end:.4g} s" if reached is not None else f"before t = {end:.4g} s"
         return [("a run is unfinished", f"{run.status} {place}")]
-    water, found = water_of(summary), change_of(run, answer) if answer else []
+    water, found = water_of(summary), faults_of_answer(run, answer) if answer else []
     if water["outside_relative"] > LEAK:
         found.append(("water leaks", f"{100 * water['outside_relative']:.3g} % left the walls"))
     if abs(water["missing_relative"]) > LEAK:

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
 #include "base/box.h"
+#include "case/probe_columns.h"
 #include "checks/checks.h"
 #include "checks/swept_box.h"
 #include "geometry/from_spec.h"
@@ -54,6 +56,28 @@ Box<Dim> box_of_probe(const ProbeTable& probe) {
     box.extend(to_vec<Dim>(probe.to, owner, "to"));
   }
   return box;  // other probes search for a wall, and report if there is none
+}
+
+/// Whether a probe has a result from many of its readings, such as a mean or a maximum.
+bool is_reduced_over_time(const ProbeTable& probe) {
+  return std::ranges::any_of(info_of(probe.type).results, [](const DeclaredResult& result) {
+    return result.statistic != Statistic::last && result.statistic != Statistic::last_min &&
+           result.statistic != Statistic::last_max;
+  });
+}
+
+/// Adds a warning about an interval that leaves few readings in the run.
+void check_interval(const CaseSpec& spec, const ProbeTable& probe, Findings& findings) {
+  constexpr double few = 10.0;
+  if (probe.interval * few <= spec.time.end * (1.0 + 1e-9) || !is_reduced_over_time(probe)) return;
+  const double readings = std::floor(spec.time.end / probe.interval * (1.0 + 1e-9)) + 1.0;
+  findings.push_back(
+      Finding::warning("probe-takes-few-readings",
+                       {"{}: interval = {:.6g} gives {:.0f} {} in the run of {:.6g} s, so its means and maxima are "
+                        "unreliable or missing",
+                        label(probe), Amount{probe.interval, "s"}, readings,
+                        readings > 1.0 ? "readings" : "reading, at the start,", spec.time.end},
+                       {"give an interval of at most {:.3g} s, or end the run later", spec.time.end / few}));
 }
 
 /// Adds a warning about times that are never reached, and about means over more than the run.
@@ -138,6 +162,7 @@ Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const Fl
   Findings findings;
   const Box<Dim> box = box_of_case(spec, drawn, fluid);
   for (const ProbeTable& probe : spec.probes) {
+    check_interval(spec, probe, findings);
     check_times(spec, probe, findings);
     check_is_on_wall(spec, drawn, probe, findings);
     const Box<Dim> where = box_of_probe<Dim>(probe);

@@ -16,8 +16,13 @@
 namespace tailwater {
 namespace {
 
-std::string mean_in_words(int trend) {
-  const std::string mean = "mean of the second half";
+/// With fewer readings than that, a mean is marked with their number.
+constexpr int many_readings = 5;
+
+std::string mean_in_words(int readings, int trend) {
+  const std::string mean = readings >= many_readings ? "mean of the second half"
+                           : readings > 1            ? fmt::format("mean of {} readings in the second half", readings)
+                                                     : "only reading in the second half";
   if (trend == 0) return mean;
   return mean + (trend > 0 ? ", still rising" : ", still falling");
 }
@@ -28,6 +33,25 @@ double averaging_time_of(const ProbeTable& probe, const CaseSpec& spec, double s
   return averaging_time(probe.averaging_time, spec.particles.spacing, speed, gravity);
 }
 
+/// Whether a column has the readings that a statistic takes.
+bool is_known(Statistic statistic, const ColumnDigest& column) {
+  switch (statistic) {
+    case Statistic::mean:
+      return column.mean_of_second_half().has_value();
+    case Statistic::rate:
+      return column.rate_in_second_half().has_value();
+    case Statistic::max_rate:
+      return column.largest_rate.is_known();
+    case Statistic::max_mean:
+      return column.largest_mean.is_known();
+    case Statistic::rise:
+      return column.largest_rate.rise() > 0.0;
+    default:
+      return column.count > 0;
+  }
+}
+
+/// The result of a statistic that is known.
 Quantity quantity_of(const DeclaredResult& declared, Measure measure, const ColumnDigest& column, double last_time,
                      const ProbeTable& probe, const CaseSpec& spec, double speed) {
   const int dimension = spec.general.dimension;
@@ -41,9 +65,11 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
   };
   switch (declared.statistic) {
     case Statistic::mean:
-      return quantity(column.mean_of_second_half(), mean_in_words(column.trend_of_mean()));
+      return quantity(*column.mean_of_second_half(),
+                      mean_in_words(column.readings_in_second_half(), column.trend_of_mean()));
     case Statistic::rate:
-      return quantity(column.rate_in_second_half(), mean_in_words(column.trend_of_rate()));
+      return quantity(*column.rate_in_second_half(),
+                      mean_in_words(column.readings_in_second_half(), column.trend_of_rate()));
     case Statistic::max_rate:
     case Statistic::max_mean: {
       const LargestMean& largest =
@@ -139,9 +165,7 @@ std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& fo
       if (place == std::ssize(table.names)) continue;
       const ColumnDigest& digest =
           declared.statistic == Statistic::max_magnitude ? table.magnitude_of_force : table.columns[place];
-      const bool is_known =
-          digest.count > 0 && (declared.statistic != Statistic::rise || digest.largest_rate.rise() > 0.0);
-      if (!is_known) continue;
+      if (!is_known(declared.statistic, digest)) continue;
       result.quantities.push_back(quantity_of(declared, column->measure, digest, table.last_time, probe, spec, speed));
     }
     if (!result.quantities.empty()) results.push_back(std::move(result));

@@ -98,6 +98,7 @@ void ColumnDigest::add(double time, double value, double half, double over) {
   }
   const bool is_same_time = !is_first && time == last_time;
   if (is_first || time > last_time) {
+    if (time >= half) ++readings_in_second_half_;
     if (!is_first) sum_ += 0.5 * (last + value) * (time - last_time);
     largest_rate.add(time, value, over);
     largest_mean.add(time, sum_, over);
@@ -123,19 +124,20 @@ void ColumnDigest::add_stretch(double time, double value, double half) {
   }
 }
 
-/// The sum of `part` over the second half, per second; nothing if it has no time.
-std::optional<double> ColumnDigest::per_second(double Quarter::*part) const {
+/// The sum of `part` over the second half, per second. The second half has at least two readings.
+double ColumnDigest::per_second(double Quarter::*part) const {
   double length = 0.0;
   double sum = 0.0;
   for (const Quarter& quarter : quarters_) {
     length += quarter.length;
     sum += quarter.*part;
   }
-  return length > 0.0 ? std::optional(sum / length) : std::nullopt;
+  return sum / length;
 }
 
 int ColumnDigest::trend(double Quarter::*part) const {
   constexpr double min_change = 0.01;
+  if (readings_in_second_half_ < 2) return 0;
   if (std::ranges::any_of(quarters_, [](const Quarter& quarter) { return quarter.length == 0.0; })) return 0;
   std::array<double, 4> means{};
   std::ranges::transform(quarters_, means.begin(), [&](const Quarter& one) { return one.*part / one.length; });
@@ -145,8 +147,16 @@ int ColumnDigest::trend(double Quarter::*part) const {
   return std::ranges::is_sorted(means, std::greater<>()) ? -1 : 0;
 }
 
-double ColumnDigest::mean_of_second_half() const { return per_second(&Quarter::integral).value_or(last); }
-double ColumnDigest::rate_in_second_half() const { return per_second(&Quarter::growth).value_or(0.0); }
+std::optional<double> ColumnDigest::mean_of_second_half() const {
+  if (readings_in_second_half_ == 0) return {};
+  return readings_in_second_half_ == 1 ? last : per_second(&Quarter::integral);
+}
+
+std::optional<double> ColumnDigest::rate_in_second_half() const {
+  if (readings_in_second_half_ < 2) return {};
+  return per_second(&Quarter::growth);
+}
+
 int ColumnDigest::trend_of_mean() const { return trend(&Quarter::integral); }
 int ColumnDigest::trend_of_rate() const { return trend(&Quarter::growth); }
 

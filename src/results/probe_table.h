@@ -19,7 +19,9 @@ class LargestMean {
   /// Adds the sum at a later time. Each mean is over a time of `over` [s], or between two lines that are farther apart.
   void add(double time, double sum, double over);
 
-  /// Over the whole table if that is shorter.
+  /// Whether there are two lines, which a mean takes.
+  bool is_known() const { return is_whole_ || lines_.size() > 1; }
+  /// Over the whole table if that is shorter; 0 if it is not known.
   double value() const;
   double time() const { return time_; }  ///< s; end of the stretch
   /// s; length of the stretch: longer than that of `add` between lines that are farther apart
@@ -58,10 +60,12 @@ struct ColumnDigest {
   /// The second half begins at `half` [s]; largest means are over a time of `over` [s].
   void add(double time, double value, double half, double over);
 
-  /// Mean over time, linear between readings; the last reading if there is only one.
-  double mean_of_second_half() const;
-  /// Growth per second.
-  double rate_in_second_half() const;
+  /// Number of times with a reading in the second half.
+  int readings_in_second_half() const { return readings_in_second_half_; }
+  /// Mean over time, linear between readings; if there is one reading, its value. Nothing without a reading.
+  std::optional<double> mean_of_second_half() const;
+  /// Growth per second; nothing without two readings.
+  std::optional<double> rate_in_second_half() const;
   /// 1 or -1: the mean of each quarter of the second half is larger, or smaller, than that of the quarter before, and
   /// the whole change is more than 1 % of them, so a steady state was not reached. 0: neither.
   int trend_of_mean() const;
@@ -75,9 +79,10 @@ struct ColumnDigest {
     double growth = 0.0;
   };
   void add_stretch(double time, double value, double half);
-  std::optional<double> per_second(double Quarter::*part) const;
+  double per_second(double Quarter::*part) const;
   int trend(double Quarter::*part) const;
 
+  int readings_in_second_half_ = 0;
   double sum_ = 0.0;                 ///< integral since the first line
   std::array<Quarter, 4> quarters_;  ///< of the second half
 };

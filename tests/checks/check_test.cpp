@@ -1347,6 +1347,25 @@ TEST(Check, AStartAfterTheEndIsTold) {
   expect_among(check_late_starts(spec), Severity::warning, {"wave_maker 'piston' begins to move at 1 s"});
 }
 
+TEST(Check, AnIntervalOfFewReadingsIsReported) {
+  CaseSpec spec = tank();
+  spec.time.end = 1.0;
+  ProbeTable probe;
+  probe.name = "p";
+  probe.type = ProbeType::pressure;
+  probe.at = {0.5, 0.1};
+  probe.interval = 0.1;
+  spec.probes = {probe};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.probes[0].interval = 0.3;
+  expect_only(check(spec), Severity::warning,
+              {"probe 'p': interval = 0.3 s gives 4 readings in the run of 1 s", "0.1 s"});
+  spec.probes[0].interval = 2.0;
+  expect_only(check(spec), Severity::warning, {"probe 'p': interval = 2 s gives 1 reading, at the start,"});
+  spec.probes[0].type = ProbeType::front;  // the result is its last reading
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, TimesAfterTheEndAreTold) {
   CaseSpec spec = tank();
   spec.time.end = 1.0;

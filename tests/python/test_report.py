@@ -130,6 +130,20 @@ class MadeUp(PackageTest):
         self.assertIn("relied on: the answer is not steady (mean of the second half, still rising)",
                       self.first_line(results=results))
 
+    def test_mean_of_few_readings(self):
+        results = summary()["results"]
+        results["depth"]["quantities"][0]["what"] = "mean of 2 readings in the second half"
+        self.assertIn("relied on: the answer is from few readings (mean of 2 readings in the second half)",
+                      self.first_line(results=results))
+
+    def test_probe_of_few_readings(self):
+        warning = "probe 'depth': interval = 0.3 s gives 4 readings in the run of 1 s, so its means are unreliable"
+        self.assertIn("relied on: the answer is from few readings (4 readings)", self.first_line(warnings=[warning]))
+
+    def test_other_probe_of_few_readings(self):
+        warning = "probe 'other': interval = 0.3 s gives 4 readings in the run of 1 s, so its means are unreliable"
+        self.assertNotIn("few readings", self.first_line(warnings=[warning]))
+
     def test_unfinished_run(self):
         line = self.first_line(status="interrupted", time_s={"end": 0.1, "reached": 0.04})
         self.assertRegex(line, "^This number cannot be relied on: the study is unfinished")
@@ -165,7 +179,7 @@ class Real(PackageTest):
         Path("data").mkdir()
         Path("data/gauge.csv").write_text("# made up\ntime_s,connected_m\n0,0.5\n0.02,0.49\n", encoding="utf-8")
         measured = '[[measurement]]\nprobe = "depth"\ncolumn = "connected"\nfile = "data/gauge.csv"\n'
-        self.case = tw.Case(self.write("dam.toml", DAM + measured)).update({"time.end": 0.02})
+        self.case = tw.Case(self.write("dam.toml", DAM + measured)).update({"time.end": 0.02, "scheme.courant": 0.05})
 
     def test_study_is_reproduced_from_the_page_alone(self):
         tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=1)
@@ -275,6 +289,8 @@ class Messages(unittest.TestCase):
         sources = re.sub(r'"\s*\n\s*"', "", sources)
         for kind, words in report_faults.MESSAGES.items():
             self.assertRegex(sources, words, kind)
+        checks = (SOURCES / "checks/probes.cpp").read_text(encoding="utf-8")
+        self.assertIn("{}: interval = {:.6g} gives {:.0f} {}", checks)
 
 
 if __name__ == "__main__":

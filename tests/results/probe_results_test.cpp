@@ -23,13 +23,14 @@ TEST(ProbeTable, MeansAreOverTimeAndLinearBetweenReadings) {
   std::ofstream(path) << "time_s,a_m,volume_m3\n0,9,0\n1,5,1\n2,1,2\n3,1,4\n4,3,8\n";
   const TableDigest table = digest_probe_table(path, 2.0);
   ASSERT_EQ(table.names, (std::vector<std::string>{"a_m", "volume_m3"}));
-  EXPECT_DOUBLE_EQ(table.columns[0].mean_of_second_half(), 0.5 * (1.0 + 2.0));
-  EXPECT_DOUBLE_EQ(table.columns[1].rate_in_second_half(), 3.0);
+  EXPECT_DOUBLE_EQ(table.columns[0].mean_of_second_half().value(), 0.5 * (1.0 + 2.0));
+  EXPECT_DOUBLE_EQ(table.columns[1].rate_in_second_half().value(), 3.0);
   EXPECT_EQ(table.columns[0].least, 1.0);
   EXPECT_EQ(table.columns[0].largest, 9.0);
   EXPECT_EQ(table.columns[0].time_of_largest, 0.0);
   // If the second half begins between two readings, its first value is interpolated: 3 at t = 1.5.
-  EXPECT_DOUBLE_EQ(digest_probe_table(path, 1.5).columns[0].mean_of_second_half(), (0.5 * 2.0 + 1.0 + 2.0) / 2.5);
+  EXPECT_DOUBLE_EQ(digest_probe_table(path, 1.5).columns[0].mean_of_second_half().value(),
+                   (0.5 * 2.0 + 1.0 + 2.0) / 2.5);
 }
 
 TEST(ProbeTable, AMeanThatStillChangesIsToldApart) {
@@ -41,8 +42,8 @@ TEST(ProbeTable, AMeanThatStillChangesIsToldApart) {
   const TableDigest table = digest_probe_table(path, 4.0);
   const auto trend = [&](std::size_t k) { return table.columns[k].trend_of_mean(); };
   EXPECT_EQ((std::array{trend(0), trend(1), trend(2), trend(3), trend(4)}), (std::array{1, 0, -1, 0, 0}));
-  EXPECT_NEAR(table.columns[0].mean_of_second_half(), 1.01, 1e-12);
-  EXPECT_NEAR(table.columns[4].mean_of_second_half(), 2.0, 1e-12);
+  EXPECT_NEAR(table.columns[0].mean_of_second_half().value(), 1.01, 1e-12);
+  EXPECT_NEAR(table.columns[4].mean_of_second_half().value(), 2.0, 1e-12);
 }
 
 TEST(ProbeTable, ARateThatStillChangesIsToldApart) {
@@ -53,7 +54,7 @@ TEST(ProbeTable, ARateThatStillChangesIsToldApart) {
   const TableDigest table = digest_probe_table(path, 4.0);
   const auto trend = [&](std::size_t k) { return table.columns[k].trend_of_rate(); };
   EXPECT_EQ((std::array{trend(0), trend(1), trend(2)}), (std::array{1, 0, -1}));
-  EXPECT_NEAR(table.columns[0].rate_in_second_half(), 4.06 / 4.0, 1e-12);
+  EXPECT_NEAR(table.columns[0].rate_in_second_half().value(), 4.06 / 4.0, 1e-12);
 }
 
 TEST(ProbeTable, LargestMeansAreOverTheTimeGiven) {
@@ -86,6 +87,20 @@ TEST(ProbeTable, OneReadingAndNumbersThatAreNone) {
   EXPECT_EQ(table.columns[0].mean_of_second_half(), 2.0);
   EXPECT_EQ(table.columns[1].count, 0u);
   EXPECT_THROW(digest_probe_table(folder.path() / "no.csv", 0.0), IoError);
+}
+
+TEST(ProbeTable, AMeanIsOfReadingsInTheSecondHalf) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "probe.csv";
+  std::ofstream(path) << "time_s,a_m,volume_m3\n0,0,0\n0.6,5,3\n";
+  const ColumnDigest one = digest_probe_table(path, 0.5).columns[0];
+  EXPECT_EQ(one.readings_in_second_half(), 1);
+  EXPECT_EQ(one.mean_of_second_half(), 5.0);  // the line from the start to it is no reading
+  EXPECT_EQ(one.trend_of_mean(), 0);
+  EXPECT_FALSE(digest_probe_table(path, 0.5).columns[1].rate_in_second_half().has_value());
+  const ColumnDigest none = digest_probe_table(path, 0.7).columns[0];
+  EXPECT_EQ(none.readings_in_second_half(), 0);
+  EXPECT_FALSE(none.mean_of_second_half().has_value());
 }
 
 TEST(ProbeTable, HasTheMagnitudeOfAForceAndTheLinesOfTheLastTime) {
@@ -121,36 +136,49 @@ class Results : public testing::Test {
 
 TEST_F(Results, AreToldInWords) {
   EXPECT_EQ(words("\"depth\"\nat = [0, 0]",
-                  "time_s,connected_m,highest_m,wet_m\n0,0.2,0.3,0.2\n1,0.289,0.289,0.2\n"
-                  "2,0.289,0.29,0.2\n",
+                  "time_s,connected_m,highest_m,wet_m\n0,0.2,0.3,0.2\n1,0.289,0.289,0.2\n1.2,0.289,0.29,0.2\n"
+                  "1.4,0.289,0.29,0.2\n1.6,0.289,0.29,0.2\n2,0.289,0.29,0.2\n",
                   2.0),
             "0.2890 m (mean of the second half), highest 0.3000 m (at 0 s)");
-  EXPECT_EQ(
-      words("\"depth\"\nat = [0, 0]", "time_s,connected_m,highest_m,wet_m\n0,0.2,0.3,0.2\n8,0.28,0.28,0.2\n", 8.0),
-      "0.2600 m (mean of the second half, still rising), highest 0.3000 m (at 0 s)");
+  EXPECT_EQ(words("\"depth\"\nat = [0, 0]",
+                  "time_s,connected_m,highest_m,wet_m\n0,0.2,0.3,0.2\n4,0.24,0.24,0.2\n8,0.28,0.28,0.2\n", 8.0),
+            "0.2600 m (mean of 2 readings in the second half, still rising), highest 0.3000 m (at 0 s)");
   EXPECT_EQ(
       words("\"force\"\nmoment_about = [0, 0]",
             "time_s,force_x_N_per_m,force_y_N_per_m,pressure_x_N_per_m\n0,0,0,0\n1,380,-12,0\n2,380,-12,0\n", 2.0),
-      "x 380.0 N/m, y -12.0 N/m (mean of the second half), largest 380.2 N/m (at 1 s)");
+      "x 380.0 N/m, y -12.0 N/m (mean of 2 readings in the second half), largest 380.2 N/m (at 1 s)");
   // Below a thousandth of the vector a component is rounding and noise.
   EXPECT_EQ(words("\"force\"\nmoment_about = [0, 0]",
                   "time_s,force_x_N_per_m,force_y_N_per_m,pressure_x_N_per_m\n0,0.3,380,0\n2,0.3,380,0\n", 2.0),
-            "x 0 N/m, y 380.0 N/m (mean of the second half), largest 380.0 N/m (at 0 s)");
-  EXPECT_EQ(
-      words("\"discharge\"\nfrom = [0, 0]\nto = [0, 1]",
-            "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n1,0.06,0.01\n2,0.04,0.06\n", 2.0),
-      "0.05000 m^3/s per m (mean of the second half), largest 0.06000 m^3/s per m (at 1 s, smoothed over 0.64 s)");
+            "x 0 N/m, y 380.0 N/m (only reading in the second half), largest 380.0 N/m (at 0 s)");
+  EXPECT_EQ(words("\"discharge\"\nfrom = [0, 0]\nto = [0, 1]",
+                  "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n1,0.06,0.01\n2,0.04,0.06\n", 2.0),
+            "0.05000 m^3/s per m (mean of 2 readings in the second half), largest 0.06000 m^3/s per m (at 1 s, "
+            "smoothed over 0.64 s)");
   // From the impulse alone: the pressures at the times of the lines have no effect. Without a time for means they are
   // those between two lines.
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]",
             "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,0,0\n1.5,99,50\n2,9000,6050\n3,7000,7050\n4,900,7950\n", 4.0, 3),
-      "950.0 Pa (mean of the second half, still falling), largest 12000 Pa (at 2 s, mean over 0.5 s), rise time "
+      "950.0 Pa (mean of 3 readings in the second half, still falling), largest 12000 Pa (at 2 s, mean over 0.5 s), "
+      "rise time "
       "0.5000 s (from a tenth to the largest), impulse 7950 Pa s (at 4 s)");
   EXPECT_EQ(
       words("\"wall-pressure\"\nat = [0, 0, 0]", "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1,12,12\n2,9,21\n", 2.0, 3),
-      "9.000 Pa (mean of the second half), largest 12.00 Pa (at 1 s, mean over 1 s), impulse 21.00 Pa s (at 2 s)");
+      "9.000 Pa (mean of 2 readings in the second half), largest 12.00 Pa (at 1 s, mean over 1 s), impulse 21.00 Pa s "
+      "(at 2 s)");
   EXPECT_EQ(words("\"depth\"\nat = [0, 0]", "time_s,connected_m,highest_m,wet_m\n", 2.0), "");
+}
+
+// The probe's interval is longer than the run.
+TEST_F(Results, WithoutTheirReadingsAreAbsent) {
+  EXPECT_EQ(words("\"depth\"\nat = [0, 0]", "time_s,connected_m,highest_m,wet_m\n0,0.2,0.3,0.2\n", 2.0),
+            "highest 0.3000 m (at 0 s)");
+  EXPECT_EQ(words("\"pressure\"\nat = [0, 0]", "time_s,pressure_Pa,wet\n0,900,1\n", 2.0), "");
+  EXPECT_EQ(words("\"wall-pressure\"\nat = [0, 0]", "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n", 2.0),
+            "impulse 0 Pa s (at 0 s)");
+  EXPECT_EQ(words("\"wall-pressure\"\nat = [0, 0]", "time_s,pressure_Pa,impulse_Pa_s\n0,0,0\n1.2,50,60\n", 2.0),
+            "largest 50.00 Pa (at 1.2 s, mean over 1.2 s), impulse 60.00 Pa s (at 1.2 s)");
 }
 
 }  // namespace
