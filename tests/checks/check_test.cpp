@@ -517,6 +517,24 @@ TEST(Check, WaterGoesRoundAPeriodicDomain) {
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
+TEST(Check, BlocksThatOverlapThroughThePeriodAreRefused) {
+  CaseSpec spec = empty_case(0.1);
+  spec.domain.periodic_x = {0.0, 2.0};
+  spec.walls = {polyline({{0, 0}, {2, 0}})};
+  spec.fluid = {box_fluid({0, 0}, {2.3, 0.4})};
+  expect_among(check(spec), Severity::error,
+               {"fluid 'fluid1' overlaps itself through the period", "12 of its particles", "at most one period"});
+  spec.fluid = {box_fluid({-4, 0}, {40, 0.4})};
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1' overlaps itself through the period"});
+  spec.fluid = {box_fluid({0, 0}, {1.2, 0.4}), box_fluid({1.2, 0}, {2.2, 0.4})};
+  expect_among(check(spec), Severity::error,
+               {"fluid 'fluid1' and fluid 'fluid2' overlap through the period", "8 particles"});
+  spec.fluid = {box_fluid({0.5, 0}, {1.2, 0.4}), box_fluid({1.2, 0}, {2.5, 0.4})};  // one period of water
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.particles.jitter = 0.4;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, AFillRoundAPeriodicDomain) {
   CaseSpec spec = empty_case(0.1);
   spec.domain.periodic_x = {0.0, 1.2};
