@@ -70,7 +70,7 @@ GROUPS = {
                                        "air/voids_under_tension": "`[physics]`",
                                        "porous": "`[[porous]]`", "checks/creep": "`[[liquid]]`", "checks/units": "`[physics]`",
                                        "rheology/thick_liquid": "`[[liquid]]`, `[[wall]]`"},
-    "Probes": {"checks/probes": "`[[probe]]`, `[[damping]]`", "probes": "`[[probe]]`"},
+    "Probes": {"checks/probes": "`[[probe]]`, `[[damping]]`", "checks/shared_force": "`[[probe]]`", "probes": "`[[probe]]`"},
     "Cost, solver and machine": {"run/estimate": "`[particles]`, `[time]`", "linear/petsc_options": "`[pressure_solver]`",
                                  "app/ranks": "", "app/pictures": "", "app/check_command": "", "io/folder_lock": "",
                                  "run/resume": ""},

@@ -48,6 +48,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     append(findings, check_damping(spec, boundary, fluid));
     append(findings, check_wave_zones(spec, fluid));
     append(findings, check_probes(spec, boundary, fluid));
+    append(findings, check_shared_force(spec, boundary));
   }
   // Several faces may have the same finding, as the two of a plate.
   std::set<std::string> reported;

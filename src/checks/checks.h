@@ -144,7 +144,7 @@ Findings check_late_starts(const CaseSpec& spec);
 template <int Dim>
 Findings check_wave_zones(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 
-/// Error: a damping zone where no water can come.
+/// Error: a damping zone where no water can come. Warning: two zones that overlap.
 template <int Dim>
 Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
@@ -154,10 +154,14 @@ Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const F
 template <int Dim>
 Findings check_refinement(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
-/// Error: a probe where no water can come. Warning: times of a probe after the end of the run; a probe of the pressure
-/// on a wall that is not at one.
+/// Error: a probe where no water can come. Warning: few readings, or times after the end of the run; a probe of the
+/// pressure on a wall that is not at one.
 template <int Dim>
 Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
+
+/// Warning: a force probe on a wall on which another wall lies that the probe does not name.
+template <int Dim>
+Findings check_shared_force(const CaseSpec& spec, const Boundary<Dim>& drawn);
 
 /// All checks of moving walls; `drawn` are the walls as in the case file. Error: a wall that is not at its drawn place
 /// at t = 0. Walls without that error are then checked by the functions below.

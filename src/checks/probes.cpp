@@ -114,6 +114,31 @@ void check_is_on_wall(const CaseSpec& spec, const Boundary<Dim>& drawn, const Pr
                        {"move the probe onto its wall, or use type = \"pressure\" for the pressure in the water"}));
 }
 
+template <int Dim>
+Box<Dim> zone_box(const DampingTable& zone) {
+  const CaseLabel owner("damping", zone.name);
+  return {to_vec<Dim>(zone.min, owner, "min"), to_vec<Dim>(zone.max, owner, "max")};
+}
+
+/// Adds a warning about the common part of two zones. In the corner of a basin, two zones at rest may share a part.
+template <int Dim>
+void check_zones_apart(const CaseSpec& spec, const DampingTable& first, const DampingTable& second,
+                       Findings& findings) {
+  const Box<Dim> common = zone_box<Dim>(first).intersection(zone_box<Dim>(second));
+  if (common.isEmpty() || common.sizes().minCoeff() < corner_tolerance * spec.particles.spacing) return;
+  const auto has_target = [](const DampingTable& zone) {
+    return zone.waves != WaveKind::none || zone.transport != 0.0;
+  };
+  const auto axis = [](const DampingTable& zone) { return static_cast<int>(zone.towards) / 2; };
+  if (axis(first) != axis(second) && !(has_target(first) && has_target(second))) return;
+  findings.push_back(
+      Finding::warning("damping-zones-overlap",
+                       {"{} and {} overlap from {} to {}: their rates add, and the water there follows neither of them",
+                        CaseLabel("damping", first.name), CaseLabel("damping", second.name), place<Dim>(common.min()),
+                        place<Dim>(common.max())},
+                       {"end one zone where the other begins, or remove one of them"}));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -146,13 +171,16 @@ Findings check_damping(const CaseSpec& spec, const Boundary<Dim>& drawn, const F
   const Box<Dim> box = box_of_case(spec, drawn, fluid);
   for (const DampingTable& zone : spec.damping) {
     const CaseLabel owner("damping", zone.name);
-    const Box<Dim> where(to_vec<Dim>(zone.min, owner, "min"), to_vec<Dim>(zone.max, owner, "max"));
+    const Box<Dim> where = zone_box<Dim>(zone);
     if (box.intersects(where)) continue;
     findings.push_back(Finding::error(
         "damping-outside-case",
         {"{} from {} to {} is outside of the case, whose walls and water lie between {} and {}: it would damp nothing",
          owner, place<Dim>(where.min()), place<Dim>(where.max()), place<Dim>(box.min()), place<Dim>(box.max())},
         {"move it to where the waves are to decay"}));
+  }
+  for (std::size_t b = 1; b < spec.damping.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) check_zones_apart<Dim>(spec, spec.damping[a], spec.damping[b], findings);
   }
   return findings;
 }

@@ -1082,6 +1082,81 @@ TEST(Check, ADampingZoneWhereNoWaterComesIsRefused) {
   expect_only(check(spec), Severity::error, {"damping from (1.1, 0) to (1.5, 1) is outside of the case"});
 }
 
+TEST(Check, DampingZonesThatOverlapAreReported) {
+  CaseSpec spec = tank();  // 1 m x 0.6 m
+  DampingTable zone;
+  zone.name = "damping1";
+  zone.min = {0.5, 0.0};
+  zone.max = {1.0, 1.0};
+  zone.strength = 1.0;
+  spec.damping = {zone, zone};
+  spec.damping[1].name = "damping2";
+  spec.damping[1].min[0] = 0.8;
+  expect_only(check(spec), Severity::warning,
+              {"damping 'damping1' and damping 'damping2' overlap from (0.8, 0) to (1, 1)", "rates add"});
+  spec.damping[1].towards = AxisDirection::plus_y;  // as in the corner of a basin
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.damping[1].towards = AxisDirection::minus_x;
+  spec.damping[1].min[0] = 0.2;
+  spec.damping[1].max[0] = 0.5;
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+ProbeTable force_on(const std::vector<std::string>& walls) {
+  ProbeTable probe;
+  probe.name = "force";
+  probe.type = ProbeType::force;
+  probe.walls = walls;
+  return probe;
+}
+
+TEST(Check, AForceThatWallsShareIsReported) {
+  CaseSpec spec = tank();  // 1 m x 0.6 m
+  spec.walls[0].name = "tank";
+  spec.walls.push_back(polyline({{0.2, 0}, {0.8, 0}}));
+  spec.walls[1].name = "plate";
+  spec.probes = {force_on({"plate"})};
+  expect_only(check(spec), Severity::warning,
+              {"probe 'force' names wall 'plate' but not wall 'tank', which lies on it over 0.6 m", "name both walls"});
+  spec.probes = {force_on({"plate", "tank"})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.probes = {force_on({})};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
+// A box on the bed faces it. Two boxes with a common part share their bottoms, where there is no water, and their tops.
+TEST(Check, WallsThatTouchShareNoForce) {
+  CaseSpec spec = tank();
+  spec.particles.spacing = 0.01;
+  spec.walls[0].name = "tank";
+  for (const double left : {0.2, 0.3, 0.5}) {
+    spec.walls.push_back(box_wall({left, 0}, {left + 0.2, 0.1}, {}, FluidSide::outside));
+    spec.walls.back().name = "box" + std::to_string(spec.walls.size());
+  }
+  spec.fluid = {box_fluid({0, 0}, {1, 0.4})};
+  for (const char* name : {"tank", "box4"}) {
+    spec.probes = {force_on({name})};
+    EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  }
+  spec.probes = {force_on({"box2"})};  // its top is partly that of the second box
+  expect_only(check(spec), Severity::warning, {"names wall 'box2' but not wall 'box3', which lies on it over 0.1 m"});
+}
+
+TEST(Check, AForceThatWallsShareIsReportedInSpace) {
+  CaseSpec spec = empty_case(0.1, 3);
+  spec.walls = {box_wall({0, 0, 0}, {2, 2, 1}, {"+z"}),
+                box_wall({0.8, 0.8, 0}, {1.2, 1.2, 0.3}, {}, FluidSide::outside),
+                box_wall({0, 0, 0}, {2, 2, 1}, {"+x", "-x", "+y", "-y", "+z"})};
+  spec.walls[0].name = "tank";
+  spec.walls[1].name = "pier";
+  spec.walls[2].name = "floor";
+  spec.fluid = {box_fluid({0, 0, 0}, {2, 2, 0.5})};
+  spec.probes = {force_on({"pier"})};
+  EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
+  spec.probes = {force_on({"floor"})};
+  expect_only(check<3>(spec), Severity::warning, {"names wall 'floor' but not wall 'tank', which lies on it over"});
+}
+
 TEST(Check, AZoneThatIsTurnedOrTooLowIsReported) {
   CaseSpec spec = tank();  // 1 m x 0.6 m
   DampingTable zone;
