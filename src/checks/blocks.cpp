@@ -6,10 +6,24 @@
 namespace tailwater {
 namespace {
 
+/// `or_else`: another reason why a block that is large enough may hold no particle.
+template <int Dim>
+Finding inside_walls(const CaseLabel& label, const Vec<Dim>& at, double dx, const char* or_else) {
+  return Finding::error("block-inside-walls",
+                        {"{} at {} holds no particle of spacing {:.6g} m: {}all of it is in walls and bodies", label,
+                         place(at), dx, or_else},
+                        {"move the block, or give the wall around it the other fluid_side"});
+}
+
 template <int Dim>
 void check_polygon(const FluidTable& block, const CaseLabel& label, double particles, double dx, Findings& findings) {
   const double area = std::abs(signed_area(block.points));
-  if (particles > 0.0 && area >= 0.5 * dx * dx) return;
+  if (area >= 0.5 * dx * dx) {
+    if (particles > 0.0) return;
+    findings.push_back(inside_walls<Dim>(label, to_vec<Dim>(block.points[0], label, "points[0]"), dx,
+                                         "the block is thinner than the spacing, or "));
+    return;
+  }
   findings.push_back(
       Finding::error("block-area-too-small",
                      {"{} at {} holds no particle: its area is {:.3g} and the spacing is {:.6g} m", label,
@@ -23,7 +37,9 @@ void check_box(const FluidTable& block, const CaseLabel& label, double particles
   const Vec<Dim> extent = to_vec<Dim>(block.max, label, "max") - low;
   int smallest = 0;
   extent.minCoeff(&smallest);
-  if (particles == 0.0 || extent[smallest] < (1.0 - corner_tolerance) * dx) {
+  const bool is_thin = extent[smallest] < (1.0 - corner_tolerance) * dx;
+  if (particles == 0.0 && !is_thin) findings.push_back(inside_walls<Dim>(label, low, dx, ""));
+  if (is_thin) {
     findings.push_back(Finding::error("block-thinner-than-spacing",
                                       {"{} at {} is {:.6g} long in {}, so it holds no particle of spacing {:.6g} m",
                                        label, place(low), Amount{extent[smallest], "m"}, "xyz"[smallest], dx},

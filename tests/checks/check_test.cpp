@@ -105,6 +105,15 @@ TEST(Check, ExtentNeedNotBeAWholeNumberOfSpacings) {
   EXPECT_TRUE(check(spec).empty());
 }
 
+TEST(Check, ABlockInsideAWallIsReportedAsSuch) {
+  CaseSpec spec = tank();
+  spec.walls.push_back(polygon({{0, 0}, {1, 0}, {1, 0.5}, {0, 0.5}}, FluidSide::outside));
+  spec.fluid = {box_fluid({0, 0}, {0.5, 0.4})};
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1' at (0, 0) holds no particle", "in walls and bodies"});
+  spec.fluid = {polygon_fluid({{0, 0}, {0.5, 0}, {0.5, 0.4}})};
+  expect_among(check(spec), Severity::error, {"fluid 'fluid1' at (0, 0) holds no particle", "in walls and bodies"});
+}
+
 TEST(Check, OverlappingBlocks) {
   CaseSpec spec = tank();
   spec.fluid = {box_fluid({0, 0}, {0.5, 0.4}), box_fluid({0.4, 0}, {1, 0.4})};
@@ -1381,6 +1390,11 @@ TEST(Check, ValuesOfAnotherUnitAreReported) {
   CaseSpec spec = tank();
   spec.physics.density = 1.0;
   expect_only(check(spec), Severity::warning, {"physics.density = 1 kg/m^3", "kg/l"});
+  spec.physics.density = 1e6;
+  expect_only(check(spec), Severity::warning, {"physics.density = 1e+06 kg/m^3", "g/m^3"});
+  spec.physics.density = 1.36e4;  // mercury
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  spec.physics.density = 1.0;
   spec.physics.gravity = {0.0, -1.0};  // a case without units
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec = tank();
