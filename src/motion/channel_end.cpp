@@ -44,21 +44,29 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// Throws CaseError for the mean of a profile that lets no water in.
+void require_inflow(double mean, const CaseLabel& owner) {
+  if (mean > 0.0) return;
+  throw CaseError(
+      "inlet-profile-mean",
+      {"{} has the mean {:.4g}; a discharge or a velocity below 0 lets water out", owner.with_key("profile"), mean},
+      {"give one whose mean is above 0"});
+}
+
 /// EndFlow::profile.
 std::vector<double> tabulated_profile(const std::optional<Varying>& profile, const CaseSpec& spec,
                                       const CaseLabel& owner) {
-  if (!profile || std::holds_alternative<double>(*profile)) return {};
+  if (!profile) return {};
+  if (const double* uniform = std::get_if<double>(&*profile)) {
+    require_inflow(*uniform, owner);
+    return {};
+  }
   NamedNumbers numbers = named_numbers(spec);
   numbers.erase(std::string(height_name[0]));
   Formula formula(std::get<std::string>(*profile), numbers, height_name);
   const std::vector<double> values = profile_values(formula, profile_parts, owner);
   const double mean = mean_of(values);
-  if (mean <= 0.0) {
-    throw CaseError(
-        "inlet-profile-mean",
-        {"{} has the mean {:.4g}; a discharge or a velocity below 0 lets water out", owner.with_key("profile"), mean},
-        {"give one whose mean is above 0"});
-  }
+  require_inflow(mean, owner);
   const double finer = mean_of(profile_values(formula, 2 * profile_parts, owner));
   if (std::abs(finer - mean) > max_change_of_mean * mean) {
     const bool at_bed = std::abs(values.front()) > std::abs(values.back());

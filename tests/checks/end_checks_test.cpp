@@ -155,7 +155,7 @@ TEST(EndChecks, AnInletMaySpanAPeriod) {
   EXPECT_TRUE(findings.empty()) << findings.front().message();
 }
 
-std::string refusal_of_profile(const std::string& profile) {
+std::string refusal_of_profile(const Varying& profile) {
   CaseSpec spec = open_channel();
   spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.8}, 0.1)};
   spec.inlets[0].profile = profile;
@@ -175,6 +175,10 @@ TEST(EndChecks, AProfileWithoutAMeanIsRefused) {
   EXPECT_NE(refusal_of_profile("1/(1 - s)").find("towards s = 1, the surface"), std::string::npos);
   for (const char* profile : {"s^(-0.5)", "s^(1/7)", "3*s", "min(10, 1/s)"}) {
     EXPECT_EQ(refusal_of_profile(profile), "accepted") << profile;
+  }
+  EXPECT_EQ(refusal_of_profile(2.0), "accepted");
+  for (const Varying& profile : {Varying(0.0), Varying(-1.0), Varying("s - 0.5")}) {
+    EXPECT_NE(refusal_of_profile(profile).find("profile has the mean"), std::string::npos);
   }
 }
 
