@@ -576,7 +576,7 @@ TEST(Check, AForceProbeOnAPlateNearAnotherWall) {
   probe.type = ProbeType::force;
   probe.walls = {"shelf"};
   spec.probes = {probe};
-  expect_among(check(spec), Severity::warning, {"probe 'lift'", "not separated", "0.02 m"});
+  expect_among(check(spec), Severity::warning, {"probe 'lift'", "cannot separate", "0.02 m"});
   spec.probes[0].walls = {"shelf", "tank"};
   expect_only(check(spec), Severity::warning, {"2.0 spacings wide"});
   spec.probes[0].walls = {"shelf"};
@@ -627,7 +627,7 @@ TEST(Check, AWallAtAPeriodicBoundary) {
   EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
   spec.domain.periodic_y = {0.0, 1.2};
   expect_among(check<3>(spec), Severity::error,
-               {"wall 'tank' is only 0 m thick", "of the next period", "leave it out"});
+               {"wall 'tank' is only 0 m thick", "of the next period", "leave the wall out there"});
   spec.walls[0].open = {"-y", "+y", "+z"};
   EXPECT_TRUE(check<3>(spec).empty()) << listed(check<3>(spec));
   // Walls with their full thickness between two periods.
@@ -1777,7 +1777,7 @@ TEST(Check, AThinInflowIsReportedWhereNothingDamsIt) {
   EXPECT_TRUE(check(spec).empty()) << "0.4 m of water, and the level beyond: " << listed(check(spec));
   const auto expect_warning = [&] {
     expect_only(check(spec), Severity::warning,
-                {"critical at a depth of 0.0938 m at most, less than the spacing of 0.1 m"});
+                {"the critical depth of the inflow is 0.0938 m at most, less than the spacing of 0.1 m"});
   };
   spec.outlets[0].level = "0.4 - 0.035*t";
   expect_warning();
@@ -1787,7 +1787,7 @@ TEST(Check, AThinInflowIsReportedWhereNothingDamsIt) {
   spec.walls = {polyline({{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}})};
   EXPECT_TRUE(check(spec).empty()) << "a basin: " << listed(check(spec));
   spec.fluid = {box_fluid({1.5, 0.0}, {2.0, 0.4})};
-  expect_among(check(spec), Severity::warning, {"critical at a depth of 0.0938 m"});
+  expect_among(check(spec), Severity::warning, {"the critical depth of the inflow is 0.0938 m"});
 }
 
 TEST(Check, ALevelOutsideItsOpeningIsAnError) {
