@@ -46,8 +46,8 @@ def faults_of_answer(run, answer):
     quantities = run.results.get(answer["probe"], {}).get("quantities", [])
     what = next((one["what"] for one in quantities if one["name"] == answer["quantity"]), "")
     found = [("the answer is not steady", what)] if "still" in what else []
-    short = re.compile(rf"probe '{re.escape(answer['probe'])}': interval = .* gives (\d+ readings?)")
-    told = next((match[1] for match in map(short.search, run.summary.get("warnings", [])) if match), "")
+    told = next((match[1] for warning in run.summary.get("warnings", []) if f"probe '{answer['probe']}'" in warning
+                 if (match := re.search(r"interval = .* gives (\d+ readings?)", warning))), "")
     if "reading" in what or told:
         found.append(("the answer is from few readings", what if "reading" in what else told))
     return found

@@ -137,7 +137,8 @@ class MadeUp(PackageTest):
                       self.first_line(results=results))
 
     def test_probe_of_few_readings(self):
-        warning = "probe 'depth': interval = 0.3 s gives 4 readings in the run of 1 s, so its means are unreliable"
+        warning = ("probe 'other': interval = 0.3 s gives 4 readings in the run of 1 s, so its means are unreliable "
+                   "(likewise probe 'depth')")
         self.assertIn("relied on: the answer is from few readings (4 readings)", self.first_line(warnings=[warning]))
 
     def test_other_probe_of_few_readings(self):
