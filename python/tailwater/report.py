@@ -88,7 +88,7 @@ def report(folder, *, answer: str = "", question: str = "", pictures: int = 3) -
         "format": FORMAT, "first_line": "",
         "made": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "made_by": version(), "question": question or question_of(finest, row), "answer": row,
-        "faults": report_faults.faults_of(found.study_fault, [run for _, run in found.roles], found.is_study, row),
+        "faults": report_faults.faults_of(found.study_fault, found.roles, found.is_study, row),
         "warnings": report_faults.warnings_of(found.roles), "results": found.rows, "case": case_of(finest),
         "provenance": provenance(found.runs), "inputs": inputs, "runs": [run_record(role, run, row) for role, run in found.roles],
         "features": sorted(features), "validated": validated(features, finest, row),

@@ -3,12 +3,14 @@ still changes, a single spacing."""
 
 import re
 
+from .case_differences import differing_keys
 from .study import number
 
 __all__ = ["energy_of", "faults_of", "warnings_of", "water_of"]
 
 LEAK = 1e-3  # of the initial water and inflow
 MIN_SPACINGS = 3
+MAX_KEYS = 3  # differing keys that a fault names
 # Warnings of the program, found by words of its messages (a test checks that the sources still contain them).
 MESSAGES = {"the energy rose": re.compile(r"energy rose"),
             "the water is too dense or too light": re.compile(r"mean density of the water"),
@@ -85,10 +87,27 @@ def detail_of(kind, summary):
     return ""
 
 
-def faults_of(study_fault, runs, is_study, answer=None) -> list:
+def difference_of(roles):
+    """A fault of the runs of a study that differ in other keys than a study varies; "" if there is none."""
+    found = differing_keys(roles)
+    if not found:
+        return ""
+    keys = [f"{key} = {' and '.join(map(short, values))}" for key, values in list(found.items())[:MAX_KEYS]]
+    more = f", and {len(found) - MAX_KEYS} more keys" if len(found) > MAX_KEYS else ""
+    return f"its runs are of different cases ({', '.join(keys)}{more})"
+
+
+def short(value):
+    """A value for a fault; long lists and texts are cut off."""
+    text = "nothing" if value is None else number(value) if isinstance(value, float) else str(value)
+    return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def faults_of(study_fault, roles, is_study, answer=None) -> list:
     """Reasons why the number is not reliable, one for each kind of fault; empty if no fault was detected. A fault of
-    any run of a study counts, because the interval is computed from all runs. `answer` has the probe and the quantity
-    of the number."""
+    any run of a study counts, because the interval is computed from all runs. `roles` are (role, Run); `answer` has
+    the probe and the quantity of the number."""
+    runs = [run for _, run in roles]
     faults = [study_fault] if study_fault else []
     kinds = {}
     for run in runs:
@@ -100,6 +119,8 @@ def faults_of(study_fault, runs, is_study, answer=None) -> list:
         faults.append(kind + (f" ({detail})" if detail else "") + (f" at the spacing {spacings} m" if is_study else ""))
     if len({run.summary["commit"] for run in runs if "commit" in run.summary}) > 1:
         faults.append("its runs were made by programs of different commits")
+    if difference := difference_of(roles):
+        faults.append(difference)
     if not is_study:
         faults.append("one spacing only, so its uncertainty is unknown")
     elif len({run.spacing for run in runs if run.status == "done"}) < MIN_SPACINGS:

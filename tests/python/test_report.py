@@ -160,6 +160,24 @@ class MadeUp(PackageTest):
     def test_runs_of_several_programs(self):
         self.assertIn("programs of different commits", self.first_line(commit="def"))
 
+    def test_runs_of_several_cases(self):
+        make_study("s")
+        case = Path("s/spacings/particles.spacing=0.125/case.effective.toml")
+        text = case.read_text(encoding="utf-8")
+        case.write_text(text.replace("end = 0.1", "end = 0.2"), encoding="utf-8")
+        self.assertIn("relied on: its runs are of different cases (time.end = 0.1 and 0.2).",
+                      tw.report("s", pictures=0).first_line)
+        case.write_text(text.replace('name = "depth"', 'name = "level"'), encoding="utf-8")
+        self.assertIn("(probe.depth.name = depth and nothing, ", tw.report("s", pictures=0).first_line)
+
+    def test_keys_that_follow_the_spacing(self):
+        make_study("s")
+        for spacing in (0.1, 0.125, 0.16):
+            case = Path(f"s/spacings/particles.spacing={spacing}/case.effective.toml")
+            text = case.read_text(encoding="utf-8").replace("at = [0.5, 0]", f"at = [{1 - 4 * spacing:.9g}, 0]")
+            case.write_text(text, encoding="utf-8")
+        self.assertTrue(tw.report("s", pictures=0).is_reliable)
+
     def test_other_warnings_are_listed_only(self):
         make_study("s", {0.125: {"warnings": ["something else"]}})
         made = tw.report("s", pictures=0)
