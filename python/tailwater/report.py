@@ -118,15 +118,14 @@ class Material:
         else:
             self.is_study = True
             self._read_study(folder)
-        self.rows = self.study.rows if self.study else rows_without_intervals(self.runs)
-        self.rows = [{name: None if value != value else value for name, value in row.items()} for row in self.rows]
+        self.rows = rows_of(self.study, self.runs)
 
     def _read_study(self, folder):
         try:
             self.study = Study.load(folder)
         except DataError as error:
             reason = f" ({error})" if (folder / "study.json").exists() else ""
-            self.study_fault = f"the study is unfinished{reason}"
+            self.study_fault = f"the study is {report_faults.UNFINISHED}{reason}"
             found = [Run(path.parent) for path in sorted(folder.glob("*/*/case.effective.toml"))]
             if not found:
                 raise DataError(f"{folder}: has no run and no study; remedy: name the folder that tailwater run or tailwater "
@@ -152,6 +151,12 @@ class Material:
             there = "; ".join(f"{row['probe']}, {row['quantity']}" for row in self.rows)
             raise DataError(f'"{answer}" is no result; there are: {there or "none"}')
         return None
+
+
+def rows_of(study, runs):
+    """The results of a study, or of runs without one, with None for a number that is not there."""
+    rows = study.rows if study else rows_without_intervals(runs)
+    return [{name: None if value != value else value for name, value in row.items()} for row in rows]
 
 
 def rows_without_intervals(runs):

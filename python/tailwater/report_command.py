@@ -1,6 +1,6 @@
 """`tailwater report`: the command line of tailwater.report.
 
-Exit codes: 0 done, 1 a run differs (--check), 2 bad input, 3 a run failed, 4 a file cannot be read or written, 130
+Exit codes: 0 done, 1 a run or the answer differs (--check), 2 bad input, 3 a run failed, 4 a file cannot be read or written, 130
 interrupted."""
 
 import os
@@ -22,7 +22,8 @@ def parser():
     command.add_argument("--question", default="", metavar="TEXT", help="the question, as the page prints it")
     command.add_argument("--pictures", type=int, default=3, metavar="N", help="pictures of the finest run (3)")
     command.add_argument("--to", type=Path, metavar="FILE", help="page to write (DIR/dossier.html); the JSON file is beside it")
-    command.add_argument("--check", action="store_true", help="repeat the runs of a report and compare bit for bit")
+    command.add_argument("--check", action="store_true", help="repeat the runs of a report, compare them bit for bit, and "
+                         "compute the answer again")
     return command
 
 
@@ -30,9 +31,11 @@ def work(options) -> int:
     import tailwater as tw  # imported late, when the path of the program is known
 
     if options.check:
-        from .report_check import check_report, read_report
+        from .report_check import check_files, check_report, read_report
 
-        return 0 if check_report(read_report(options.folder)) else 1
+        content = read_report(options.folder)
+        is_same = [check_files(options.folder), check_report(content)]
+        return 0 if all(is_same) else 1
     made = tw.report(options.folder, answer=options.answer, question=options.question, pictures=options.pictures)
     page = made.write(options.to or options.folder / "dossier.html")
     print(f"{made.first_line}\ndossier: {page}, {page.with_suffix('.json').name}")

@@ -6,10 +6,11 @@ import re
 from .case_differences import differing_keys
 from .study import number
 
-__all__ = ["energy_of", "faults_of", "warnings_of", "water_of"]
+__all__ = ["SEVERAL_PROGRAMS", "UNFINISHED", "energy_of", "faults_of", "warnings_of", "water_of"]
 
 LEAK = 1e-3  # of the initial water and inflow
 MIN_SPACINGS = 3
+UNFINISHED, SEVERAL_PROGRAMS = "unfinished", "its runs were made by programs of different commits"
 MAX_KEYS = 3  # differing keys that a fault names
 # Warnings of the program, found by words of its messages (a test checks that the sources still contain them).
 MESSAGES = {"the energy rose": re.compile(r"energy rose"),
@@ -61,8 +62,8 @@ def faults_of_run(run, answer):
     if run.status != "done":
         reached, end = summary.get("time_s", {}).get("reached"), run.case["time"]["end"]
         place = f"at t = {reached:.4g} of {end:.4g} s" if reached is not None else f"before t = {end:.4g} s"
-        return [("a run is unfinished", f"{run.status} {place}")]
-    water, found = water_of(summary), faults_of_answer(run, answer) if answer else []
+        return [(f"a run is {UNFINISHED}", f"{run.status} {place}")]
+    water, found = water_of(summary), change_of(run, answer) if answer else []
     if water["outside_relative"] > LEAK:
         found.append(("water leaks", f"{100 * water['outside_relative']:.3g} % left the walls"))
     if abs(water["missing_relative"]) > LEAK:
@@ -118,7 +119,7 @@ def faults_of(study_fault, roles, is_study, answer=None) -> list:
         spacings = ", ".join(number(spacing) for spacing in sorted({spacing for spacing, _ in where}))
         faults.append(kind + (f" ({detail})" if detail else "") + (f" at the spacing {spacings} m" if is_study else ""))
     if len({run.summary["commit"] for run in runs if "commit" in run.summary}) > 1:
-        faults.append("its runs were made by programs of different commits")
+        faults.append(SEVERAL_PROGRAMS)
     if difference := difference_of(roles):
         faults.append(difference)
     if not is_study:

@@ -4,10 +4,14 @@ except the pictures, so that `report --check` can repeat the runs."""
 import html
 import json
 import math
+import re
 
-__all__ = ["body", "content_of", "page"]
+__all__ = ["body", "content_of", "is_page_of", "page", "without_pictures"]
 
 MARK = '<script type="application/json" id="report">'
+# The drawing of the case and the section of pictures in a page.
+PICTURES = re.compile(r"<figure><svg.*?</svg>\s*<figcaption>[^<]*</figcaption></figure>|<h2>Pictures</h2>(?:<figure><img [^<>]*>"
+                      r"<figcaption>[^<]*</figcaption></figure>|<p>[^<]*</p>)*", re.DOTALL)
 STYLE = """
 body { font: 11pt/1.45 Georgia, serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #111; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 1.6em; border-bottom: 1px solid #999; }
@@ -63,10 +67,14 @@ def body(content) -> str:
     return "\n".join(parts)
 
 
+def without_pictures(content) -> dict:
+    """The content without the pictures and the drawing, which a page shows but does not hold."""
+    return content | {"pictures": [], "case": content["case"] | {"drawing": ""}}
+
+
 def page(content) -> str:
     """The HTML file. Its first line of text is the answer, or the reason why it is not reliable."""
-    kept = content | {"pictures": [], "case": content["case"] | {"drawing": ""}}  # the page shows these itself
-    data = json.dumps(kept, ensure_ascii=False).replace("</", "<\\/")
+    data = json.dumps(without_pictures(content), ensure_ascii=False).replace("</", "<\\/")
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{text(content["case"]["title"])}: report'
             f"</title><style>{STYLE}</style></head>\n<body>\n{body(content)}\n{MARK}{data}</script>\n</body></html>\n")
 
@@ -79,6 +87,11 @@ def content_of(text_of_file: str) -> dict:
     if not isinstance(content, dict) or "first_line" not in content:
         raise ValueError("no report")
     return content
+
+
+def is_page_of(text_of_file: str, content) -> bool:
+    """Whether a file is the page of this content. Its pictures are not compared."""
+    return PICTURES.sub("", text_of_file) == PICTURES.sub("", page(without_pictures(content)))
 
 
 def answer(content):
