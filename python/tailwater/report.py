@@ -24,7 +24,8 @@ __all__ = ["Report", "report"]
 
 FORMAT = 1
 LARGEST_INPUT = 8_000_000  # bytes, compressed; larger files are recorded by their hash only
-FILE_KEYS = ("file", "motion", "points_file")  # keys that name files, in all tables of a case
+# Keys that name files, in all tables of a case, and the keys of their CRC-32, which a run writes into its case.
+FILE_KEYS = {"file": "checksum", "motion": "motion_checksum", "points_file": ""}
 RESULTS = ("steps.csv", "probes/*.csv")  # tables of a run that are compared bit for bit
 UNITS = ("All numbers are in SI units (m, kg, s, N, Pa).",
          "In two dimensions volumes, masses, forces and discharges are per metre of width.",
@@ -88,7 +89,8 @@ def report(folder, *, answer: str = "", question: str = "", pictures: int = 3) -
         "format": FORMAT, "first_line": "",
         "made": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "made_by": version(), "question": question or question_of(finest, row), "answer": row,
-        "faults": report_faults.faults_of(found.study_fault, found.roles, found.is_study, row),
+        "faults": [*report_faults.faults_of(found.study_fault, found.roles, found.is_study, row),
+                   *faults_of_inputs(run for _, run in found.roles)],
         "warnings": report_faults.warnings_of(found.roles), "results": found.rows, "case": case_of(finest),
         "provenance": provenance(found.runs), "inputs": inputs, "runs": [run_record(role, run, row) for role, run in found.roles],
         "features": sorted(features), "validated": validated(features, finest, row),
@@ -228,17 +230,30 @@ def digest(data: bytes) -> str:
 
 
 def named_files(case):
-    """The files that an effective case names, by their paths in the case, which a run writes as absolute paths."""
+    """(path, CRC-32 or "") of the files that an effective case names; a run writes their paths as absolute paths."""
     for tables in case.values():
         for table in tables if isinstance(tables, list) else [tables]:
-            paths = [table.get(key, "") for key in FILE_KEYS]
-            yield from (path for path in paths if isinstance(path, str) and path.startswith("/"))
+            for key, key_of_checksum in FILE_KEYS.items():
+                path = table.get(key, "")
+                if isinstance(path, str) and path.startswith("/"):
+                    yield path, table.get(key_of_checksum, "")
+
+
+def faults_of_inputs(runs):
+    """Faults of input files that are gone, or are not those of the runs any more."""
+    found = []
+    for path, checksum in dict.fromkeys(named for run in runs for named in named_files(run.case)):
+        if not Path(path).is_file():
+            found.append(f"the input file {path} is gone, so nobody can repeat its runs")
+        elif checksum and f"{zlib.crc32(Path(path).read_bytes()):08x}" != checksum:
+            found.append(f"the input file {path} has changed since the run, whose case has another checksum of it")
+    return found
 
 
 def inputs_of(runs):
     """Each input file once: its path, bytes, hash and, unless it is too large, content; no hash if the file is
     missing."""
-    paths = dict.fromkeys(path for run in runs for path in named_files(run.case))
+    paths = dict.fromkeys(path for run in runs for path, _ in named_files(run.case))
     found = []
     for path in paths:
         if not Path(path).is_file():

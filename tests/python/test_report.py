@@ -274,8 +274,17 @@ class Real(PackageTest):
         Path("data/gauge.csv").unlink()
         made = tw.report("run", pictures=0)
         self.assertEqual(made.content["inputs"][0]["sha256"], "")
+        self.assertRegex(made.first_line, "^This number cannot be relied on: .*the input file /.*/data/gauge.csv is gone")
         with self.assertRaisesRegex(tw.DataError, "gauge.csv: is missing.*gone when the report was written"):
             check_report(made.content, list().append)
+
+    def test_input_file_that_has_changed(self):
+        Path("data/move.csv").write_text("t [s],x [m]\n0,0\n1,0\n", encoding="utf-8")
+        self.case["wall.tank.motion"] = "data/move.csv"
+        self.case.run("run")
+        self.assertNotIn("has changed", tw.report("run", pictures=0).first_line)
+        Path("data/move.csv").write_text("t [s],x [m]\n0,0\n1,0.1\n", encoding="utf-8")
+        self.assertRegex(tw.report("run", pictures=0).first_line, "relied on: .*the input file /.*/move.csv has changed since")
 
     def test_command(self):
         self.case.run("run")
