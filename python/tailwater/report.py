@@ -81,15 +81,17 @@ def report(folder, *, answer: str = "", question: str = "", pictures: int = 3) -
     no study."""
     folder = Path(folder)
     found = Material(folder)
-    row = found.row_of(answer)
+    asked = found.asked(answer)
+    row = found.row_of(asked)
     finest = found.runs[0]
     features = case_features.features_of(finest.case)
     inputs = inputs_of(run for _, run in found.roles)
     content = {
         "format": FORMAT, "first_line": "",
         "made": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
-        "made_by": version(), "question": question or question_of(finest, row), "answer": row,
-        "faults": [*report_faults.faults_of(found.study_fault, found.roles, found.is_study, row),
+        "made_by": version(), "question": question or question_of(finest, asked, row),
+        "asked": asked, "answer": row,
+        "faults": [*report_faults.faults_of(found.study_fault, found.roles, found.is_study, asked),
                    *faults_of_inputs(run for _, run in found.roles)],
         "warnings": report_faults.warnings_of(found.roles), "results": found.rows, "case": case_of(finest),
         "provenance": provenance(found.runs), "inputs": inputs, "runs": [run_record(role, run, row) for role, run in found.roles],
@@ -143,16 +145,27 @@ class Material:
         if self.study.step:
             self.roles.append(("half step", self.study.step))
 
-    def row_of(self, answer):
-        """The result that answers the question; None if there is none and none was requested."""
+    def asked(self, answer) -> dict:
+        """The probe and the quantity that answer the question, {} for a case without probes. By default the probe is the
+        first one, and the quantity its first. A quantity is "" if no run has a result of the probe."""
         probe, _, quantity = (part.strip() for part in answer.partition(","))
-        for row in self.rows:
-            if (not probe or row["probe"] == probe) and (not quantity or row["quantity"] == quantity):
-                return row
-        if answer:
-            there = "; ".join(f"{row['probe']}, {row['quantity']}" for row in self.rows)
-            raise DataError(f'"{answer}" is no result; there are: {there or "none"}')
-        return None
+        probes = [one["name"] for one in self.runs[0].case.get("probe", [])]
+        there = {(row["probe"], row["quantity"]) for row in self.rows}
+        there |= {key for _, run in self.roles for key in quantities_of(run)}
+        found = {"probe": probe or (probes[0] if probes else ""), "quantity": quantity}
+        is_there = any(name == found["probe"] and quantity in ("", one) for name, one in there)
+        if answer and not is_there and (quantity or probe not in probes):
+            words = "; ".join(f"{row['probe']}, {row['quantity']}" for row in self.rows)
+            raise DataError(f'"{answer}" is no result; there are: {words or "none"}')
+        if not found["probe"]:
+            return {}
+        row = self.row_of(found)
+        return {name: row[name] for name in found} if row else found
+
+    def row_of(self, asked):
+        """The result of the probe and quantity; None if there is none."""
+        return next((row for row in self.rows
+                     if row["probe"] == asked.get("probe") and asked["quantity"] in ("", row["quantity"])), None)
 
 
 def rows_of(study, runs):
@@ -168,9 +181,11 @@ def rows_without_intervals(runs):
              "notes": ""} for (probe, quantity), (value, unit) in quantities_of(run).items()]
 
 
-def question_of(run, row):
+def question_of(run, asked, row):
     title = run.case["case"]["title"]
-    return (f"{title}: {row['quantity']} at the probe '{row['probe']}'?" if row
+    if row:
+        return f"{title}: {row['quantity']} at the probe '{row['probe']}'?"
+    return (f"{title}: {asked['quantity'] or 'result'} at the probe '{asked['probe']}'?" if asked
             else f"{title}: the run has no result of a probe")
 
 

@@ -171,7 +171,7 @@ def answer_differences(content, finished, repeated) -> list:
     told = content["answer"]
     row = next((row for row in rows if told and (row["probe"], row["quantity"]) == (told["probe"], told["quantity"])), None)
     found = [row_difference(*pair) for pair in [(told, row), *zip(kept, rows)]]
-    found += fault_differences(content, repeated, row)
+    found += fault_differences(content, repeated, content.get("asked", told))
     if content["first_line"] != first_line(content):
         found.append("the first line is not that of the answer")
     if content["case"]["title"] != runs[0].case["case"]["title"]:
@@ -201,10 +201,10 @@ def is_unfinished(content) -> bool:
     return any(report_faults.UNFINISHED in fault for fault in content["faults"])
 
 
-def fault_differences(content, repeated, row) -> list:
+def fault_differences(content, repeated, asked) -> list:
     """Differences of the faults; the report of an unfinished study has more of them than its finished runs."""
     roles = [(record["role"], run) for record, run in repeated]
-    found = report_faults.faults_of("", roles, not is_of_a_run(content), row)
+    found = report_faults.faults_of("", roles, not is_of_a_run(content), asked)
     if len({record["program"] for record, _ in repeated}) > 1:
         found.append(report_faults.SEVERAL_PROGRAMS)
     missing = [fault for fault in found if fault not in content["faults"]]

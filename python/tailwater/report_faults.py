@@ -4,12 +4,15 @@ still changes, a single spacing."""
 import re
 
 from .case_differences import differing_keys
-from .study import number
+from .errors import DataError
+from .input_file import LARGEST_TABLE, read_text
+from .study import number, quantities_of
 
 __all__ = ["SEVERAL_PROGRAMS", "UNFINISHED", "energy_of", "faults_of", "warnings_of", "water_of"]
 
 LEAK = 1e-3  # of the initial water and inflow
 MIN_SPACINGS = 3
+MIN_READINGS = 10  # of a probe in the time over which its result is taken
 UNFINISHED, SEVERAL_PROGRAMS = "unfinished", "its runs were made by programs of different commits"
 MAX_KEYS = 3  # differing keys that a fault names
 # Warnings of the program, found by words of its messages (a test checks that the sources still contain them).
@@ -44,16 +47,44 @@ def energy_of(summary):
     return dict(energy) if energy else {}
 
 
-def faults_of_answer(run, answer):
-    """[(kind, details)] of an answer from few readings, or that is a mean and still changes at the end of the run."""
+def change_of(run, answer):
+    """[(kind, details)] of an answer that is a mean and still changes at the end of the run."""
+    what = words_of(run, answer)
+    return [("the answer is not steady", what)] if "still" in what else []
+
+
+def words_of(run, answer) -> str:
+    """The words of the summary on the answer, such as "mean of the second half"; "" if there are none."""
     quantities = run.results.get(answer["probe"], {}).get("quantities", [])
-    what = next((one["what"] for one in quantities if one["name"] == answer["quantity"]), "")
-    found = [("the answer is not steady", what)] if "still" in what else []
-    told = next((match[1] for warning in run.summary.get("warnings", []) if f"probe '{answer['probe']}'" in warning
-                 if (match := re.search(r"interval = .* gives (\d+ readings?)", warning))), "")
-    if "reading" in what or told:
-        found.append(("the answer is from few readings", what if "reading" in what else told))
-    return found
+    return next((one["what"] for one in quantities if one["name"] == answer["quantity"]), "")
+
+
+def times_of_readings(run, probe):
+    """The times [s] at which a probe was read; None without its table."""
+    try:
+        lines = read_text(run.path / "probes" / f"{probe}.csv", LARGEST_TABLE).splitlines()[1:]
+        return sorted({float(line.partition(",")[0]) for line in lines if line and not line.startswith("#")})
+    except (DataError, ValueError):
+        return None
+
+
+def readings_of(run, answer):
+    """[(kind, details)] of an answer for which a probe was never read, or too seldom. The value at the end of the run
+    needs one reading."""
+    probe = answer["probe"]
+    found = {quantity for name, quantity in quantities_of(run) if name == probe}
+    if not found or (answer["quantity"] and answer["quantity"] not in found):
+        return [("the answer has no result", f"too few readings of the probe '{probe}', or none")]
+    times, words = times_of_readings(run, probe), words_of(run, answer)
+    is_of_the_end = times and len(times) > 1 and words == f"at {times[-1]:.4g} s"
+    is_of_each_step = times and len(times) > run.summary.get("steps", {}).get("count", 0)
+    if not times or not words or is_of_the_end or is_of_each_step:
+        return []
+    is_mean = "second half" in words
+    start = 0.5 * run.summary["time_s"]["reached"] if is_mean else 0.0
+    count = sum(time >= start for time in times)
+    where = f"{count} of the probe '{probe}' in the {'second half of the ' if is_mean else ''}run"
+    return [("the answer has too few readings", where)] if count < MIN_READINGS else []
 
 
 def faults_of_run(run, answer):
@@ -63,7 +94,7 @@ def faults_of_run(run, answer):
         reached, end = summary.get("time_s", {}).get("reached"), run.case["time"]["end"]
         place = f"at t = {reached:.4g} of {end:.4g} s" if reached is not None else f"before t = {end:.4g} s"
         return [(f"a run is {UNFINISHED}", f"{run.status} {place}")]
-    water, found = water_of(summary), change_of(run, answer) if answer else []
+    water, found = water_of(summary), [*readings_of(run, answer), *change_of(run, answer)] if answer else []
     if water["outside_relative"] > LEAK:
         found.append(("water leaks", f"{100 * water['outside_relative']:.3g} % left the walls"))
     if abs(water["missing_relative"]) > LEAK:
@@ -107,7 +138,7 @@ def short(value):
 def faults_of(study_fault, roles, is_study, answer=None) -> list:
     """Reasons why the number is not reliable, one for each kind of fault; empty if no fault was detected. A fault of
     any run of a study counts, because the interval is computed from all runs. `roles` are (role, Run); `answer` has
-    the probe and the quantity of the number."""
+    the probe and the quantity of the number, "" for any."""
     runs = [run for _, run in roles]
     faults = [study_fault] if study_fault else []
     kinds = {}

@@ -106,10 +106,15 @@ class Study:
         of_runs = [quantities(run) for run in self.runs]
         of_starts = [quantities(run) for run in ([self._base, *self.starts] if self.starts else [])]
         of_step = quantities(self.step) if self.step else {}
-        rows = []
+        rows, everywhere = [], [*of_runs, *of_starts, *([of_step] if self.step else [])]
+        keys = dict.fromkeys(key for found in everywhere for key in found)
+        self.without_limit = [key for key in keys if not all(key in found for found in everywhere)]
+        if quantities is quantities_of:
+            probes = [probe["name"] for probe in self.runs[0].case.get("probe", [])]
+            self.without_limit += [(probe, "") for probe in probes if all(probe != name for name, _ in keys)]
         for key, (_, unit) in of_runs[0].items():
-            if not all(key in found for found in [*of_runs, *of_starts, *([of_step] if self.step else [])]):
-                continue  # a probe has no reading in one of the runs, so that there is nothing to compare
+            if key in self.without_limit:
+                continue
             values = [found[key][0] for found in of_runs]
             starts = {self._base.spacing: [found[key][0] for found in of_starts]} if of_starts else {}
             found = uncertainty.estimate(self.spacings, values, starts=starts,
@@ -151,6 +156,9 @@ class Study:
             lines.append(f"    {parts}; order {number(row['order'], 2)}; Eca & Hoekstra +- {number(row['eca_hoekstra'], 2)}")
             if row["notes"]:
                 lines.append(f"    {row['notes']}")
+        for probe, quantity in self.without_limit:
+            runs = "a run" if quantity else "the runs"
+            lines.append(f"{probe}{', ' if quantity else ''}{quantity}: no result, because {runs} had too few readings, or none")
         return "\n".join(lines) + "\n"
 
     def write(self, folder):

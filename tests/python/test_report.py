@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "src"
 EFFECTIVE = DAM.replace("spacing = 0.1", "spacing = {spacing}\njitter = 0.0\nseed = 1").replace(
     'name = "tank"', 'name = "tank"\nshape = "polyline"').replace(
+    'name = "column"', 'name = "column"\nshape = "box"').replace('"H"', '0.5').replace(
     "[time]", '[scheme]\nintegrator = "explicit"\ncourant = 0.55\n[time]').replace("[case]", "[case]\ndimension = 2")
 
 
@@ -130,20 +131,31 @@ class MadeUp(PackageTest):
         self.assertIn("relied on: the answer is not steady (mean of the second half, still rising)",
                       self.first_line(results=results))
 
-    def test_mean_of_few_readings(self):
+    def test_probe_that_is_read_too_seldom(self):
         results = summary()["results"]
-        results["depth"]["quantities"][0]["what"] = "mean of 2 readings in the second half"
-        self.assertIn("relied on: the answer is from few readings (mean of 2 readings in the second half)",
-                      self.first_line(results=results))
+        results["depth"]["quantities"][0]["what"] = "mean of the second half"
+        make_study("s", {0.125: {"results": results, "steps": {"count": 100, "dt_mean_s": 0.001}}})
+        table = Path("s/spacings/particles.spacing=0.125/probes/depth.csv")
+        table.parent.mkdir()
+        table.write_text("time_s,connected_m\n0,0.5\n0.04,0.5\n0.08,0.5\n", encoding="utf-8")
+        self.assertIn("relied on: the answer has too few readings (1 of the probe 'depth' in the second half of the run) at the "
+                      "spacing 0.125 m", tw.report("s", pictures=0).first_line)
+        lines = [f"{0.001 * k:.9g},0.5\n" for k in range(101)]
+        table.write_text("time_s,connected_m\n" + "".join(lines), encoding="utf-8")
+        self.assertTrue(tw.report("s", pictures=0).is_reliable)
 
-    def test_probe_of_few_readings(self):
-        warning = ("probe 'other': interval = 0.3 s gives 4 readings in the run of 1 s, so its means are unreliable "
-                   "(likewise probe 'depth')")
-        self.assertIn("relied on: the answer is from few readings (4 readings)", self.first_line(warnings=[warning]))
+    def test_probe_without_a_result(self):
+        make_study("s", {spacing: {"results": {}} for spacing in (0.1, 0.125, 0.16)})
+        for answer in ("", "depth"):
+            made = tw.report("s", answer=answer, pictures=0)
+            self.assertEqual(made.first_line, "This number cannot be relied on: the answer has no result (too few readings of the "
+                             "probe 'depth', or none) at the spacing 0.1, 0.125, 0.16 m. no result.")
+        self.assertIn("depth: no result, because the runs had too few readings, or none", tw.Study.load("s").text())
 
-    def test_other_probe_of_few_readings(self):
-        warning = "probe 'other': interval = 0.3 s gives 4 readings in the run of 1 s, so its means are unreliable"
-        self.assertNotIn("few readings", self.first_line(warnings=[warning]))
+    def test_probe_without_a_result_in_one_run(self):
+        line = self.first_line(results={})
+        self.assertIn("has no result (too few readings of the probe 'depth', or none) at the spacing 0.125 m", line)
+        self.assertIn("depth, depth: no result, because a run had too few readings, or none", tw.Study.load("s").text())
 
     def test_unfinished_run(self):
         line = self.first_line(status="interrupted", time_s={"end": 0.1, "reached": 0.04})
