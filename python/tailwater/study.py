@@ -27,7 +27,7 @@ SPACINGS = 7
 STARTS = 3
 JITTER = 0.01  # of dx: large enough that the random part of a result differs from run to run
 FITS = 0.001  # fraction of the water; a spacing may fit it worse than the best one by this much
-MISFIT = 0.01  # fraction of the water, above which the summary mentions the misfit
+MISFIT = 0.01  # fraction of the water, above which the summary mentions that the runs begin with different amounts
 LEAST_RANGE = 1.5  # smallest ratio of the coarsest to the finest spacing
 # The cost of a run grows with 1/spacing: the particles by the power of the dimension, the steps by 1, the iterations of
 # the solver a little.
@@ -143,10 +143,10 @@ class Study:
         if self.step:
             told += "; half of the time step"
         lines = [told + (f", at {self._base.spacing:.4g} m" if self._base else "")]
-        off, spacing = max((misfit(run.spacing, lengths_of_water(run.case)), run.spacing) for run in self.runs)
+        off, spacing = difference_of_water(self.runs)
         if off > MISFIT:
-            lines.append(f"rows of {spacing:.4g} m do not fit the water, of which there is up to {100 * off:.1f} % more or "
-                         "less than the case says: spacings that divide its lengths narrow the intervals")
+            lines.append(f"the run at {spacing:.4g} m begins with {100 * off:.1f} % more or less water than the finest one: "
+                         "spacings that divide the lengths of the water narrow the intervals")
         for row in self.rows:
             share = row["uncertainty"] / abs(row["limit"]) if row["limit"] else math.inf
             percent = f" (+- {100 * share:.2g} %)" if share < 1 else ""
@@ -194,11 +194,21 @@ def ladder(coarsest, finest, count=SPACINGS):
     return [float(f"{coarsest * ratio**k:.4g}") for k in range(1, count)]
 
 
+def difference_of_water(runs):
+    """(largest relative difference of the initial volume of water from that of the finest run, spacing): by the water
+    balances in the summaries. (0, nan) with inlets or outlets, whose ducts count, and without balances."""
+    volumes = {run.spacing: run.summary["water_balance"]["start"]["volume_m3"] for run in runs
+               if "water_balance" in run.summary}
+    finest = volumes[min(volumes)] if volumes else 0.0
+    if finest == 0.0 or any(run.case.get("inlet") or run.case.get("outlet") for run in runs):
+        return 0.0, math.nan
+    return max((abs(volume / finest - 1), spacing) for spacing, volume in volumes.items())
+
+
 def lengths_of_water(case):
     """Lengths [m] of the initial blocks of water: edges of boxes, and depths of regions filled to a level. `case` is
-    the effective case of a run. A block has whole rows of particles, each with the volume of a cell: if the rows do not
-    fit, the run has more or less water than the case. Empty with inlets or outlets, since these determine the amount of
-    water."""
+    the effective case of a run. A block has whole rows of particles. If the rows do not fit, they are stretched, so that
+    the cells of the particles are no squares. Empty with inlets or outlets, since these determine the rows."""
     if case.get("inlet") or case.get("outlet"):
         return np.zeros(0)
     heights = [point[-1] for wall in case.get("wall", []) for point in wall.get("points", [])]
@@ -212,8 +222,8 @@ def lengths_of_water(case):
 
 
 def misfit(spacing, lengths):
-    """Largest relative error of the water's length, over all directions of all blocks, due to whole rows of
-    particles."""
+    """Largest relative stretch of whole rows of particles that fit the water's lengths, over all directions of all
+    blocks."""
     rows = lengths / spacing
     return float(np.abs(np.round(rows) / rows - 1).max(initial=0.0))
 

@@ -61,6 +61,16 @@ class Studies(PackageTest):
         run = SimpleNamespace(results={"water": {"quantities": volume}}, summary={})
         self.assertEqual(quantities_of(run), {("water", "volume in"): (0.5, "m^3")})
 
+    def test_rows_that_do_not_fit_the_water(self):
+        """Rows are stretched to fit a block, so all runs have its water."""
+        found = tw.study(self.case, out="s", spacings=[0.09, 0.13, 0.17], starts=0, step=False)
+        self.assertNotIn("water than", found.text())
+        summary = Path("s/spacings/particles.spacing=0.13/summary.json")
+        told = json.loads(summary.read_text(encoding="utf-8"))
+        told["water_balance"]["start"]["volume_m3"] *= 0.96
+        summary.write_text(json.dumps(told), encoding="utf-8")
+        self.assertIn("\nthe run at 0.13 m begins with 4.0 % more or less water than the finest one: ", tw.Study.load("s").text())
+
     def test_run_that_fails_is_named(self):
         self.case["pressure_solver.max_iterations"] = 1
         with self.assertRaisesRegex(tw.DataError, "particles.spacing=0.*max_iterations"):
