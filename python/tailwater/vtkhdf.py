@@ -3,6 +3,8 @@
 The format is VTKHDF 2.0, PolyData with steps (VTK documentation, "VTKHDF File Format"). Each time is one part, with one
 point and one vertex for each particle at that time."""
 
+import io
+
 import numpy as np
 
 from .errors import DataError
@@ -14,6 +16,60 @@ __all__ = ["write_vtkhdf"]
 VERSION = (2, 0)
 KINDS = ("Vertices", "Lines", "Polygons", "Strips")
 CHUNK = 1 << 18  # bytes before compression
+
+
+class SafeFile(io.RawIOBase):
+    """The file that HDF5 writes. HDF5 crashes if a write fails, as on a full disk. This file keeps the `error` instead,
+    and all data from then on in memory, so that HDF5 can close it."""
+
+    def __init__(self, file):
+        super().__init__()
+        self.file, self.error = file, None
+        self._at, self._end, self._late = 0, 0, []  # _late: (offset, data) that could not be written
+
+    def seek(self, offset, whence=0):
+        self._at = offset + (0, self._at, self._end)[whence]
+        return self._at
+
+    def tell(self):
+        return self._at
+
+    def write(self, data):
+        data = bytes(data)
+        if self.error is None:
+            try:
+                self.file.seek(self._at)
+                written = 0
+                while written < len(data):  # a disk takes the first part of what it cannot take whole
+                    written += self.file.write(data[written:])
+            except OSError as error:
+                self.error = error
+        if self.error is not None:
+            self._late.append((self._at, data))
+        self._at += len(data)
+        self._end = max(self._end, self._at)
+        return len(data)
+
+    def readinto(self, buffer):
+        start, size = self._at, len(buffer)
+        self.file.seek(start)
+        found = self.file.read(size)
+        buffer[:] = found + bytes(size - len(found))
+        for offset, data in self._late:
+            low, high = max(offset, start), min(offset + len(data), start + size)
+            if low < high:
+                buffer[low - start:high - start] = data[low - offset:high - offset]
+        self._at += size
+        return size
+
+    def truncate(self, size=None):
+        self._end = self._at if size is None else size
+        if self.error is None:
+            try:
+                self.file.truncate(self._end)
+            except OSError as error:
+                self.error = error
+        return self._end
 
 
 class Tables:
@@ -61,8 +117,9 @@ def append_step(tables, number, frame, points, names):
         tables.append(f"Steps/PointDataOffsets/{name}", [points])
 
 
-def write_steps(file, frames):
-    """Writes frames [(time in s, path)] into an open HDF5 file, with one frame in memory at a time."""
+def write_steps(file, frames, is_failed):
+    """Writes frames [(time in s, path)] into an open HDF5 file, with one frame in memory at a time, until
+    `is_failed()`."""
     root = file.create_group("VTKHDF")
     root.attrs["Version"] = VERSION
     root.attrs["Type"] = np.bytes_("PolyData")  # a text of fixed length, as VTK requires
@@ -80,6 +137,8 @@ def write_steps(file, frames):
         for name, values in frame.fields.items():
             tables.append(f"PointData/{name}", values)
         points += count
+        if is_failed():
+            return
 
 
 def write_vtkhdf(run, path):
@@ -94,7 +153,11 @@ def write_vtkhdf(run, path):
         raise DataError(f"{run.path}: the run wrote no field files")
 
     def write(part):
-        with h5py.File(part, "w") as file:
-            write_steps(file, frames)
+        with open(part, "w+b", buffering=0) as raw:
+            safe = SafeFile(raw)
+            with h5py.File(safe, "w") as file:
+                write_steps(file, frames, lambda: safe.error is not None)
+            if safe.error is not None:
+                raise safe.error
 
     write_whole(path, write)

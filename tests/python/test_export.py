@@ -3,7 +3,9 @@
 import contextlib
 import io
 import os
+import resource
 import stat
+import subprocess
 import sys
 import types
 import unittest
@@ -178,6 +180,19 @@ class Export(PackageTest):
         self.assertEqual(Path("victim").read_text(encoding="utf-8"), "precious")
         self.assertTrue(stat.S_ISFIFO(os.lstat("pipe").st_mode))
         self.assertEqual([path.name for path in Path().glob("*.part")], [])
+
+    def test_full_disk_ends_with_4(self):
+        """HDF5 crashes if a write fails. A limit of the size of files stands for a full disk."""
+        tw.Case(self.write("filled.toml", FILLED)).run("out")
+        for size in (100, 5000, 20000):
+            def limit(size=size):
+                resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+            words = [sys.executable, "-B", "-m", "tailwater.export_command", "out", "--vtkhdf", "water.vtkhdf"]
+            ended = subprocess.run(words, preexec_fn=limit, capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 4, ended.stderr)
+            self.assertEqual(ended.stderr, "error: cannot write 'water.vtkhdf': File too large\n")
+            self.assertEqual([path.name for path in Path().glob("water*")], [])
 
     def test_a_damaged_run_is_told(self):
         self.dam()
