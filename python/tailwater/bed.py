@@ -6,6 +6,7 @@ its upper side. Coordinates become those of the case: the origin is the lower le
 Exit codes: 0 done; 2 bad input, 4 a file cannot be read or written.
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -18,6 +19,8 @@ from .whole_file import require_other_file, write_whole
 
 NAMES = {"x": ("x", "easting", "east", "e", "rechtswert"), "y": ("y", "northing", "north", "n", "hochwert"),
          "z": ("z", "elevation", "height", "level", "h")}
+# Units of a column in m; those of points_file, too (src/case_files/column_file.h).
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "ft": 0.3048}
 LARGEST = 5_000_000  # triangles; a mesh for a case with the same number of particles has some thousands
 NO_DATA = (-9999, -99999, -32767, -32768)  # m; heights with which surveys mark missing ones
 LARGEST_HEIGHT = 1e30  # m; rasters of single precision mark missing heights with about 3e38
@@ -148,26 +151,46 @@ def is_number(word):
     return True
 
 
+def heading_of(word):
+    """(name, unit) of a column: "X [mm]", "x (mm)" and "x_mm" are "x" in "mm"; the unit is "" if there is none."""
+    text = word.lower().strip()
+    bracket = re.fullmatch(r"([^\[(]*)[\[(]([^\])]*).*", text)
+    if bracket:
+        return bracket[1].strip(), bracket[2].strip()
+    name, _, unit = text.rpartition("_")
+    return (name, unit) if name and unit in UNITS else (text, "")
+
+
 def columns_named(words):
-    """The indices of the columns x, y and z in a line of names, such as "Name", "X [m]", "Y", "elevation"; None if the
-    line names no such columns."""
-    names = [word.lower().partition("[")[0].partition("(")[0].strip().removesuffix("_m") for word in words]
-    found = [next((k for k, name in enumerate(names) if name in NAMES[axis]), None) for axis in "xyz"]
+    """The columns x, y and z in a line of names, such as "Name", "X [m]", "Y", "elevation", as [(index, name, unit)]; None
+    if the line names no such columns."""
+    headings = [heading_of(word) for word in words]
+    found = [next(((k, words[k].strip(), unit) for k, (name, unit) in enumerate(headings) if name in NAMES[axis]), None)
+             for axis in "xyz"]
     return None if None in found else found
+
+
+def factor_of(unit):
+    """The size of a unit in m; that of its first word for one like "m NHN". None for an unknown unit."""
+    return UNITS.get(re.split(r"[^a-z]", unit)[0]) if unit else 1.0
 
 
 def numbers_of(path):
     """The points of a text file, and the line of each: three numbers per line, separated by blanks, commas or semicolons;
     # begins a comment. If a header line names columns x, y and z, these columns are read; surveys may have others with
-    names or numbers of points."""
-    points, lines, chosen = [], [], None
-    text = read_bytes(path, LARGEST_TABLE).decode("utf-8", errors="replace")
+    names or numbers of points. Also returns the size of the unit of x, y and z in m, and warnings."""
+    points, lines, chosen, factors, warnings = [], [], None, np.ones(3), []
+    text = read_bytes(path, LARGEST_TABLE).decode("utf-8-sig", errors="replace")
     for line_number, line in enumerate(text.splitlines(), 1):
         words = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
         if not words:
             continue
         if not points and (columns := columns_named(fields_of(line))):
-            chosen = columns
+            chosen = [column for column, _, _ in columns]
+            unknown = [name for _, name, unit in columns if factor_of(unit) is None]
+            warnings = [f"The unit of the column '{name}' (line {line_number}) is none of {', '.join(UNITS)}, and is taken as m."
+                        for name in unknown]
+            factors = np.array([factor_of(unit) or 1.0 for _, _, unit in columns])
             continue
         if chosen and len(fields := fields_of(line)) > max(chosen):
             words = [fields[column] for column in chosen]
@@ -185,17 +208,17 @@ def numbers_of(path):
             raise DataError(f"{path}:{line_number}: is no point: {line[:60]}; leave it out")
         points.append(point)
         lines.append(line_number)
-    return np.array(points).reshape(-1, 3), np.array(lines, dtype=int)
+    return np.array(points).reshape(-1, 3), np.array(lines, dtype=int), factors, warnings
 
 
 def known_points(path):
     """The points of a text file that have a height, one at each place, the line of each, and warnings of the others."""
-    points, lines = numbers_of(path)
-    warnings = []
+    points, lines, factors, warnings = numbers_of(path)
     missing = is_missing(points[:, 2])
     if missing.any():
         warnings.append(missing_heights(points[missing, 2], f" (line {lines[missing][0]})"))
         points, lines = points[~missing], lines[~missing]
+    points = points * factors
     _, last = np.unique(points[::-1, :2], axis=0, return_index=True)
     last = np.sort(len(points) - 1 - last)
     if len(last) < len(points):

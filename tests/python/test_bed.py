@@ -121,6 +121,26 @@ class Bed(unittest.TestCase):
         path.write_text("".join(f"P{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(points)), encoding="utf-8")
         self.assertIn("of more columns than x, y and z the first line names", self.make(path, expect=2))
 
+    def test_units_of_columns(self):
+        rows = [(10 * i, 10 * j) for j in range(3) for i in range(3)]
+        for header, factors in {"x [ft],y [ft],z [ft]": (0.3048, 0.3048), "\ufeffX (km);Y (km);Z (mm)": (1e3, 1e-3),
+                                "easting_cm,northing_cm,elevation_m": (1e-2, 1), "x [m],y [m],z [m NHN]": (1, 1)}.items():
+            with self.subTest(header):
+                separator = ";" if ";" in header else ","
+                lines = [separator.join(map(str, (x, y, 2.5 if (x, y) != (20, 20) else -9999))) for x, y in rows]
+                path = self.folder / "units.csv"
+                path.write_text("\n".join([header, *lines]) + "\n", encoding="utf-8")
+                told = self.make(path)
+                corners = facets(self.stl)["corners"].reshape(-1, 3)
+                np.testing.assert_allclose(corners.max(axis=0), [20 * factors[0], 20 * factors[0], 2.5 * factors[1]], rtol=1e-6)
+                self.assertIn("1 point has no height, but -9999", told)
+                self.assertNotIn("unit", told)
+
+    def test_an_unknown_unit_is_reported(self):
+        path = self.folder / "units.csv"
+        path.write_text("x,y,z (rod)\n0,0,1\n1,0,1\n0,1,1\n", encoding="utf-8")
+        self.assertIn("The unit of the column 'z (rod)' (line 1) is none of m, mm, cm, km, ft, and is taken as m.", self.make(path))
+
     def test_what_is_wrong_is_told(self):
         for text, part in (("1 2 3\n4 5\n", "wrong.xyz:2: has 2 numbers"), ("1 2 3\n4 5 x\n", "wrong.xyz:2: not numbers"),
                            ("1 2 3\n4 inf 5\n", "wrong.xyz:2: is no point: 4 inf 5; leave it out"),
