@@ -19,7 +19,7 @@ CHUNK = 1 << 18  # bytes before compression
 
 
 class SafeFile(io.RawIOBase):
-    """The file that HDF5 writes. HDF5 crashes if a write fails, as on a full disk. This file keeps the `error` instead,
+    """A file for HDF5, which crashes if a write fails, as on a full disk. This file keeps the `error` instead,
     and all data from then on in memory, so that HDF5 can close it."""
 
     def __init__(self, file):
@@ -40,7 +40,7 @@ class SafeFile(io.RawIOBase):
             try:
                 self.file.seek(self._at)
                 written = 0
-                while written < len(data):  # a disk takes the first part of what it cannot take whole
+                while written < len(data):  # a nearly full disk takes the first part
                     written += self.file.write(data[written:])
             except OSError as error:
                 self.error = error

@@ -25,6 +25,9 @@ BOUND_ROUNDS = 6
 PERIOD_RANGE = 0.05
 # Quantiles 0.975 of Student's t for 1, 2, ... degrees of freedom; `student` continues with the expansion for large numbers.
 STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228)
+# A trend of a record is removed if it is significant and its rise exceeds this fraction of the rms of the record; a smaller one
+# has less than 0.1 % of the energy.
+MIN_RISE = 0.1
 # Frequencies in one band of a response.
 LINES_PER_BAND = 8
 
@@ -249,6 +252,18 @@ def drift_with_interval(time, means):
     r = correlation(rest)
     error = np.sqrt((rest**2).sum() / (means.size - 2) / (t @ t) * (1 + r) / (1 - r))
     return slope, float(student(means.size - 2) * error)
+
+
+def trend_of(time, value, period):
+    """Slope (per s) of a record through the means of its whole periods; 0 unless it is significant and large."""
+    slope, interval = drift_with_interval(*period_means(time, value, period))
+    is_large = abs(slope) * (time[-1] - time[0]) > MIN_RISE * value.std()
+    return slope if abs(slope) > interval and is_large else 0.0
+
+
+def without_trend(time, value, slope):
+    """The record without a trend, with its mean."""
+    return value - slope * (time - 0.5 * (time[0] + time[-1])) if slope else value
 
 
 def response(frequency, incident, answer):

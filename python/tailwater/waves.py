@@ -18,7 +18,7 @@ from .errors import DataError
 from .run import Run
 from .wave_records import (BAND, best_period, drift_with_interval, fit_harmonics, mean_with_interval, overtopping_volumes,
                            period_means, response, separate, separate_regular, separate_second, single_waves, spectrum,
-                           wave_numbers)
+                           trend_of, wave_numbers, without_trend)
 from .whole_file import write_whole_text
 
 __all__ = ["BAND", "Gauges", "analyse", "crest", "separate", "single_waves", "solitary", "wave_numbers"]
@@ -138,12 +138,25 @@ class Gauges:
         steps = [np.diff(curve.time).max() for curve in curves if curve.time.size > 1]
         self.time = np.linspace(first, last, int(np.ceil((last - first) / min(steps))) + 1)
         self.depth = np.array([np.interp(self.time, curve.time, curve.value) for curve in curves])
+        self.level = self.depth  # as recorded; `depth` may lose its trend
+        self.trend = np.zeros(len(self.names))
+
+    def remove_trends(self, period):
+        """Removes a trend of the mean level from `depth`. Without a period (s) it is the mean one between up-crossings."""
+        if period is None:
+            line = np.polyfit(self.time, self.depth[0], 1) if self.time.size > 2 else (0.0, 0.0)
+            heights, periods = single_waves(self.time, self.depth[0] - np.polyval(line, self.time))
+            if heights.size < MIN_WAVES:
+                return
+            period = float(periods.mean())
+        self.trend = np.array([trend_of(self.time, level, period) for level in self.level])
+        self.depth = np.array([without_trend(self.time, *each) for each in zip(self.level, self.trend)])
 
     def whole_waves(self, period):
         """Shortens the window to whole periods at its end, so that regular waves have one frequency."""
         count = max(1, int((self.time[-1] - self.time[0]) / period * (1 + 1e-9)))
         keep = self.time >= self.time[-1] - count * period
-        self.time, self.depth = self.time[keep], self.depth[:, keep]
+        self.time, self.depth, self.level = self.time[keep], self.depth[:, keep], self.level[:, keep]
 
     def along(self):
         """The unit vector from the first gauge to the last. Throws DataError if they are at one place."""
@@ -222,6 +235,7 @@ def answer_of(curve, gauges, incident, place, is_regular):
     slope, slope_interval = drift_with_interval(times, means)
     numbers = {"mean": mean, "mean_interval": interval, "drift_per_s": slope, "drift_interval_per_s": slope_interval}
     if is_regular:
+        value = without_trend(gauges.time, value, trend_of(gauges.time, value, period))
         amplitude = fit_harmonics(gauges.time, value, period).amplitude
         ratio = amplitude[:1] / incident.at(place)
         return {**numbers, "amplitude": float(abs(amplitude[0])), "rao": float(abs(ratio[0])),
@@ -307,6 +321,20 @@ def regular_harmonics(gauges, period, is_given):
     return harmonics if is_given or is_regular else []
 
 
+def notes_on(gauges, harmonics, mean_period):
+    """Notes on trends that were removed, and on a given period that is not that of the record."""
+    notes = []
+    if gauges.trend.any():
+        trends = ", ".join(f"{name} {slope:+.3g} m/s" for name, slope in zip(gauges.names, gauges.trend) if slope)
+        notes.append(f"the mean level has a trend, which is removed ({trends}); the set-up and its interval include it")
+    rest = sum(found.residual**2 for found in harmonics)
+    if rest > MAX_IRREGULAR**2 * gauges.depth.var(axis=1).sum():
+        share = np.sqrt(rest / gauges.depth.var(axis=1).sum())
+        notes.append(f"harmonics of the period {harmonics[0].period:.4g} s leave {100 * share:.2g} % of the rms of the records, whose "
+                     f"mean period is {mean_period:.4g} s: the waves are irregular, or of another period")
+    return notes
+
+
 def analyse(run, names=(), start=None, end=None, depth=None, period=None, responses=(), overtopping=()):
     """(numbers, spectra) of a run's gauges between two times (s).
 
@@ -315,15 +343,21 @@ def analyse(run, names=(), start=None, end=None, depth=None, period=None, respon
     gauges = Gauges(run, list(names), start, end)
     window = (float(gauges.time[0]), float(gauges.time[-1]))
     known = period or period_of_case(run)
+    gauges.remove_trends(known)
     first = numbers_in_window(gauges, 0, window, known)
     harmonics = regular_harmonics(gauges, known or first["T_mean_s"], bool(period))
     mean_period = harmonics[0].period if harmonics else first["T_mean_s"]
     gauges.whole_waves(mean_period)
     numbers = {"from_s": float(gauges.time[0]), "to_s": float(gauges.time[-1]), "gauges": {}}
     spectra = {}
+    notes = notes_on(gauges, harmonics, first["T_mean_s"])
+    if notes:
+        numbers["notes"] = notes
     for n, (name, reading) in enumerate(zip(gauges.names, gauges.depth)):
         numbers["gauges"][name] = numbers_in_window(gauges, n, window, mean_period if harmonics else known)
-        numbers["gauges"][name] |= set_up(gauges.time, reading, gauges.still[n], mean_period)
+        numbers["gauges"][name] |= set_up(gauges.time, gauges.level[n], gauges.still[n], mean_period)
+        if gauges.trend[n]:
+            numbers["gauges"][name]["trend_m_per_s"] = float(gauges.trend[n])
         if harmonics:
             numbers["gauges"][name]["harmonics"] = harmonic_numbers(harmonics[n])
         spectra["frequency_Hz"], spectra[f"{name}_m2_per_Hz"] = spectrum(gauges.time, reading)
@@ -461,7 +495,8 @@ def overtopping_lines(numbers):
 
 def report(numbers):
     """The text that the command prints."""
-    return "\n".join([f"from {numbers['from_s']:.4g} to {numbers['to_s']:.4g} s", *gauge_table(numbers), *harmonic_table(numbers),
+    return "\n".join([f"from {numbers['from_s']:.4g} to {numbers['to_s']:.4g} s",
+                      *(f"note: {note}" for note in numbers.get("notes", [])), *gauge_table(numbers), *harmonic_table(numbers),
                       *separation_lines(numbers), *response_lines(numbers), *overtopping_lines(numbers)])
 
 

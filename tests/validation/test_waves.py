@@ -26,7 +26,7 @@ def elevation(x, t, components):
 
 
 class WaveGauges(unittest.TestCase):
-    def run_with(self, components, places=None, end=20.0):
+    def run_with(self, components, places=None, end=20.0, drift=0.0):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         path = Path(folder.name)
@@ -38,7 +38,7 @@ class WaveGauges(unittest.TestCase):
         rng = np.random.default_rng(1)
         for name, x in places.items():
             t = np.cumsum(rng.uniform(0.004, 0.008, int(end / 0.006)))  # steps as uneven as a run's
-            depth = DEPTH + elevation(x, t, components)
+            depth = DEPTH + elevation(x, t, components) + drift * (t - 0.5 * end)
             (path / "probes" / f"{name}.csv").write_text("time_s,highest_m\n" + "".join(
                 f"{time:.9g},{value:.9g}\n" for time, value in zip(t, depth)))
         return Run(path)
@@ -46,6 +46,27 @@ class WaveGauges(unittest.TestCase):
     def test_the_wave_number_solves_the_dispersion_relation(self):
         k = waves.wave_numbers([0.1, 0.8, 3.0], DEPTH, GRAVITY)
         np.testing.assert_allclose(GRAVITY * k * np.tanh(k * DEPTH), (2 * np.pi * np.array([0.1, 0.8, 3.0])) ** 2, rtol=1e-12)
+
+    def test_a_trend_of_the_level_is_removed_and_noted(self):
+        components = [(0.04, PERIOD, 1, 0.3), (0.012, PERIOD, -1, 1.0)]
+        still, _ = waves.analyse(self.run_with(components, end=40.0))
+        self.assertNotIn("notes", still)
+        for drift in (0.001, -0.002):
+            numbers, _ = waves.analyse(self.run_with(components, end=40.0, drift=drift))
+            self.assertIn("the mean level has a trend", numbers["notes"][0])
+            for part, name in (("separation", "Hm0_there_m"), ("separation", "Hm0_back_m"), ("regular", "H_there_m")):
+                self.assertAlmostEqual(numbers[part][name] / still[part][name], 1, delta=5e-3)
+            self.assertEqual(numbers["separation"]["runs"], "towards the last gauge")
+            for name in PLACES:
+                self.assertAlmostEqual(numbers["gauges"][name]["trend_m_per_s"], drift, delta=0.01 * abs(drift))
+                self.assertAlmostEqual(numbers["gauges"][name]["Hm0_m"], still["gauges"][name]["Hm0_m"], delta=5e-4)
+
+    def test_a_period_that_is_not_that_of_the_record_is_noted(self):
+        run = self.run_with([(0.05, PERIOD, 1, 0.3)])
+        self.assertNotIn("notes", waves.analyse(run, period=PERIOD)[0])
+        numbers, _ = waves.analyse(run, period=1.1 * PERIOD)
+        self.assertRegex(numbers["notes"][0], "harmonics of the period 1.375 s leave .* mean period is 1.25 s: the waves are")
+        self.assertIn("note: harmonics of the period 1.375 s", waves.report(numbers))
 
     def test_regular_waves_have_their_height_and_period(self):
         numbers, spectra = waves.analyse(self.run_with([(0.05, PERIOD, 1, 0.3)]))
