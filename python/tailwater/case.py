@@ -149,6 +149,8 @@ class Case:
             return case_text.find(self._data, steps)
         except (KeyError, IndexError, TypeError):
             self._require_known(key, steps)
+            if len(steps) > 2 and (isinstance(steps[1], int) or isinstance(steps[2], str)):
+                self._require_table(key, steps[:2])
             return known_tables()[steps[0]][1].get(steps[-1])
 
     def __contains__(self, key: str) -> bool:
@@ -166,7 +168,7 @@ class Case:
         try:
             self._data = case_text.put(self._data, steps, value)
         except (KeyError, IndexError, TypeError) as error:
-            raise InputError(f"{key}: the case has no {error}") from error
+            raise InputError(f"{key}: the case has no {case_text.missing(self._data, steps)}") from error
         self.changes.pop(key, None)  # moved to the end, so that the program applies it last
         self.changes[key] = value
         self._edits.append((key, value))
@@ -175,8 +177,10 @@ class Case:
         steps = case_text.steps_of_table(key)
         try:
             self._data = case_text.without(self._data, steps)
-        except (KeyError, IndexError, TypeError) as error:
+        except TypeError as error:
             raise InputError(f"{key}: the case has no {error}") from error
+        except (KeyError, IndexError) as error:
+            raise InputError(f"{key}: the case has no {case_text.missing(self._data, steps)}") from error
         # On the command line, a change can only replace all tables of one name.
         table = steps[0]
         self.changes = {other: value for other, value in self.changes.items() if case_text.table_of(other) != table}
@@ -188,6 +192,13 @@ class Case:
         for key, value in values.items():
             self[key] = value
         return self
+
+    def _require_table(self, key, steps):
+        """Throws InputError if the case does not have a table of a list, such as "fluid[1]" or "probe.weir"."""
+        try:
+            case_text.find(self._data, steps)
+        except (KeyError, IndexError, TypeError) as error:
+            raise InputError(f"{key}: the case has no {case_text.missing(self._data, steps)}") from error
 
     def _require_known(self, key, steps):
         """Lets the program report the error for an unknown key, or for a parameter that this case does not have."""

@@ -8,7 +8,7 @@ import tomllib
 
 from .errors import InputError
 
-__all__ = ["changed_text", "find", "inline", "put", "steps_of", "steps_of_table", "table_of", "text_without", "toml_value",
+__all__ = ["changed_text", "find", "inline", "missing", "put", "steps_of", "steps_of_table", "table_of", "text_without", "toml_value",
            "without"]
 
 STEP = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
@@ -85,12 +85,26 @@ def find(data: dict, steps: list):
     return node
 
 
+def missing(data: dict, steps: list) -> str:
+    """Words on the first part of a key that a case does not have, such as "fluid[1]; it has column"."""
+    node, above, there = data, "", ""
+    for step in steps:
+        there += f"[{step}]" if isinstance(step, int) else f".{step}" if there else step
+        try:
+            node, above = child(node, step, above), step if isinstance(step, str) else above
+        except (KeyError, IndexError, TypeError):
+            tables = [table.get("name", f"{above}{number}") for number, table in enumerate(node, 1)
+                      if isinstance(table, dict)] if isinstance(node, list) else []
+            return f"{there}; it has {', '.join(tables)}" if tables else there
+    return there
+
+
 def put(data: dict, steps: list, value) -> dict:
     """A copy of the case with a new value. Throws KeyError or IndexError where the key cannot exist."""
     changed = copy.deepcopy(data)
     node, above = changed, ""
     for step in steps[:-1]:
-        if isinstance(node, dict):
+        if len(steps) == 2:
             node.setdefault(step, {})
         node = child(node, step, above)
         above = step if isinstance(step, str) else above

@@ -23,6 +23,9 @@ from .vtkhdf import write_vtkhdf
 __all__ = ["Probes", "Run"]
 
 
+PROFILES = ("profile", "velocity-profile")  # types of probes with a line of the table for each place
+
+
 class Probes(Mapping):
     """The tables of a run's probes by name, each read on first access: a pandas.DataFrame over `time_s`, with the unit
     of each column in `attrs["units"]`."""
@@ -134,12 +137,18 @@ class Run:
         return tables.frame(self.path / "steps.csv")
 
     def curve(self, probe: str, column: str) -> Curve:
-        """A column of a probe over time, as in `curve("gauge", "highest_m")`; needs no pandas. Throws DataError."""
+        """A column of a probe over time, as in `curve("gauge", "highest_m")`; needs no pandas. Throws DataError, also for a
+        column of a profile that has several values at one time."""
         file = self.path / "probes" / f"{probe}.csv"
         if not file.exists():
             there = ", ".join(sorted(other.stem for other in file.parent.glob("*.csv")))
             raise DataError(f"{file}: there is no such probe; there are: {there or 'none'}")
-        return read_curve(file, column)
+        found = read_curve(file, column)
+        kind = next((one["type"] for one in self.case.get("probe", []) if one["name"] == probe), "")
+        if kind in PROFILES and has_several_values(file, column):
+            raise DataError(f"{file}: {column} has a value for each place of the {kind}, so it is no curve; remedy: choose a place "
+                            f"in run.probes[{probe!r}]")
+        return found
 
     def step_curve(self, column: str) -> Curve:
         """A column of steps.csv over time. Throws DataError."""
@@ -271,6 +280,14 @@ def place_of(run, body, probe, time):
     x, y, angle = (np.interp(time, curve.time, curve.value) for curve in curves)
     centre, turn = np.array(body["centre"]), np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     return lambda points: (np.array(points) - centre) @ turn + centre + (x, y)
+
+
+def has_several_values(file, column) -> bool:
+    """Whether a column of a table has different values at one time."""
+    table = tables.read_table(file)
+    order = np.argsort(table["time_s"], kind="stable")
+    time, value = table["time_s"][order], table[column][order]
+    return bool(((np.diff(time) == 0) & (np.diff(value) != 0)).any())
 
 
 def wall_chain(wall):

@@ -265,12 +265,16 @@ def finest_within(coarsest, seconds, budget, dimension, extra):
 
 
 def done(members, what):
-    """The runs of a sweep. Throws DataError with the first message if a run has failed or was interrupted."""
+    """The runs of a sweep. Throws the first message if a run has failed or was interrupted: IoError if a file could not be
+    written, otherwise DataError."""
     for member, row in members.table().iterrows():
         if row["status"] != "done":
             message = row["message"] if isinstance(row["message"], str) else ""
-            raise DataError(f"{members.path / member}: {row['status']}{': ' if message else ''}{message}; remedy: "
-                            f"another case, or {what}; the study then continues with the missing runs")
+            is_file = row["exit_code"] == 4
+            remedy = "make room for the files, or choose another folder" if is_file else f"another case, or {what}"
+            raise (IoError if is_file else DataError)(
+                f"{members.path / member}: {row['status']}{': ' if message else ''}{message}; remedy: {remedy}; the study "
+                "then continues with the missing runs")
     return members.runs
 
 

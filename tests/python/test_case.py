@@ -61,6 +61,28 @@ class Keys(PackageTest):
                 self.case[key] = 1
             self.assertIn(hint, str(caught.exception))
 
+    def test_table_that_the_case_has_not_is_named(self):
+        def change(key):
+            self.case[key] = [0, 0]
+
+        def delete(key):
+            del self.case[key]
+
+        for key, words in (("fluid[1].min", r"no fluid\[1\]; it has column"), ("probe.dept.at", "no probe.dept; it has depth"),
+                           ("gate[0].speed", "no gate"), ("fluid[0].max[7]", r"no fluid\[0\].max\[7\]")):
+            for use in (self.case.__getitem__, change) if "[7]" not in key else (change,):
+                with self.assertRaisesRegex(tw.InputError, f"the case has {words}$", msg=(key, use)):
+                    use(key)
+        with self.assertRaisesRegex(tw.InputError, r"the case has no wall\[4\]; it has tank$"):
+            delete("wall[4]")
+
+    def test_renamed_table_has_its_new_name_only(self):
+        self.case["probe.depth.name"] = "level"
+        self.assertEqual(self.case["probe.level.name"], "level")
+        for key in ("probe.depth.name", "probe.depth.at"):
+            with self.assertRaisesRegex(tw.InputError, "the case has no probe.depth; it has level"):
+                self.case[key]
+
     def test_parameter_that_the_case_has_not_is_refused(self):
         case = tw.Case.template("weir")
         for use in (lambda: case["parameters.Q"], lambda: case.update({"parameters.Q": 0.06}),

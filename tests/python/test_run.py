@@ -52,6 +52,13 @@ class Runs(PackageTest):
             run.curve("dept", "highest_m")
         self.assertEqual([run.fluid_particles, run.integrator], [50, run.case["scheme"]["integrator"]])
 
+    def test_profile_is_no_curve(self):
+        probe = '[[probe]]\nname = "bed"\ntype = "profile"\nfrom = [0.1, 0]\nto = [0.9, 0]\ntimes = [0.05, 0.1]\n'
+        run = tw.Case(self.write("profile.toml", DAM + probe)).run("out")
+        with self.assertRaisesRegex(tw.DataError, "connected_m has a value for each place of the profile, so it is no curve"):
+            run.curve("bed", "connected_m")
+        self.assertGreater(len(run.probes["bed"]), 5)
+
     def test_fields_are_arrays(self):
         run = self.case.run("out")
         last = run.last()

@@ -7,10 +7,11 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import pandas
 import tailwater as tw
 from small import DAM, PackageTest
 from tailwater import study_command
-from tailwater.study import finest_within, fitting, ladder, misfit, quantities_of
+from tailwater.study import done, finest_within, fitting, ladder, misfit, quantities_of
 from tailwater.uncertainty import estimate
 
 
@@ -75,6 +76,13 @@ class Studies(PackageTest):
         self.case["pressure_solver.max_iterations"] = 1
         with self.assertRaisesRegex(tw.DataError, "particles.spacing=0.*max_iterations"):
             tw.study(self.case, out="s", spacings=[0.16, 0.125, 0.1])
+
+    def test_run_on_a_full_disk(self):
+        message = "cannot write 'a/steps.csv': No space left on device"
+        table = pandas.DataFrame([{"member": "a", "status": "failed", "exit_code": 4.0, "message": message}]).set_index("member")
+        members = SimpleNamespace(path=Path("s"), table=lambda: table)
+        with self.assertRaisesRegex(tw.IoError, f"s/a: failed: {message}; remedy: make room for the files"):
+            done(members, "other spacings")
 
     def test_what_is_no_study(self):
         with self.assertRaisesRegex(tw.DataError, "nowhere/study.json: is not the table of a study"):
