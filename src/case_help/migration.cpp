@@ -15,16 +15,23 @@
 namespace tailwater {
 namespace {
 
-/// The lines of a case file. Changes use the line numbers of the old file; added text stands after one of its lines.
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// The lines of a case file. Changes use the line numbers of the old file; added text stands after one of its lines. A
+/// byte order mark stays in front, and added lines end as those of the file.
 class Lines {
  public:
-  explicit Lines(std::string_view text) {
+  explicit Lines(std::string_view text) : ends_in_cr_lf_(text.find("\r\n") != std::string_view::npos) {
+    if (text.starts_with(byte_order_mark)) {
+      mark_ = byte_order_mark;
+      text.remove_prefix(byte_order_mark.size());
+    }
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size() - 1);
       lines_.push_back({std::string(text.substr(0, end + 1)), ""});
       text.remove_prefix(end + 1);
     }
-    if (!lines_.empty() && !lines_.back().text.ends_with('\n')) lines_.back().text += '\n';
+    if (!lines_.empty() && !lines_.back().text.ends_with('\n')) lines_.back().text += ends_in_cr_lf_ ? "\r\n" : "\n";
   }
 
   /// `number` counts from 1, as in messages.
@@ -32,12 +39,16 @@ class Lines {
   std::size_t last() const { return lines_.size(); }
 
   /// 0: before the first.
-  void add_after(std::size_t number, const std::string& text) {
-    (number == 0 ? before_ : lines_[number - 1].added) += text;
+  void add_after(std::size_t number, std::string_view text) {
+    std::string& added = number == 0 ? before_ : lines_[number - 1].added;
+    for (const char character : text) {
+      if (character == '\n' && ends_in_cr_lf_ && !added.ends_with('\r')) added += '\r';
+      added += character;
+    }
   }
 
   std::string text() const {
-    std::string all = before_;
+    std::string all = mark_ + before_;
     for (const Line& line : lines_) all += line.text + line.added;
     return all;
   }
@@ -47,6 +58,8 @@ class Lines {
     std::string text;
     std::string added;
   };
+  bool ends_in_cr_lf_;
+  std::string mark_;
   std::string before_;
   std::vector<Line> lines_;
 };

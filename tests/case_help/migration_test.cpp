@@ -86,6 +86,24 @@ TEST(Migration, WritesTheFormatIntoTheTableOfTheCase) {
   EXPECT_EQ(migrated("case.title = \"a\""), "case." + format_line + "case.title = \"a\"\n");
 }
 
+TEST(Migration, KeepsAByteOrderMarkAndTheEndsOfLines) {
+  const std::string mark = "\xef\xbb\xbf";
+  const std::string keys =
+      "[particles]\nspacing = 0.1\n[time]\nend = 1.0\n[scheme]\nshifting = \"none\"  # why\n" + water;
+  const std::string old_case = "[case]\ntitle = \"x\"\n" + keys;
+  const auto with_cr = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+    return text;
+  };
+  const std::string expected = migrated(old_case);
+  EXPECT_TRUE(expected.starts_with("[case]\n" + format_line)) << expected;
+  EXPECT_NE(expected.find("[study]\nshifting = 0  # why\n"), std::string::npos) << expected;
+  EXPECT_EQ(migrated(mark + old_case), mark + expected);
+  EXPECT_EQ(migrated(with_cr(old_case)), with_cr(expected));
+  EXPECT_EQ(migrated(mark + with_cr(old_case)), mark + with_cr(expected));
+  EXPECT_TRUE(migrated(mark + keys).starts_with(mark + "case." + format_line));
+}
+
 TEST(Migration, KeepsCommentsAndWhatItDoesNotKnow) {
   EXPECT_EQ(migrated("[case]\n[scheme]\n# numerics\nsupport = 4 # wide\nkernel = \"farzin\"\ncourant = 0.3\n\n# "
                      "end\n[other]\nkey = [1,\n2]\n"),
