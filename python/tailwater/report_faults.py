@@ -69,14 +69,14 @@ def times_of_readings(run, probe):
 
 
 def readings_of(run, answer):
-    """[(kind, details)] of an answer for which a probe was never read, or too seldom. The value at the end of the run
-    needs one reading."""
+    """[(kind, details)] of an answer for which a probe was never read, or too seldom. The value of the last reading needs
+    no others, as of a profile at one time."""
     probe = answer["probe"]
     found = {quantity for name, quantity in quantities_of(run) if name == probe}
     if not found or (answer["quantity"] and answer["quantity"] not in found):
         return [("the answer has no result", f"too few readings of the probe '{probe}', or none")]
     times, words = times_of_readings(run, probe), words_of(run, answer)
-    is_of_the_end = times and len(times) > 1 and words == f"at {times[-1]:.4g} s"
+    is_of_the_end = times and times[-1] > 0 and words == f"at {times[-1]:.4g} s"
     is_of_each_step = times and len(times) > run.summary.get("steps", {}).get("count", 0)
     if not times or not words or is_of_the_end or is_of_each_step:
         return []

@@ -144,6 +144,17 @@ class MadeUp(PackageTest):
         table.write_text("time_s,connected_m\n" + "".join(lines), encoding="utf-8")
         self.assertTrue(tw.report("s", pictures=0).is_reliable)
 
+    def test_probe_that_is_read_once(self):
+        """The value of the last reading counts, unless it is that of the start."""
+        results = summary()["results"]
+        for time, is_reliable in ((0.05, True), (0.0, False)):
+            results["depth"]["quantities"][0]["what"] = f"at {time:.4g} s"
+            make_study(f"s{time}", {0.125: {"results": results, "steps": {"count": 100, "dt_mean_s": 0.001}}})
+            table = Path(f"s{time}/spacings/particles.spacing=0.125/probes/depth.csv")
+            table.parent.mkdir()
+            table.write_text(f"time_s,connected_m\n{time},0.5\n", encoding="utf-8")
+            self.assertEqual(tw.report(f"s{time}", pictures=0).is_reliable, is_reliable)
+
     def test_probe_without_a_result(self):
         make_study("s", {spacing: {"results": {}} for spacing in (0.1, 0.125, 0.16)})
         for answer in ("", "depth"):
