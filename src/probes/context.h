@@ -14,6 +14,7 @@
 #include "base/vec.h"
 #include "case/probe_columns.h"
 #include "geometry/boundary.h"
+#include "geometry/face.h"
 #include "kernel/kernel.h"
 #include "motion/floating_body.h"
 #include "neighbours/cell_grid.h"
@@ -110,14 +111,44 @@ struct ProbeContext {
   }
 };
 
-/// The visible fraction of a particle at a place, past the screens of walls.
+/// The place from which a probe at `x` sees the water past the screens of walls: `x`, moved in front of the walls on
+/// which it lies. Rounding can leave `x` on either side of them. Plates have water on both sides (in_front_of).
 template <int Dim>
-double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& x, std::int32_t j) {
+Vec<Dim> place_of_eye(const ProbeContext<Dim>& context, const Vec<Dim>& x) {
+  constexpr int max_rounds = 100;  // the moves away from two walls that meet at 10 degrees take 50
+  const double tolerance = corner_tolerance * context.spacing;
+  const auto near = context.boundary.screens_near(x, tolerance);
+  Vec<Dim> eye = x;
+  bool is_in_front = false;
+  for (int round = 0; round < max_rounds && !is_in_front; ++round) {
+    is_in_front = true;
+    for (const int s : near) {
+      const Screen<Dim>& screen = context.boundary.screens[s];
+      const double height = screen.height(eye);
+      if (screen.is_plate || height > 0.1 * tolerance || screen.distance(x) > tolerance) continue;
+      eye += (tolerance - height) * screen.normal;
+      is_in_front = false;
+    }
+  }
+  return eye;
+}
+
+/// The visible fraction of a particle from the eye of a probe.
+template <int Dim>
+double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& eye, std::int32_t j) {
   if (context.boundary.screens.empty()) return 1.0;
   const Vec<Dim>& there = context.particles.position[j];
   const int felt = context.felt_through.empty() ? felt_past_screens : context.felt_through[j];
-  return visible_fraction<Dim>(context.boundary.screens, context.boundary.screens_near(x, (there - x).norm()), x, there,
-                               felt);
+  return visible_fraction<Dim>(context.boundary.screens, context.boundary.screens_near(eye, (there - eye).norm()), eye,
+                               there, felt);
+}
+
+/// The place from which a probe reads at `x` on the face of a wall: `x`, or a place in front of a plate, whose back is
+/// at `x` as well.
+template <int Dim>
+Vec<Dim> in_front_of(const Boundary<Dim>& boundary, int wall, const Vec<Dim>& normal, const Vec<Dim>& x,
+                     double spacing) {
+  return boundary.walls[wall].is_plate ? Vec<Dim>(x + corner_tolerance * spacing * normal) : x;
 }
 
 /// Calls body(j, v w_j W(|x - x_j|)) for every particle j within the support around `x` whose visible fraction v is not
@@ -125,13 +156,14 @@ double visible_fraction_of(const ProbeContext<Dim>& context, const Vec<Dim>& x, 
 template <int Dim, class Body>
 void for_each_weight(const ProbeContext<Dim>& context, const Vec<Dim>& x, Body&& body) {
   const double relative = context.relative_spacing(x);
+  const Vec<Dim> eye = place_of_eye(context, x);
   std::visit(
       [&](const auto& kernel) {
         const double radius = relative * kernel.radius();
         context.grid.for_each_near(x, [&](std::int32_t j) {
           const double squared = (x - context.particles.position[j]).squaredNorm();
           if (squared >= radius * radius) return;
-          const double visible = visible_fraction_of(context, x, j);
+          const double visible = visible_fraction_of(context, eye, j);
           if (visible == 0.0) return;
           const double W = kernel.value(std::sqrt(squared) / relative) / power<Dim>(relative);
           body(j, visible * context.particles.volume[j] * W);

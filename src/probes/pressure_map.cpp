@@ -120,8 +120,10 @@ struct PressureMap {
     std::vector<double> least(patches.size());
     const std::vector<Vec<Dim>> shifts = image_shifts<Dim>(context.domain);
     for_each(patches.size(), [&](std::size_t k) {
-      const Vec<Dim> centre = patches[k].centre(context.boundary);
-      for (const Vec<Dim>& shift : shifts) sums[k].add_owned(context, centre, shift);
+      const WallFace<Dim>& face = context.boundary.faces[patches[k].face];
+      const Vec<Dim> place = in_front_of<Dim>(context.boundary, face.wall, face.normal,
+                                              patches[k].centre(context.boundary), context.spacing);
+      for (const Vec<Dim>& shift : shifts) sums[k].add_owned(context, place, shift);
       least[k] = sums[k].least;
     });
     const bool has_inertia = context.wall_inertia != nullptr;

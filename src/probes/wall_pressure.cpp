@@ -42,17 +42,14 @@ PointOnWall<Dim> point_on_wall(const ProbeTable& probe, const Vec<Dim>& x, const
                     {"move it onto a wall"});
   }
   const int wall = boundary.faces[nearest.face].wall;
-  Vec<Dim> point = nearest.point;
-  if (boundary.walls[wall].is_plate) {
-    const double tolerance = corner_tolerance * spec.particles.spacing;
-    if (nearest.signed_distance <= tolerance) {
-      throw CaseError(
-          "probe-on-plate",
-          {"{}: {} is on {}, a plate that has water on both sides", label(probe), place(x), wall_label(boundary, wall)},
-          {"move it by a millimetre to the side that it is to read"});
-    }
-    point += tolerance * boundary.faces[nearest.face].normal;
+  const double dx = spec.particles.spacing;
+  if (boundary.walls[wall].is_plate && nearest.signed_distance <= corner_tolerance * dx) {
+    throw CaseError(
+        "probe-on-plate",
+        {"{}: {} is on {}, a plate that has water on both sides", label(probe), place(x), wall_label(boundary, wall)},
+        {"move it by a millimetre to the side that it is to read"});
   }
+  const Vec<Dim> point = in_front_of(boundary, wall, boundary.faces[nearest.face].normal, nearest.point, dx);
   if (!boundary.walls[wall].moves()) return {point, nullptr};
   const Drive& drive = spec.walls[wall].drive;
   if (drive.by == Drive::By::wave_maker && spec.wave_makers[drive.index].absorption == Absorption::active) {

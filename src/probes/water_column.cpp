@@ -28,7 +28,11 @@ void add_crossings(const Boundary<Dim>& boundary, const Vec<Dim>& place, double 
       line.crossings.push_back({(hit - line.foot).dot(line.up), face.normal, face.wall});
     }
   }
-  std::ranges::sort(line.crossings, std::ranges::greater(), &Crossing<Dim>::height);
+  // Both faces of a plate are at the same height, and the water above it is not below its underside.
+  std::ranges::sort(line.crossings, std::ranges::greater(), [&](const Crossing<Dim>& crossing) {
+    const bool is_top = boundary.walls[crossing.wall].is_plate && crossing.normal.dot(line.up) > 0.0;
+    return crossing.height + (is_top ? corner_tolerance * spacing : 0.0);
+  });
 }
 
 /// The path of the wall that is the bed of a gauge; null if it rests. Throws InputError if no path is known.
@@ -64,7 +68,8 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
                       double top) {
   top = std::min(top, bed.height + tallest_column * context.spacing);
   const Vec<Dim> bed_point = line.foot + bed.height * line.up;
-  const bool bed_is_wet = water_share(context, bed_point) > surface_share;
+  const Vec<Dim> eye = in_front_of(context.boundary, bed.wall, bed.normal, bed_point, context.spacing);
+  const bool bed_is_wet = water_share(context, eye) > surface_share;
   const auto share_at = [&](double depth) {
     const Vec<Dim> x = bed_point + depth * line.up;
     return bed_is_wet ? water_share_above_wet_bed(context, x, bed_point, bed.normal) : water_share(context, x);
