@@ -139,7 +139,8 @@ WaterColumn WaterColumns<Dim>::on(const UprightLine<Dim>& line) const {
   bool found_bed = false;
   for (const Crossing<Dim>& crossing : line.crossings) {
     if (crossing.normal.dot(line.up) < 0.0) {
-      ceiling = std::min(top, crossing.height);
+      const bool is_plate = context_.boundary.walls[crossing.wall].is_plate;  // with other water on its upper side
+      ceiling = std::min(top, crossing.height - (is_plate ? corner_tolerance * context_.spacing : 0.0));
       continue;
     }
     const WaterColumn candidate = column_on(context_, line, crossing, ceiling);
