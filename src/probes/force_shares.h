@@ -57,6 +57,12 @@ struct Shares {
     weight += weight_of_patch;
     normals += (weight_of_patch * n) * n.transpose();
   }
+  Shares& operator+=(const Shares& other) {
+    weight += other.weight;
+    normals += other.normals;
+    return *this;
+  }
+  Shares scaled(double factor) const { return {factor * weight, factor * normals}; }
   /// For the pressure.
   Mat<Dim> across() const { return normals + indifference * weight * Mat<Dim>::Identity(); }
   /// For friction.
@@ -65,20 +71,10 @@ struct Shares {
   Vec<Dim> along_inverse(const Vec<Dim>& force) const { return (along() / weight).inverse() * (force / weight); }
 };
 
-struct PatchWeights {
-  double of_pressure;
-  double of_friction;
-};
-
 template <int Dim>
 struct Sharing {
   Shares<Dim> of_pressure;
   Shares<Dim> of_friction;
-
-  void add(double share, const PatchWeights& weights, const Vec<Dim>& n) {
-    of_pressure.add(share * weights.of_pressure, n);
-    of_friction.add(share * weights.of_friction, n);
-  }
 };
 
 }  // namespace tailwater

@@ -3,21 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "base/assert.h"
 #include "base/box.h"
 #include "base/for_each.h"
 #include "case/formulation.h"
 #include "geometry/face.h"
-#include "geometry/facing.h"
 #include "geometry/from_spec.h"
 #include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
 #include "probes/force_shares.h"
+#include "probes/nearby_parts.h"
+#include "probes/patch_shares.h"
 #include "probes/places.h"
 #include "probes/wall_pressure.h"
 #include "probes/wetted_patches.h"
@@ -26,9 +30,6 @@
 
 namespace tailwater {
 namespace {
-
-/// Relative weight of patches that take no part in a force. It matters only where there are no other patches.
-constexpr double weight_of_others = 1e-6;
 
 /// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
 constexpr double patch_margin = 1.0;
@@ -52,25 +53,28 @@ class WallForceProbe {
   WallForceProbe(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
       : spacing_(spacing_at_walls(probe, spec, boundary)),
         patches_(make_wall_patches(boundary, longest_patch_edge * spacing_)),
-        chosen_(chosen_shares<Dim>(probe, spec, boundary, patches_)),
-        takes_all_(std::ranges::all_of(chosen_, [](double share) { return share == 1.0; })),
+        chosen_{chosen_shares<Dim>(probe, spec, boundary, patches_)},
+        takes_all_(std::ranges::all_of(chosen_.taken, [](double share) { return share == 1.0; })),
         about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
                                           : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
         age_(age_of_forces(spec)),
         reach_((1.5 * dummy_layers(spec) + patch_margin) * spacing_),
         paths_(boundary.walls.size()),
         body_of_(boundary.walls.size(), -1),
-        wetted_(spec, boundary, spacing_, reach_) {
+        wetted_(spec, boundary, spacing_, reach_),
+        mover_(boundary.walls.size(), -1) {
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
       if (!boundary.walls[wall].moves()) continue;
       if (const Drive& drive = spec.walls[wall].drive; drive.by == Drive::By::body) {
         body_of_[wall] = static_cast<int>(drive.index);
+        mover_[wall] = static_cast<int>(paths_.size() + drive.index);
         continue;
       }
+      mover_[wall] = static_cast<int>(wall);
       paths_[wall].emplace(spec, spec.walls[wall], wall_label(boundary, static_cast<int>(wall)));
     }
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      has_power_ = has_power_ || (chosen_[k] > 0.0 && moves(boundary.faces[patches_[k].face].wall));
+      has_power_ = has_power_ || (chosen_.taken[k] > 0.0 && moves(boundary.faces[patches_[k].face].wall));
     }
   }
 
@@ -80,12 +84,12 @@ class WallForceProbe {
   /// Collective.
   WallLoads<Dim> read(const ProbeContext<Dim>& context) {
     TAILWATER_ASSERT(context.wall_forces != nullptr, "the flow finds the forces on its walls");
-    place_patches(context.boundary, context.air_pressure != nullptr);
+    place_patches(context);
     const std::vector<AffineMap<Dim>> velocity = find_velocities(context);
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       const WallLoads<Dim> whole = loads_at(context, i);
       if (whole.force().isZero(0.0) || takes_all_and_rests()) return whole;
-      if (!takes_all_ && !is_near(around_chosen_, context.particles.position[i])) return WallLoads<Dim>();
+      if (!takes_all_ && !is_near(chosen_.around, context.particles.position[i])) return WallLoads<Dim>();
       return part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
@@ -93,15 +97,24 @@ class WallForceProbe {
   }
 
  private:
+  /// Some of the patches, for the part of the loads on them.
+  struct Selection {
+    std::vector<double> taken;  ///< selected fraction of each patch
+    Box<Dim> around = {};       ///< contains all forces of which these patches take some
+    NearbyParts<Dim> nearby = {};
+  };
+
   bool moves(std::size_t wall) const { return paths_[wall].has_value() || body_of_[wall] >= 0; }
   bool takes_all_and_rests() const { return takes_all_ && !has_power_; }
 
-  void place_patches(const Boundary<Dim>& boundary, bool has_air) {
+  void place_patches(const ProbeContext<Dim>& context) {
+    const bool needs_patches = context.air_pressure != nullptr || !context.wall_forces->beside_walls.empty();
     bool rest = true;
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
-    if ((takes_all_and_rests() && !has_air) || (rest && !wetted_.centres().empty())) return;
-    wetted_.place(boundary, patches_);
-    around_chosen_ = box_around(chosen_);
+    if ((takes_all_and_rests() && !needs_patches) || (rest && !wetted_.centres().empty())) return;
+    wetted_.place(context.boundary, patches_);
+    chosen_ = select(std::move(chosen_.taken));
+    hulls_.clear();
   }
 
   /// Beside another wall the pressure force on a hull is more than the force of its pairs. The difference has its
@@ -117,7 +130,7 @@ class WallForceProbe {
         return std::ranges::find(other.walls, one.beside) != other.walls.end();
       });  // which has a force of its own here
       if (has_hull ? has_wall && !is_beside_hull : !has_wall || is_beside_hull) continue;
-      const WallLoads<Dim> of_pairs = pressure_of_pairs(context, velocity, is_of_hull);
+      const WallLoads<Dim> of_pairs = pressure_of_pairs(context, velocity, hull_of(context.boundary, one.walls));
       const double sign = has_hull ? 1.0 : -1.0;
       const Vec<Dim> force = one.force - of_pairs.pressure;
       const Moment<Dim> about = moment(one.centre, one.force) + one.moment - of_pairs.moment;
@@ -144,25 +157,31 @@ class WallForceProbe {
   template <class IsPart>
   bool takes_all_of(const Boundary<Dim>& boundary, IsPart&& is_part) const {
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      if (chosen_[k] < 1.0 && is_part(boundary.faces[patches_[k].face].wall)) return false;
+      if (chosen_.taken[k] < 1.0 && is_part(boundary.faces[patches_[k].face].wall)) return false;
     }
     return true;
   }
 
-  /// The forces of pairs on all walls for which is_part(wall), without friction. Collective.
-  template <class IsPart>
-  WallLoads<Dim> pressure_of_pairs(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
-                                   IsPart&& is_part) {
-    std::vector<double> share(patches_.size());
+  /// All patches of the walls of a hull.
+  Selection& hull_of(const Boundary<Dim>& boundary, const std::vector<int>& walls) {
+    const auto [known, is_new] = hulls_.try_emplace(walls.front());
+    if (!is_new) return known->second;
+    std::vector<double> taken(patches_.size());
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      share[k] = is_part(context.boundary.faces[patches_[k].face].wall) ? 1.0 : 0.0;
+      taken[k] = std::ranges::find(walls, boundary.faces[patches_[k].face].wall) != walls.end() ? 1.0 : 0.0;
     }
-    const Box<Dim> around = box_around(share);
+    known->second = select(std::move(taken));
+    return known->second;
+  }
+
+  /// The forces of pairs on the walls of a hull, without friction. Collective.
+  WallLoads<Dim> pressure_of_pairs(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
+                                   Selection& hull) {
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       WallLoads<Dim> whole = loads_at(context, i);
       whole.friction.setZero();
-      const bool is_part_of_it = !whole.pressure.isZero(0.0) && is_near(around, context.particles.position[i]);
-      return is_part_of_it ? part_of(whole, context, i, velocity, share) : WallLoads<Dim>();
+      const bool is_part_of_it = !whole.pressure.isZero(0.0) && is_near(hull.around, context.particles.position[i]);
+      return is_part_of_it ? part_of(whole, context, i, velocity, hull) : WallLoads<Dim>();
     });
     loads.gather(context.ranks);
     return loads;
@@ -195,7 +214,7 @@ class WallForceProbe {
   WallLoads<Dim> loads_of_air(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) const {
     WallLoads<Dim> loads;
     if (!context.air_pressure) return loads;
-    std::vector<double> taken = chosen_;
+    std::vector<double> taken = chosen_.taken;
     for (std::size_t k = 0; k < taken.size(); ++k) taken[k] *= wetted_.share(static_cast<std::int32_t>(k));
     for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, patches_, taken)) {
       loads.pressure += push.force;
@@ -224,36 +243,44 @@ class WallForceProbe {
     return wall.face < 0 ? x : wall.point;
   }
 
-  /// The part of the loads through particle i on patches of which the fractions `taken` count.
+  /// The part of the loads through particle i on selected patches. Those on walls that move are taken where the walls
+  /// were when the forces acted.
   WallLoads<Dim> part_of(const WallLoads<Dim>& whole, const ProbeContext<Dim>& context, std::size_t i,
-                         const std::vector<AffineMap<Dim>>& velocity, std::span<const double> taken) {
+                         const std::vector<AffineMap<Dim>>& velocity, Selection& selection) {
+    using Kind = NearbyPart::Kind;
     const Vec<Dim>& x = context.particles.position[i];
-    const bool is_own = taken.data() == chosen_.data();
-    find_shares_near(context.boundary, x, context.particles.is_fluid(i));
-    Sharing<Dim> all;
-    Sharing<Dim> chosen;
-    for (const PatchShare& share : shares_) {
-      const Vec<Dim>& n = context.boundary.faces[patches_[share.patch].face].normal;
-      all.add(1.0, share.weights, n);
-      if (taken[share.patch] > 0.0) chosen.add(taken[share.patch], share.weights, n);
-    }
+    const auto wall_of = [&](std::int32_t k) { return context.boundary.faces[patches_[k].face].wall; };
+    const auto mover_of = [&](std::int32_t k) { return mover_[wall_of(k)]; };
+    const NearbyPart nearby = selection.nearby.at(x, wetted_, selection.taken, mover_of);
+    const bool takes_all = &selection == &chosen_ && takes_all_;
     WallLoads<Dim> loads;
-    if (all.of_pressure.weight == 0.0) return is_own && takes_all_ ? whole : loads;
-    const Vec<Dim> pressure = all.of_pressure.across_inverse(whole.pressure);
-    const Vec<Dim> friction = all.of_friction.along_inverse(whole.friction);
-    loads.pressure = chosen.of_pressure.across() * pressure;
-    loads.friction = chosen.of_friction.along() * friction;
-    const Vec<Dim> on_wall = loads.friction.isZero(0.0) ? x : foot(context, x);
-    for (const PatchShare& near : shares_) {
-      const WallFace<Dim>& face = context.boundary.faces[patches_[near.patch].face];
-      if (!has_power_ || taken[near.patch] == 0.0 || !moves(face.wall)) continue;
-      Sharing<Dim> share;
-      share.add(taken[near.patch], near.weights, face.normal);
+    if (nearby.kind == Kind::none && !takes_all) return loads;
+    const Vec<Dim> on_wall = whole.friction.isZero(0.0) ? x : foot(context, x);
+    const auto add = [&](int wall, const Vec<Dim>& pressure, const Vec<Dim>& friction) {
+      if (!has_power_ || !moves(wall)) return;
       // Friction acts on the wall itself. Pressure acts across it, so its power is the same from the particle.
-      for (const auto& [force, place] : {std::pair(Vec<Dim>(share.of_pressure.across() * pressure), x),
-                                         std::pair(Vec<Dim>(share.of_friction.along() * friction), on_wall)}) {
-        loads.power -= force.dot(velocity[face.wall](place));
-        loads.moment -= moment_of<Dim>(age_ * context.dt * velocity[face.wall](place), force);  // where the wall was
+      for (const auto& [force, place] : {std::pair(pressure, x), std::pair(friction, on_wall)}) {
+        loads.power -= force.dot(velocity[wall](place));
+        loads.moment -= moment_of<Dim>(age_ * context.dt * velocity[wall](place), force);  // where the wall was
+      }
+    };
+    if (nearby.kind == Kind::all) {
+      loads.pressure = whole.pressure;
+      loads.friction = whole.friction;
+      add(wall_of(nearby.patch), whole.pressure, whole.friction);
+    } else {
+      const auto [all, chosen] = shares_.find(wetted_, x, context.particles.is_fluid(i), selection.taken, has_power_);
+      if (all.of_pressure.weight == 0.0) return takes_all ? whole : loads;
+      const Vec<Dim> pressure = all.of_pressure.across_inverse(whole.pressure);
+      const Vec<Dim> friction = all.of_friction.along_inverse(whole.friction);
+      loads.pressure = chosen.of_pressure.across() * pressure;
+      loads.friction = chosen.of_friction.along() * friction;
+      for (const auto& near : shares_.list()) {
+        if (!moves(wall_of(near.patch))) continue;
+        Sharing<Dim> share;
+        share.of_pressure.add(selection.taken[near.patch] * near.of_pressure, near.normal);
+        share.of_friction.add(selection.taken[near.patch] * near.of_friction, near.normal);
+        add(wall_of(near.patch), share.of_pressure.across() * pressure, share.of_friction.along() * friction);
       }
     }
     loads.moment += moment(x, loads.pressure) + moment(on_wall, loads.friction);
@@ -266,52 +293,18 @@ class WallForceProbe {
     return is_near;
   }
 
-  /// Contains all forces of which patches with a `taken` part take some.
-  Box<Dim> box_around(std::span<const double> taken) const {
-    Box<Dim> around;
-    for (std::size_t k = 0; k < taken.size(); ++k) {
-      if (taken[k] > 0.0) around.extend(wetted_.centres()[k]);
+  Selection select(std::vector<double> taken) const {
+    Selection selection{std::move(taken)};
+    for (std::size_t k = 0; k < selection.taken.size(); ++k) {
+      if (selection.taken[k] > 0.0) selection.around.extend(wetted_.centres()[k]);
     }
-    return around.widen(reach_);
+    selection.around.widen(reach_);
+    return selection;
   }
-
-  /// Sets `shares_` to the patches near a particle at x, with their weights by size and distance. The particle's own
-  /// patches are those whose side it is on: behind the plane for a wall particle, in front of it for water. The
-  /// pressure's force counts for all patches except those that face the nearest own patch. So no force is transferred
-  /// across a gap or through a thin body. Friction counts for the own patches.
-  void find_shares_near(const Boundary<Dim>& boundary, const Vec<Dim>& x, bool is_water) {
-    const auto normal_of = [&](std::int32_t k) -> const Vec<Dim>& { return boundary.faces[patches_[k].face].normal; };
-    shares_.clear();
-    double largest = 0.0;
-    Vec<Dim> own_normal = Vec<Dim>::Zero();
-    wetted_.visit_near(x, [&](std::int32_t k, const Vec<Dim>& offset) {
-      const double squared = offset.squaredNorm();
-      if (squared >= reach_ * reach_) return;
-      const double nearness = 1.0 - std::sqrt(squared) / reach_;
-      const double measure = wetted_.share(k) * patches_[k].measure;
-      const double weight = measure * (nearness * nearness) * (nearness * nearness);
-      const bool is_own = (normal_of(k).dot(offset) < 0.0) != is_water;
-      shares_.push_back({k, is_own, {weight, is_own ? weight : weight_of_others * weight}});
-      if (weight <= largest || !is_own) return;
-      largest = weight;
-      own_normal = normal_of(k);
-    });
-    for (PatchShare& share : shares_) {
-      const bool takes_pressure = share.is_own || !face_each_other<Dim>(normal_of(share.patch), own_normal);
-      if (!takes_pressure) share.weights.of_pressure *= weight_of_others;
-    }
-  }
-
-  /// A patch near a particle.
-  struct PatchShare {
-    std::int32_t patch;
-    bool is_own;  ///< whether the particle is on its side
-    PatchWeights weights;
-  };
 
   double spacing_;  ///< m; dx at the chosen walls
   std::vector<WallPatch<Dim>> patches_;
-  std::vector<double> chosen_;  ///< selected fraction of each patch
+  Selection chosen_;
   bool takes_all_;
   Vec<Dim> about_;
   double age_;                                       ///< of forces (age_of_forces)
@@ -320,8 +313,9 @@ class WallForceProbe {
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
   WettedPatches<Dim> wetted_;
-  Box<Dim> around_chosen_;          ///< box_around(chosen_)
-  std::vector<PatchShare> shares_;  ///< of the particle that is being read
+  std::vector<int> mover_;          ///< of each wall: a number, equal for walls that move alike; -1: it rests
+  std::map<int, Selection> hulls_;  ///< by the first wall of a hull, its patches where they are now
+  PatchShares<Dim> shares_;         ///< of the particle that is being read
 };
 
 /// Largest and mean force so far, as numbers that a checkpoint saves.

@@ -55,6 +55,11 @@ void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const Wa
   for_each(patches.size(), [&](std::size_t k) {
     if (is_under_wall(boundary, patches, k)) share_[k] = 0.0;
   });
+  parts_.clear();
+  for (const std::int32_t k : grid_.order()) {
+    const Vec<Dim>& normal = boundary.faces[patches[k].face].normal;
+    parts_.push_back({centres_[k], normal, share_[k] * patches[k].measure, k});
+  }
 }
 
 /// Whether another wall lies on the patch, as a bed does below a block that stands on it.
@@ -62,12 +67,15 @@ template <int Dim>
 bool WettedPatches<Dim>::is_under_wall(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches,
                                        std::size_t k) const {
   const WallFace<Dim>& own = boundary.faces[patches[k].face];
+  const double reach = (longest_patch_edge + reach_of_cover) * spacing_;  // of the patch at the nearest place of a face
   bool found = false;
   visit_images_of(centres_[k], [&](const Vec<Dim>& x) {
-    grid_.for_each_near(x, [&](std::int32_t m) {
-      const WallFace<Dim>& other = boundary.faces[patches[m].face];
-      if (found || other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) return;
-      found = (closest_point(other, x) - x).norm() < reach_of_cover * spacing_;
+    grid_.for_each_range_near(x, x, reach, [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t n = begin; n < end && !found; ++n) {
+        const WallFace<Dim>& other = boundary.faces[patches[grid_.order()[n]].face];
+        if (other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) continue;
+        found = (closest_point(other, x) - x).norm() < reach_of_cover * spacing_;
+      }
     });
   });
   return found;

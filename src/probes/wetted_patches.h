@@ -35,16 +35,42 @@ class WettedPatches {
     visit(x);
     visit_images<Dim>(domain_, Box<Dim>(x), around_, [&](const Vec<Dim>& moved) { visit(Vec<Dim>(x + moved)); });
   }
-  /// Calls visit(k, offset) for each patch k that is not dry and near an image of x, with the offset of that image from
-  /// its centre.
+  /// The wet part of a patch.
+  struct WetPart {
+    Vec<Dim> centre;
+    Vec<Dim> normal;
+    double measure;      ///< m or m^2; 0 if the patch is dry
+    std::int32_t patch;  ///< index
+  };
+
+  /// Calls visit(part, offset) for each part that is near an image of x, with the offset of that image from its centre.
   template <class Visit>
   void visit_near(const Vec<Dim>& x, Visit&& visit) const {
     visit_images_of(x, [&](const Vec<Dim>& image) {
-      grid_.for_each_near(image, [&](std::int32_t k) {
-        if (share_[k] > 0.0) visit(k, Vec<Dim>(image - centres_[k]));
+      grid_.for_each_range_near(image, image, reach_, [&](std::int32_t begin, std::int32_t end) {
+        for (std::int32_t n = begin; n < end; ++n) {
+          if (parts_[n].measure > 0.0) visit(parts_[n], Vec<Dim>(image - parts_[n].centre));
+        }
       });
     });
   }
+  /// Calls visit(k, place) for each patch k that is not dry and near an image of the box. The place of its centre is
+  /// relative to that image.
+  template <class Visit>
+  void visit_near(const Box<Dim>& box, Visit&& visit) const {
+    const auto visit_image = [&](const Vec<Dim>& moved) {
+      grid_.for_each_range_near(box.min() + moved, box.max() + moved, reach_,
+                                [&](std::int32_t begin, std::int32_t end) {
+                                  for (std::int32_t n = begin; n < end; ++n) {
+                                    if (parts_[n].measure > 0.0)
+                                      visit(parts_[n].patch, Vec<Dim>(parts_[n].centre - moved));
+                                  }
+                                });
+    };
+    visit_image(Vec<Dim>::Zero());
+    visit_images<Dim>(domain_, box, around_, visit_image);
+  }
+  double reach() const { return reach_; }
 
  private:
   /// Walls that a place may be behind: a hull, or all walls that are no hulls.
@@ -66,8 +92,9 @@ class WettedPatches {
   std::vector<Others> others_;         ///< empty without hulls
   std::vector<Vec<Dim>> centres_;
   std::vector<double> share_;
-  CellGrid<Dim> grid_;  ///< the centres by place
-  Box<Dim> around_;     ///< contains all places within reach of the centres
+  CellGrid<Dim> grid_;          ///< the centres by place
+  std::vector<WetPart> parts_;  ///< in the order of the grid
+  Box<Dim> around_;             ///< contains all places within reach of the centres
 };
 
 }  // namespace tailwater
