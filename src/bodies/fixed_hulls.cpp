@@ -194,12 +194,15 @@ void FixedHulls<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*start
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_fixed_hulls(const CaseSpec& spec, const Setup<Dim>& setup,
                                             const Boundary<Dim>& boundary) {
-  const bool is_covered = traits_of(spec).no_floating.empty() && spec.liquids.empty() && spec.refinement.empty();
+  const bool is_covered = traits_of(spec).no_floating.empty() && spec.liquids.empty();
   if (!is_covered) return nullptr;
+  const SpacingField<Dim> field(spec, boundary);
   const std::vector<int> body_of_wall = bodies_of_walls(make_bodies<Dim>(spec), boundary.walls.size());
   std::vector<int> hulls;
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
-    if (is_hull(spec.walls[w]) && body_of_wall[w] < 0) hulls.push_back(static_cast<int>(w));
+    const auto wall = static_cast<int>(w);
+    const bool is_fixed_hull = is_hull(spec.walls[w]) && body_of_wall[w] < 0;
+    if (is_fixed_hull && is_outside_zones(field, boundary, wall, setup.scale.spacing)) hulls.push_back(wall);
   }
   if (hulls.empty()) return nullptr;
   auto part = std::make_unique<FixedHulls<Dim>>(boundary, std::move(hulls), body_of_wall, setup.scale.spacing,

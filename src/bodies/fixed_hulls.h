@@ -11,11 +11,9 @@
 #include "bodies/hulls.h"
 #include "bodies/narrow_gaps.h"
 #include "flow/part.h"
+#include "refinement/hulls_at_zones.h"
 
 namespace tailwater {
-
-/// dx; within it a force probe divides the force of a pair between the hull and another wall (docs/theory/probes.md).
-inline constexpr double reach_of_shares = 5.5;
 
 template <int Dim>
 class FixedHulls final : public Part<Dim> {
@@ -64,6 +62,7 @@ class FixedHulls final : public Part<Dim> {
   bool has_report_ = false;  ///< whether a hull is in the report of this step
 };
 
+/// For the hulls that are outside of all zones of refinement; null if there are none.
 template <int Dim>
 std::unique_ptr<Part<Dim>> make_fixed_hulls(const CaseSpec& spec, const Setup<Dim>& setup,
                                             const Boundary<Dim>& boundary);

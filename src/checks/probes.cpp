@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "base/box.h"
 #include "case/probe_columns.h"
@@ -9,8 +11,11 @@
 #include "checks/swept_box.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
+#include "geometry/some_walls.h"
 #include "geometry/wall_label.h"
+#include "geometry/wall_patches.h"
 #include "motion/wall_motion.h"
+#include "refinement/hulls_at_zones.h"
 
 namespace tailwater {
 namespace {
@@ -139,6 +144,54 @@ void check_zones_apart(const CaseSpec& spec, const DampingTable& first, const Da
                        {"end one zone where the other begins, or remove one of them"}));
 }
 
+/// The wall nearest to a hull within the reach of its pairs, but for floating bodies; -1: there is none.
+template <int Dim>
+int wall_beside(const CaseSpec& spec, const Boundary<Dim>& drawn, int hull) {
+  std::vector<std::uint8_t> is_other(drawn.walls.size(), 1);
+  is_other[hull] = 0;
+  int beside = -1;
+  double reach = reach_of_shares * spec.particles.spacing;
+  for (const WallPatch<Dim>& patch : make_wall_patches(drawn, spec.particles.spacing)) {
+    if (drawn.faces[patch.face].wall != hull) continue;
+    const NearestWall<Dim> nearest = nearest_among<Dim>(drawn, is_other, patch.centre(drawn), reach);
+    if (nearest.face < 0 || std::abs(nearest.signed_distance) >= reach) continue;
+    beside = drawn.faces[nearest.face].wall;
+    reach = std::abs(nearest.signed_distance);
+  }
+  return beside;
+}
+
+/// Adds a warning for each force probe on a part of the walls with a hull that has another wall and a zone of
+/// refinement beside it.
+template <int Dim>
+void check_hulls_at_zones(const CaseSpec& spec, const Boundary<Dim>& drawn, Findings& findings) {
+  const auto is_on_part = [](const ProbeTable& probe) {
+    return probe.type == ProbeType::force && !(probe.walls.empty() && probe.region_min.empty());
+  };
+  if (spec.refinement.empty() || std::ranges::none_of(spec.probes, is_on_part)) return;
+  const SpacingField<Dim> field(spec, drawn);
+  for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+    const auto hull = static_cast<int>(w);
+    if (!is_hull(spec.walls[w]) || spec.walls[w].drive.by == Drive::By::body) continue;
+    if (is_outside_zones(field, drawn, hull, spec.particles.spacing)) continue;
+    const int beside = wall_beside(spec, drawn, hull);
+    if (beside < 0) continue;
+    for (const ProbeTable& probe : spec.probes) {
+      const bool has_hull =
+          probe.walls.empty() || std::ranges::find(probe.walls, drawn.walls[w].name) != probe.walls.end();
+      if (!is_on_part(probe) || !has_hull) continue;
+      findings.push_back(
+          Finding::warning("force-beside-zone",
+                           {"{}: beside a zone of refinement the force on {} is the sum over pairs of particles, "
+                            "without the pressure in "
+                            "the gap to {}",
+                            label(probe), wall_label(drawn, hull), wall_label(drawn, beside)},
+                           {"end the zones {:.4g} before the hull, or measure with type = \"wall-pressure-mean\"",
+                            Amount{reach_of_shares * spec.particles.spacing, "m"}}));
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -189,6 +242,7 @@ template <int Dim>
 Findings check_probes(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid) {
   Findings findings;
   const Box<Dim> box = box_of_case(spec, drawn, fluid);
+  check_hulls_at_zones(spec, drawn, findings);
   for (const ProbeTable& probe : spec.probes) {
     check_interval(spec, probe, findings);
     check_times(spec, probe, findings);

@@ -1235,6 +1235,31 @@ TEST(Check, APlateThatAbsorbsBadlyIsReported) {
   expect_only(check_wave_makers<2>(spec, fluid), Severity::warning, {"wave_maker 'piston' reflects", "kh = 3.29"});
 }
 
+// The probe gets the pressure in the gap from the integral over the hull, which needs the spacing of the case there.
+TEST(Check, AForceOnAHullBesideAZoneIsThatOfPairs) {
+  constexpr double dx = 0.05;
+  CaseSpec spec = empty_case(dx);
+  spec.walls = {box_wall({0.0, 0.0}, {4.0, 1.0}, {"+y"}),
+                box_wall({0.5, 2.0 * dx}, {1.0, 0.5}, {}, FluidSide::outside)};
+  spec.walls[1].name = "block";
+  spec.fluid = {box_fluid({0.0, 0.0}, {4.0, 0.8})};
+  ProbeTable probe;
+  probe.name = "force";
+  probe.type = ProbeType::force;
+  probe.walls = {"block"};
+  spec.probes = {probe};
+  RefinementTable zone;
+  zone.min = {1.0 + 5.6 * dx, -1.0};
+  zone.max = {10.0, 10.0};
+  spec.refinement = {zone};
+  const std::string pairs = "sum over pairs of particles";
+  EXPECT_EQ(listed(check(spec)).find(pairs), std::string::npos);
+  spec.refinement[0].min[0] = 1.0 + 5.4 * dx;
+  expect_among(check(spec), Severity::warning, {"probe 'force'", "wall 'block'", pairs, "the gap to wall 'wall1'"});
+  spec.probes[0].walls = {};  // on all walls
+  EXPECT_EQ(listed(check(spec)).find(pairs), std::string::npos);
+}
+
 TEST(Check, ZonesOfRefinementAreRefusedWhereTheyDoNotWork) {
   CaseSpec spec = tank();  // 1 m x 0.6 m
   const double dx = spec.particles.spacing;

@@ -255,14 +255,20 @@ TEST(Buoyancy, OfATiltedSquare) {
 
 /// A hull of this outline in a tank with still water, 24 by 20 dx. Returns its lift, the force on it across and the
 /// force on all walls over the weight of the water that the hull displaces, on average over the second half of 40
-/// steps.
+/// steps. With `zone` the tank is twice as long, and finer from there [m] on.
 struct Lift {
   double hull = 0.0;
   double across = 0.0;
   double all = 0.0;
 };
-Lift lift_of(const std::vector<Coordinates>& outline, double area, double dx) {
-  CaseSpec spec = tank_case<2>(dx, 24.0 * dx, 20.0 * dx);
+Lift lift_of(const std::vector<Coordinates>& outline, double area, double dx, double zone = 0.0) {
+  CaseSpec spec = tank_case<2>(dx, (zone > 0.0 ? 48.0 : 24.0) * dx, 20.0 * dx);
+  if (zone > 0.0) {
+    RefinementTable finer;
+    finer.min = {zone, -1.0};
+    finer.max = {100.0 * dx, 100.0 * dx};
+    spec.refinement = {finer};
+  }
   WallTable hull;
   hull.name = "hull";
   hull.shape = WallShape::polygon;
@@ -274,7 +280,7 @@ Lift lift_of(const std::vector<Coordinates>& outline, double area, double dx) {
   const Reader<2> on_hull(spec, flow, 0), on_all(spec, flow, 1);
   const double weight = flow.setup.liquid.density * g * area;
   Lift mean;
-  constexpr int steps = 40;
+  const int steps = zone > 0.0 ? 80 : 40;  // of half the length
   for (int n = 0; n < steps; ++n) {
     const double dt = step(flow).dt;
     if (n < steps / 2) continue;
@@ -286,7 +292,7 @@ Lift lift_of(const std::vector<Coordinates>& outline, double area, double dx) {
 }
 
 /// A pipe 10 dx across, `gap` [dx] above the bed and `centre` [m] from the side wall.
-Lift lift_of_pipe(double gap, double turn, double dx, double centre) {
+Lift lift_of_pipe(double gap, double turn, double dx, double centre, double zone = 0.0) {
   constexpr int corners = 48;
   const double radius = 5.0 * dx;
   std::vector<Coordinates> outline;
@@ -295,7 +301,7 @@ Lift lift_of_pipe(double gap, double turn, double dx, double centre) {
     const double bottom = std::cos(turn * 2.0 * std::numbers::pi / corners);  // of the lowest corner, over the radius
     outline.push_back({centre + radius * std::sin(angle), gap * dx + radius * (bottom - std::cos(angle))});
   }
-  return lift_of(outline, 0.5 * corners * radius * radius * std::sin(2.0 * std::numbers::pi / corners), dx);
+  return lift_of(outline, 0.5 * corners * radius * radius * std::sin(2.0 * std::numbers::pi / corners), dx, zone);
 }
 
 /// On the bed the pipe has the lift of Archimedes, because water reaches all of its surface up to the line of contact,
@@ -307,6 +313,12 @@ TEST(Buoyancy, OfAPipeOnTheBed) {
     EXPECT_NEAR(lift.hull, 1.0, 0.03) << gap << " " << turn;
     EXPECT_NEAR(lift.all, 0.0, 0.01) << gap << " " << turn;  // the walls carry the water
   }
+}
+
+/// A zone that leaves the spacing within the reach of the pipe alone does not matter.
+TEST(Buoyancy, OfAPipeOnTheBedBeforeAZoneOfRefinement) {
+  constexpr double dx = 1.0 / 30.0;
+  EXPECT_NEAR(lift_of_pipe(0.0, 0.5, dx, 12.0 * dx, 23.0 * dx).hull, 1.0, 0.03);
 }
 
 /// A pipe that touches bed and side wall seals the water between them. Films give it the head of the water around. The
