@@ -135,10 +135,10 @@ Findings check_thickness(const CaseSpec& spec, const Boundary<3>& boundary, cons
     const WallFace<3>& other = boundary.faces[mesh.first_face + behind];
     if (-face.normal.dot(other.normal) < min_facing_of_plate) continue;
     return {Finding::error("mesh-too-thin",
-                           {"{} is only {:.3g} thick at {}, with the water on its other side: its {} layers of wall "
-                            "particles need {:.6g} m, or the water on one side would interact with that on the other",
+                           {"{} is only {:.3g} thick at {}, where both of its sides are fronts: its {} layers of wall "
+                            "particles need {:.6g} m, or water on one side would interact with that on the other",
                             label, Amount{-other.height(middle), "m"}, place(middle), dummy_layers(spec), needed},
-                           {"make it thicker, or the spacing smaller"})};
+                           {"make it thicker or the spacing smaller, and draw no surface around a hollow inside"})};
   }
   return {};
 }
