@@ -321,6 +321,24 @@ TEST(Buoyancy, OfAPipeOnTheBedBeforeAZoneOfRefinement) {
   EXPECT_NEAR(lift_of_pipe(0.0, 0.5, dx, 12.0 * dx, 23.0 * dx).hull, 1.0, 0.03);
 }
 
+/// Each of two blocks beside each other has its force from the integral over its surface. A probe on all walls crashed.
+TEST(Buoyancy, OfTwoBlocksBesideEachOther) {
+  constexpr double dx = 1.0 / 30.0;
+  CaseSpec spec = tank_case<2>(dx, 30.0 * dx, 20.0 * dx);
+  for (const double left : {6.0 * dx, 16.0 * dx}) {
+    WallTable block = box_wall({left, 6.0 * dx}, {left + 8.0 * dx, 14.0 * dx}, {}, FluidSide::outside);
+    block.name = left < 10.0 * dx ? "one" : "other";
+    spec.walls.push_back(block);
+  }
+  spec.probes = {force_probe({0.0, 0.0})};
+  Flow<2> flow = make_flow<2>(spec);
+  const Reader<2> on_all(spec, flow);
+  double lift = 0.0;
+  constexpr int steps = 20;
+  for (int n = 0; n < steps; ++n) lift += on_all.force(step(flow).dt)[1] / steps;
+  EXPECT_NEAR(lift / (momentum_of(flow).mass * g), -1.0, 0.02);
+}
+
 /// A pipe that touches bed and side wall seals the water between them. Films give it the head of the water around. The
 /// density source alone gave the pipe 14 times its lift.
 TEST(Buoyancy, OfAPipeInTheCorner) {
