@@ -144,7 +144,8 @@ void check_zones_apart(const CaseSpec& spec, const DampingTable& first, const Da
                        {"end one zone where the other begins, or remove one of them"}));
 }
 
-/// The wall nearest to a hull within the reach of its pairs, but for floating bodies; -1: there is none.
+/// The nearest wall, but for floating bodies, that a hull faces across a gap within the reach of its pairs; -1: there
+/// is none.
 template <int Dim>
 int wall_beside(const CaseSpec& spec, const Boundary<Dim>& drawn, int hull) {
   std::vector<std::uint8_t> is_other(drawn.walls.size(), 1);
@@ -154,9 +155,12 @@ int wall_beside(const CaseSpec& spec, const Boundary<Dim>& drawn, int hull) {
   for (const WallPatch<Dim>& patch : make_wall_patches(drawn, spec.particles.spacing)) {
     if (drawn.faces[patch.face].wall != hull) continue;
     const NearestWall<Dim> nearest = nearest_among<Dim>(drawn, is_other, patch.centre(drawn), reach);
-    if (nearest.face < 0 || std::abs(nearest.signed_distance) >= reach) continue;
+    const double gap = std::abs(nearest.signed_distance);
+    if (nearest.face < 0 || gap >= reach) continue;
+    const double ahead = drawn.faces[patch.face].normal.dot(nearest.point - patch.centre(drawn));
+    if (ahead < std::max(0.5 * gap, corner_tolerance * spec.particles.spacing)) continue;
     beside = drawn.faces[nearest.face].wall;
-    reach = std::abs(nearest.signed_distance);
+    reach = gap;
   }
   return beside;
 }
