@@ -7,6 +7,7 @@
 #include "air/pocket_response.h"
 #include "air/vent.h"
 #include "base/for_each.h"
+#include "flow/balanced_pressure.h"
 #include "flow/pressure_equation.h"
 #include "motion/wall_motion.h"
 
@@ -191,7 +192,7 @@ template <int Dim>
 std::vector<double> find_air_pressures(const Flow<Dim>& flow, const EnclosedAir<Dim>& air, double dt) {
   const double unit = dt / flow.setup.liquid.density;
   std::vector<Vec<Dim>> gradient(flow.state.particles.owned, Vec<Dim>::Zero());
-  flow.discretisation().find_gradient(flow, flow.state.particles.pressure, gradient);
+  find_pressure_gradient<Dim>(flow, flow.state.particles.pressure, gradient);
   std::vector<double> now = growth(flow, air, [&](std::size_t i) { return Vec<Dim>(-unit * gradient[i]); });
   for (std::size_t k = 0; k < now.size(); ++k) now[k] += air.step.flow[k];
   GasStep step = gas_step_of(air, dt);

@@ -91,6 +91,8 @@ void BodyCoupling<Dim>::begin() {
   let_through_films(bodies_.sealed, flow_);
   allowed_tension_ = allowed_tension(flow_);
   add_air_stiffness();
+  bodies_.find_errors_of_pairs(flow_, gaps_);
+  for (std::size_t b = 0; b < loads_.size(); ++b) loads_[b] -= bodies_.error_of_pairs[b];
 }
 
 /// Subtracts the net force and moment of the air on bodies that open air does not reach. A uniform pressure of the air
@@ -351,17 +353,18 @@ void BodyCoupling<Dim>::go_back_to(const Iterate& iterate) {
   flow_.state.particles.pressure = iterate.pressure;
 }
 
-/// Stores the forces on bodies beside walls for probes, which divide the forces of pairs between walls.
+/// Stores the forces on bodies that are not the sums of their pairs, for probes.
 template <int Dim>
 void BodyCoupling<Dim>::report_forces(const std::vector<Twist<Dim>>& forces) {
   for (std::size_t b = 0; b < forces.size(); ++b) {
     const int beside = gaps_.wall_beside(static_cast<int>(b));
-    if (beside < 0) continue;
+    if (beside < 0 && bodies_.error_of_pairs[b].isZero(0.0)) continue;
+    const Twist<Dim> force = forces[b] - bodies_.error_of_pairs[b];
     flow_.walls.forces.beside_walls.push_back({.walls = bodies_.bodies[b].walls,
                                                .beside = beside,
                                                .centre = flow_.state.motion.bodies.each[b].centre_at(flow_.state.time),
-                                               .force = forces[b].template head<Dim>(),
-                                               .moment = forces[b].template tail<turns<Dim>>()});
+                                               .force = force.template head<Dim>(),
+                                               .moment = force.template tail<turns<Dim>>()});
   }
 }
 

@@ -114,6 +114,35 @@ StepLimits FloatingBodies<Dim>::step_limits(const Flow<Dim>& /*flow*/) const {
   return limits;
 }
 
+/// The pairs of the water have the pressure less the balanced one, so the force of the balanced pressure on a body must
+/// not be that of pairs either. Beside other walls and out of the water there is no balanced pressure around a body.
+template <int Dim>
+void FloatingBodies<Dim>::find_errors_of_pairs(const Flow<Dim>& flow, const NarrowGaps<Dim>& gaps) {
+  const std::vector<std::optional<Twist<Dim>>> errors =
+      ForcesOnBodies<Dim>(flow, *this, flow.state.time).errors_of_pairs();
+  clearance.assign(errors.size(), 0.0);
+  error_of_pairs.assign(errors.size(), Twist<Dim>::Zero());
+  for (std::size_t b = 0; b < errors.size(); ++b) {
+    if (!errors[b]) continue;
+    clearance[b] = std::clamp(gaps.narrowest(static_cast<int>(b)) - (widest_gap - 1.0), 0.0, 1.0);
+    error_of_pairs[b] = *errors[b];
+  }
+}
+
+/// A body with some clearance rises above its lowest point by a distance without limit as its clearance grows to 1.
+template <int Dim>
+double FloatingBodies<Dim>::lowest_unbalanced(const Flow<Dim>& flow, const Vec<Dim>& down) const {
+  double lowest = std::numeric_limits<double>::lowest();
+  const Boundary<Dim>& boundary = flow.walls.boundary;
+  for (const WallPatch<Dim>& patch : patches) {
+    const auto body = static_cast<std::size_t>(body_of_wall[boundary.faces[patch.face].wall]);
+    if (body >= clearance.size() || clearance[body] == 1.0) continue;
+    const double rise = flow.setup.scale.spacing * clearance[body] / (1.0 - clearance[body]);
+    lowest = std::max(lowest, down.dot(patch.centre(boundary)) - rise);
+  }
+  return lowest;
+}
+
 template <int Dim>
 void FloatingBodies<Dim>::claim(const Flow<Dim>& /*flow*/, std::span<Role> /*role*/) {
   stagnant.clear();  // until the gaps of this step are known
@@ -158,6 +187,10 @@ template <int Dim>
 void FloatingBodies<Dim>::add_work(const Flow<Dim>& flow, const std::vector<double>& on_walls, double dt,
                                    Works& works) const {
   const Particles<Dim>& particles = flow.state.particles;
+  for (std::size_t b = 0; b < error_of_pairs.size() && flow.setup.ranks.is_root(); ++b) {
+    const Twist<Dim> mean = 0.5 * (start_velocity[b] + flow.state.motion.bodies.each[b].velocity);
+    works.walls += dt * error_of_pairs[b].dot(mean);  // of the pairs, which the water does not have
+  }
   for (const std::size_t i : stagnant) {
     visit_pair_forces(flow, i, on_walls, [&](std::size_t j, const Vec<Dim>& force) {
       works.walls +=

@@ -15,6 +15,9 @@
 namespace tailwater {
 
 template <int Dim>
+class NarrowGaps;
+
+template <int Dim>
 class FloatingBodies final : public Part<Dim> {
  public:
   FloatingBodies() = default;  ///< no bodies
@@ -32,10 +35,15 @@ class FloatingBodies final : public Part<Dim> {
   std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps
   bool has_stagnant_water = false;         ///< on any rank
   SealedWater sealed;                      ///< by the bodies
+  std::vector<double>
+      clearance;  ///< of each body, between walls: 0 in gaps up to 2 dx and out of the water, 1 from 3 dx on
+  std::vector<Twist<Dim>> error_of_pairs;  ///< of each body, in the force of the balanced pressure
   /// Whether a body has fallen below all other walls, and nothing can bring it back; for each body. In free fall it
   /// would shorten the time step of all water, so it stops there and takes no further part.
   std::vector<bool> is_lost;
 
+  /// Finds `error_of_pairs` and `clearance` at the present positions, with the gaps beside bodies. Collective.
+  void find_errors_of_pairs(const Flow<Dim>& flow, const NarrowGaps<Dim>& gaps);
   /// Degrees of freedom of all bodies that are not lost.
   std::size_t freedom_count() const;
   Hulls<Dim> hulls() const {
@@ -51,6 +59,8 @@ class FloatingBodies final : public Part<Dim> {
   bool needs_wall_forces() const override { return true; }
   bool changes_rows() const override { return has_stagnant_water || sealed.is_any(); }
   StepLimits step_limits(const Flow<Dim>& flow) const override;
+  bool needs_balance() const override { return freedom_count() > 0; }
+  double lowest_unbalanced(const Flow<Dim>& flow, const Vec<Dim>& down) const override;
   void claim(const Flow<Dim>& flow, std::span<Role> role) override;
   /// Starts with the acceleration of the last step.
   void begin_step(Flow<Dim>& flow, double dt) override;

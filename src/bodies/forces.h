@@ -2,9 +2,11 @@
 // that water and bodies conserve momentum together.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bodies/narrow_gaps.h"
+#include "flow/balanced_pressure.h"
 
 namespace tailwater {
 
@@ -21,12 +23,19 @@ class ForcesOnBodies {
   std::vector<Twist<Dim>> of_gaps(const std::vector<double>& pressure, const NarrowGaps<Dim>& gaps) const;
   /// Forces of the air in pockets with these pressures [Pa], whose effect has been removed from the other two.
   std::vector<Twist<Dim>> of_air(std::span<const double> pressures) const;
+  /// Excess of the forces of pairs in the balanced pressure (flow/balanced_pressure.h) over its integral on the whole
+  /// surface of each body. Nothing for a body that is not in water on all sides below the level. 0 in water that fills
+  /// its walls. Collective.
+  std::vector<std::optional<Twist<Dim>>> errors_of_pairs() const;
   /// Friction in the present step. Collective.
   std::vector<Twist<Dim>> of_friction() const;
   /// Reaction of the last guard that kept water in front of bodies. Collective.
   std::vector<Twist<Dim>> of_guard() const;
 
  private:
+  /// `thrust`: the sum of the magnitudes of the forces on each body's surface [N].
+  std::vector<Twist<Dim>> error_of_pairs(const BalancedPressure<Dim>& balanced, std::vector<double>& thrust) const;
+
   const Flow<Dim>& flow_;
   const FloatingBodies<Dim>& bodies_;
   double time_;

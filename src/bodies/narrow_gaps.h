@@ -83,6 +83,15 @@ class NarrowGaps {
     }
   }
 
+  /// [dx]; the narrowest gap of a hull, infinite if no other wall is within 3 dx.
+  double narrowest(int hull) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Piece& piece : pieces_) {
+      if (piece.hull == hull) least = std::min(least, piece.gap / piece.spacing);
+    }
+    return least;
+  }
+
   /// The nearest other wall of a hull that has a force here, else -1.
   int wall_beside(int hull) const {
     int wall = -1;

@@ -17,6 +17,7 @@ namespace tailwater {
 
 template <int Dim>
 struct Flow;
+class PressureRamp;
 template <int Dim>
 class WallModel;
 
@@ -125,8 +126,10 @@ struct FlowFormulation {
       std::numeric_limits<double>::infinity();
   double artificial_viscosity = 0.0;  ///< c_a of (F3)
   double noise_viscosity = 0.0;       ///< over dx times the speed of the time-step rule
-  bool has_eddy_viscosity = false;    ///< in the boundary layers of walls with friction
-  double energy_slack = 0.0;  ///< rise of the energy at which the density source stops lifting (pressure/energy)
+  /// The pressure that balances the weight below a free surface (flow/balanced_pressure.h); null: there is none.
+  std::shared_ptr<const PressureRamp> balanced_ramp;
+  bool has_eddy_viscosity = false;  ///< in the boundary layers of walls with friction
+  double energy_slack = 0.0;        ///< rise of the energy at which the density source stops lifting (pressure/energy)
 };
 
 }  // namespace tailwater

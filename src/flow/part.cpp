@@ -1,6 +1,7 @@
 #include "flow/part.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/box.h"
@@ -49,6 +50,11 @@ void Part<Dim>::reordered(Reordering /*how*/) {}
 template <int Dim>
 StepLimits Part<Dim>::step_limits(const Flow<Dim>& /*flow*/) const {
   return {};
+}
+
+template <int Dim>
+double Part<Dim>::lowest_unbalanced(const Flow<Dim>& /*flow*/, const Vec<Dim>& /*down*/) const {
+  return std::numeric_limits<double>::lowest();
 }
 
 template <int Dim>

@@ -16,7 +16,11 @@ struct StepMemory {
   double approach = 0.0;       ///< m/s; the largest in the step, whose neighbour lists are discarded
   double energy_rise = 0.0;    ///< J; above the least energy so far, without the work of walls
   double density_share = 1.0;  ///< fraction of the lifting density source in the next step
-  double fullness = 0.0;       ///< of the walls, by several liquids (flow/buoyancy.h); 0: there is one
+  // The pressure that balances the weight of water (flow/balanced_pressure.h):
+  double fullness = 0.0;           ///< of the walls
+  double lowest_beside_air = 0.0;  ///< m along gravity; of the water
+  double lowest_unbalanced = 0.0;  ///< m along gravity; of the water beside air and of what parts need
+  double balanced_share = 0.0;     ///< of the weight below a free surface
 };
 
 template <int Dim>

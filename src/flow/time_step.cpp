@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "base/for_each.h"
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "flow/stages.h"
 #include "motion/wall_motion.h"
 #include "neighbours/pair_lanes.h"

@@ -8,12 +8,11 @@
 
 namespace tailwater {
 
-/// Pressure force on a hull, a floating body or a wall that water surrounds, beside another wall, where the forces of
-/// pairs are incomplete.
+/// Pressure force on a hull, a floating body or a wall that water surrounds, that differs from the force of its pairs.
 template <int Dim>
 struct ForceBesideWall {
   std::vector<int> walls;  ///< of the hull, indices into Boundary::walls
-  int beside;              ///< the nearest other wall
+  int beside;              ///< the nearest other wall in reach, or -1
   Vec<Dim> centre;
   Vec<Dim> force;                ///< N
   Vec<Dim == 2 ? 1 : 3> moment;  ///< N m; about the centre

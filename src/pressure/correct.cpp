@@ -1,4 +1,5 @@
 #include "base/for_each.h"
+#include "flow/balanced_pressure.h"
 #include "flow/stages.h"
 #include "pressure/stages.h"
 
@@ -9,7 +10,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
   const Setup<Dim>& setup = flow.setup;
   Particles<Dim>& particles = flow.state.particles;
   std::vector<Vec<Dim>> gradient(particles.owned);
-  flow.discretisation().find_gradient(flow, particles.pressure, gradient);
+  find_pressure_gradient<Dim>(flow, particles.pressure, gradient);
   const Vec<Dim> gravity = setup.formulation.gravity_in_prediction ? Vec<Dim>(Vec<Dim>::Zero()) : setup.gravity;
   for_each(particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;

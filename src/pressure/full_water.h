@@ -3,7 +3,7 @@
 // its minimum is 0 and there is no tension.
 #pragma once
 
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "flow/flow.h"
 
 namespace tailwater {

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "base/for_each.h"
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "flow/pressure_equation.h"
 #include "pressure/full_water.h"
 #include "pressure/stages.h"
@@ -21,14 +21,14 @@ std::vector<double> target_divergence(const Flow<Dim>& flow, std::vector<Mat<Dim
   return target;
 }
 
-/// The terms that close rows draw the pressure towards 0. Where water fills its walls they draw it towards the balanced
-/// one instead, which moves nothing.
+/// The terms that close rows draw the pressure towards 0. Where a pressure balances the weight, they draw it towards
+/// this one instead, which moves nothing.
 template <int Dim>
 void add_closing_of_balanced_pressure(const Flow<Dim>& flow, std::vector<double>& source) {
-  const std::vector<double> balanced = balanced_pressure(flow);
+  const std::vector<double> balanced = balanced_pressure(flow, flow.state.particles.pressure);
   if (balanced.empty()) return;
   const std::vector<std::size_t> water =
-      indices_where(balanced.size(), [&](std::size_t i) { return flow.role[i] == Role::water; });
+      indices_where(flow.state.particles.owned, [&](std::size_t i) { return flow.role[i] == Role::water; });
   std::vector<double> weight(water.size());
   flow.discretisation().find_air_weights(flow, water, weight);
   for_each(water.size(), [&](std::size_t n) { source[water[n]] += weight[n] * balanced[water[n]]; });

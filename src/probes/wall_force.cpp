@@ -117,7 +117,7 @@ class WallForceProbe {
     hulls_.clear();
   }
 
-  /// Beside another wall the pressure force on a hull is more than the force of its pairs. The difference has its
+  /// The pressure force on a hull can differ from the force of its pairs. Beside another wall the difference has its
   /// reaction on that wall, so the sum over all walls does not change. Collective.
   WallLoads<Dim> loads_beside_walls(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity) {
     WallLoads<Dim> sum;
@@ -125,7 +125,8 @@ class WallForceProbe {
     for (const ForceBesideWall<Dim>& one : all) {
       const auto is_of_hull = [&](int wall) { return std::ranges::find(one.walls, wall) != one.walls.end(); };
       const bool has_hull = takes_all_of(context.boundary, is_of_hull);
-      const bool has_wall = takes_all_of(context.boundary, [&](int wall) { return wall == one.beside; });
+      const bool has_wall =
+          one.beside >= 0 && takes_all_of(context.boundary, [&](int wall) { return wall == one.beside; });
       const bool is_beside_hull = std::ranges::any_of(all, [&](const ForceBesideWall<Dim>& other) {
         return std::ranges::find(other.walls, one.beside) != other.walls.end();
       });  // which has a force of its own here

@@ -8,6 +8,7 @@
 
 #include "base/for_each.h"
 #include "case/rheology.h"
+#include "flow/balanced_pressure.h"
 #include "flow/flow.h"
 #include "flow/stages.h"
 #include "geometry/wall_label.h"
@@ -258,7 +259,7 @@ void ThickLiquid<Dim>::change_prediction(const Flow<Dim>& flow, std::span<const 
   if (is_at_start_) return;
   forces_.locate(flow, walls_);
   std::vector<Vec<Dim>> force(particles.owned, Vec<Dim>::Zero());
-  flow.discretisation().find_gradient(flow, particles.pressure, force);
+  find_pressure_gradient<Dim>(flow, particles.pressure, force);
   for_each(particles.owned, [&](std::size_t i) {
     if (particles.is_fluid(i)) force[i] = setup.gravity - force[i] / setup.liquid.density;
   });

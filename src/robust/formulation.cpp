@@ -1,6 +1,7 @@
 #include "robust/formulation.h"
 
 #include "case/formulation.h"
+#include "operators/pressure_ramp.h"
 #include "robust/discretisation.h"
 #include "schemes/projection.h"
 #include "schemes/start.h"
@@ -49,6 +50,7 @@ FlowFormulation<Dim> robust_farzin(const CaseSpec& spec) {
   formulation.is_divergence_free_midway = spec.study.divergence_free == DivergenceFree::midway;
   formulation.moves_with_mean_velocity = spec.study.displacement == Displacement::mean_velocity;
   formulation.has_second_projection = is_implicit;
+  formulation.balanced_ramp = std::make_shared<const PressureRamp>(formulation.kernel, spec.particles.spacing);
   return formulation;
 }
 

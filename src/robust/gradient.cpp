@@ -1,5 +1,4 @@
 #include "base/for_each.h"
-#include "flow/buoyancy.h"
 #include "operators/divergence.h"
 #include "operators/gradient_conservative.h"
 #include "operators/gradient_of_liquids.h"
@@ -10,17 +9,6 @@
 
 namespace tailwater {
 namespace {
-
-/// Adds the exact gradient of the balanced pressure rho_b g . x (flow/buoyancy.h), with rho_b = `balanced`.
-template <int Dim>
-void add_balanced_gradient(const Flow<Dim>& flow, double balanced, std::span<Vec<Dim>> gradient) {
-  const Interfaces& interfaces = flow.surroundings.interfaces;
-  const Vec<Dim> across = flow.setup.gravity_across();
-  for_each(flow.state.particles.owned, [&](std::size_t i) {
-    if (flow.role[i] != Role::water) return;
-    gradient[i] += (interfaces.are_any() ? balanced / interfaces.density[i] : balanced) * across;
-  });
-}
 
 /// Among disordered particles a uniform pressure has the gradient 2 p sum_j w_j a_ij, which drives them together where
 /// p < 0 (tensile instability). Inside water under tension it is subtracted: pairs then have p_j - p_i for p_j + p_i
@@ -40,25 +28,17 @@ void RobustDiscretisation<Dim>::find_gradient(const Flow<Dim>& flow, const std::
                                               std::span<Vec<Dim>> gradient) const {
   const std::vector<double>& volume = flow.state.particles.volume;
   const Interfaces& interfaces = flow.surroundings.interfaces;
-  const double balanced = balanced_density(flow);
-  const std::vector<double> rest =
-      balanced > 0.0 ? without_balanced_pressure(flow, balanced, pressure) : std::vector<double>();
-  const std::vector<double>& summed = balanced > 0.0 ? rest : pressure;
   const bool is_graded = !flow.surroundings.support_terms.is_empty();
-  const std::vector<double> scaled = is_graded ? over_references(flow, summed) : std::vector<double>();
+  const std::vector<double> scaled = is_graded ? over_references(flow, pressure) : std::vector<double>();
   for_each(flow.state.particles.owned, [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
     const PairVectorField<Dim>& vectors = flow.surroundings.pair_vectors;
     gradient[i] = interfaces.are_any()
-                      ? gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, vectors, summed)
-                      : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, is_graded ? scaled : summed);
+                      ? gradient_over_density<Dim>(flow.pairs(), i, volume, interfaces, vectors, pressure)
+                      : conservative_gradient<Dim>(flow.pairs(), i, volume, vectors, is_graded ? scaled : pressure);
   });
   if (is_graded) add_support_gradient<Dim>(flow, scaled, gradient);
-  if (balanced > 0.0) {
-    add_balanced_gradient(flow, balanced, gradient);
-  } else if (flow.setup.liquid.tension > 0.0) {
-    remove_attraction(flow, pressure, gradient);
-  }
+  if (flow.setup.liquid.tension > 0.0) remove_attraction(flow, pressure, gradient);
 }
 
 template <int Dim>

@@ -9,7 +9,7 @@
 //   s_i    factor of the correction: for particles too close, the fraction that the energy balance allows
 //          (`balance_energy`); for particles too far apart, `pull` times `interior`, which is 0 at the surface
 #include "base/for_each.h"
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "flow/stages.h"
 #include "neighbours/pair_lanes.h"
 #include "operators/laplacian_morris.h"
@@ -44,23 +44,24 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   return source;
 }
 
-/// Adds to the sources of the pressure the error that the two-point Laplacian has for the pressure rho_b g . x
-/// (flow/buoyancy.h) among disordered particles, so that it balances the weight exactly.
+/// Adds to the sources of the pressure the error that the sum of Morris weights has for the balanced pressure
+/// (flow/balanced_pressure.h) because the particles are disordered, so that it balances the weight among any particles.
 template <int Dim>
 void add_error_of_balanced_pressure(const Flow<Dim>& flow, std::span<double> source) {
-  const double density = balanced_density(flow);
-  if (density == 0.0) return;
+  const BalancedPressure<Dim> balanced(flow);
+  if (!balanced.is_any()) return;
   const double spacing = flow.setup.scale.spacing;
-  const Vec<Dim> across = flow.setup.gravity_across();
+  const std::vector<double> q = balanced_pressure(flow, flow.state.particles.pressure);
   for_each(source.size(), [&](std::size_t i) {
     if (flow.role[i] != Role::water) return;
-    VecSum<Dim> sum;
+    LaneSum sum;
+    const Lanes own = in_all_lanes(q[i]);
     for_each_pair(flow.pairs(), i, [&](const auto& batch) {
       const PlaceLanes<Dim> place = batch.place();
       const Lanes share = share_of_morris_weight(batch.squared_over_spacing(place.d.dot(place.d)), spacing);
-      sum += (2.0F * share * place.volume() * batch.F(place.d)) * place.d;
+      sum += (2.0F * share * place.volume() * batch.F(place.d)) * (own - batch.of(q));
     });
-    source[i] += density * across.dot(sum.total());
+    source[i] += sum.total() - balanced.morris_sum_at(flow.state.particles.position[i]);
   });
 }
 

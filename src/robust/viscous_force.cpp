@@ -3,7 +3,7 @@
 
 #include "base/for_each.h"
 #include "closures/viscosity.h"
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "flow/measure.h"
 #include "motion/wall_motion.h"
 #include "neighbours/halo.h"

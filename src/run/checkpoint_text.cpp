@@ -65,13 +65,17 @@ template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A new member of State or StepMemory does not compile here until it is saved.
   const auto& [time, step, particles, wall_velocity, motion, last_step] = checkpoint.flow.state;
-  const auto& [approach, energy_rise, density_share, fullness] = last_step;
+  const auto& [approach, energy_rise, density_share, fullness, lowest_beside_air, lowest_unbalanced, balanced_share] =
+      last_step;
   Json json{{"time", time},
             {"step", step},
             {"approach", approach},
             {"energy_rise", energy_rise},
             {"density_share", density_share},
             {"fullness", fullness},
+            {"lowest_beside_air", lowest_beside_air},
+            {"lowest_unbalanced", lowest_unbalanced},
+            {"balanced_share", balanced_share},
             {"reference_step", checkpoint.reference_step},
             {"wave_makers", motion.wave_makers},
             {"bodies", Json::array()},
@@ -91,7 +95,10 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
   state.last_step = {.approach = json.at("approach"),
                      .energy_rise = json.at("energy_rise"),
                      .density_share = json.at("density_share"),
-                     .fullness = json.at("fullness")};
+                     .fullness = json.at("fullness"),
+                     .lowest_beside_air = json.at("lowest_beside_air"),
+                     .lowest_unbalanced = json.at("lowest_unbalanced"),
+                     .balanced_share = json.at("balanced_share")};
   checkpoint.reference_step = json.at("reference_step");
   json.at("wave_makers").get_to(state.motion.wave_makers);
   for (const Json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "flow/stages.h"
 #include "geometry/from_spec.h"
 #include "geometry/wall_label.h"

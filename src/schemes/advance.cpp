@@ -1,6 +1,6 @@
 #include "schemes/advance.h"
 
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "neighbours/halo.h"
 
 namespace tailwater {
@@ -19,7 +19,7 @@ StepReport advance(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   report.dt = dt;
   flow.halo().exchange(flow.state.particles.velocity, flow.state.particles.pressure);  // probes read ghosts
   flow.state.last_step.approach = largest_approach(flow);
-  if (may_be_balanced(flow)) flow.state.last_step.fullness = find_fullness_between_openings(flow);
+  find_balance(flow);
   for (const auto& part : flow.parts) part->finish_step(flow, start, dt);
   Interventions& counts = report.interventions;
   flow.setup.ranks.sum_each(counts.stopped_at_walls, counts.capped_shifts, counts.fallback_rows);

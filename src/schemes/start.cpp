@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "flow/buoyancy.h"
+#include "flow/balanced_pressure.h"
 #include "schemes/advance.h"
 #include "schemes/two_step.h"
 
@@ -43,10 +43,11 @@ void start(Flow<Dim>& flow) {
   const StepStart<Dim> start = save_step_start(flow);
   locate(flow);
   flow.state.last_step.approach = largest_approach(flow);
-  if (may_be_balanced(flow)) flow.state.last_step.fullness = find_fullness_between_openings(flow);
+  find_balance(flow, true);
   if (flow.walls.forces.are_requested) flow.walls.forces.reset(flow.state.particles.owned);
   if (!std::isfinite(dt)) return;  // nothing moves and no force acts, so there is no pressure
   flow.setup.formulation.find_first_pressure(flow, start, dt);
+  find_balance(flow);
 }
 
 TAILWATER_IN_2D_AND_3D(project_in_place);

@@ -46,7 +46,7 @@ POCKET = ("--set", "wall=[{shape='box', min=[0, 0], max=[3, 2]}, {name='hull', s
           "max=[1, 1.1], fluid_side='outside'}]", "--set", "body=[{name='barge', walls=['hull'], mass=160, "
           "centre=[0.6, 0.6], inertia=[17]}]", "--set", "air={pockets='adiabatic', pressure=1000}",
           "--set", "pocket=[{at=[2.9, 1.9], overpressure=-50}]", "--set", "vent=[{at=[2.9, 1.9], area=0.01}]", "--set",
-          "probe=[{name='air', type='pockets'}, {name='seldom', type='pockets', interval=0.03}]",
+          "probe=[{name='air', type='pockets'}, {name='seldom', type='pockets', interval=0.015}]",
           "--set", "fluid[0].velocity=[1, 0]")
 ROCK = ("--set", "porous=[{min=[0.8, -1], max=[1.3, 2], porosity=0.5, grain_size=0.05}]", "--set",
         "fluid[0].velocity=[1, 0]")
@@ -108,7 +108,7 @@ class Resumed(ProgramTest):
         case.write_text(case.read_text() + '[[probe]]\nname = "seldom"\ntype = "energy"\ninterval = 0.03\n'
                         '[[probe]]\nname = "force"\ntype = "force"\nmoment_about = [0, 0]\n'
                         '[[probe]]\nname = "map"\ntype = "pressure-map"\ninterval = 0.01\n'
-                        '[[probe]]\nname = "push"\ntype = "wall-pressure"\nat = [0.3, 0]\ninterval = 0.03\n')
+                        '[[probe]]\nname = "push"\ntype = "wall-pressure"\nat = [0.3, 0]\ninterval = 0.015\n')
 
     def run_case(self, run, *arguments, **options):
         return self.call("run", "small.toml", "--out", run, "--quiet", "--set", "particles.jitter=0.1", *FIELDS,
@@ -303,7 +303,7 @@ class Refused(Resumed):
         head = f"{text}crc32 {zlib.crc32(body, zlib.crc32(text.encode())):08x}\n"
         path.write_bytes(head.ljust(512).encode() + body)
         self.before = self.listing()
-        self.refuse("run", parts=(path.name, "format 0", "reads format 24", "tailwater 0.0.1 (commit abc)"))
+        self.refuse("run", parts=(path.name, "format 0", "reads format 25", "tailwater 0.0.1 (commit abc)"))
 
     def test_tables_that_do_not_go_with_the_checkpoint(self):
         (self.folder / "run/steps.csv").write_text("time_s\n")

@@ -98,6 +98,28 @@ TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
   }
 }
 
+// A cylinder as heavy as the water it displaces, set in motion in deep water. The water takes half of its momentum at
+// once, and the cylinder keeps the rest. In proportion to the depth, pairs pulled it back to where the water had been:
+// on the first half of its diameter it lost two fifths of its speed.
+TEST(FloatingBody, CoastsUnderWater) {
+  constexpr double dx = 0.01, D = 0.1, speed = 0.2;
+  CaseSpec spec = tank_case<2>(dx, 0.8, 0.6);
+  WallTable hull;
+  hull.name = "hull";
+  hull.shape = WallShape::polygon;
+  hull.points = circle(48, 0.5 * D, {0.4, 0.3});
+  hull.fluid_side = FluidSide::outside;
+  BodyTable body = body_of("hull", 1000.0 * 0.25 * std::numbers::pi * D * D, {0.4, 0.3}, {});
+  body.velocity = {speed, 0.0};
+  body.free = {"x"};
+  add_body(spec, hull, body);
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const BodyState<2>& state = flow.state.motion.bodies.each[0];
+  while (state.centre[0] < 0.4 + 0.5 * D) step(flow);
+  EXPECT_GT(state.velocity[0], 0.8 * (0.5 * speed));
+}
+
 // A box as heavy as the water it displaces, in a full closed tank. From the first step on, the pressure of the current
 // step acts on the box, raised until no water has tension. With the pressure of the previous step, no force would act
 // on the top of the box, and the box would begin to sink with a tenth of gravity.

@@ -1,0 +1,211 @@
+#include "flow/balanced_pressure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/for_each.h"
+#include "operators/pressure_ramp.h"
+
+namespace tailwater {
+namespace {
+
+/// Least g'/g. It limits the time step of liquids of equal density, which have no internal wave speed.
+constexpr double min_reduced_gravity = 1e-3;
+
+/// dx; from the place of the outermost particles up to the surface.
+constexpr double rows_beside_air = 0.5;
+
+/// kg/m^3; of the lightest and the heaviest liquid.
+template <int Dim>
+std::pair<double, double> extreme_densities(const Setup<Dim>& setup) {
+  if (!setup.liquids.are_several()) return {setup.liquid.density, setup.liquid.density};
+  const auto [lightest, heaviest] = std::ranges::minmax_element(setup.liquids.density);
+  return {*lightest, *heaviest};
+}
+
+/// 1 where water fills the space between walls and openings, as find_fullness without the exception of open ends.
+/// Collective.
+template <int Dim>
+double find_fullness_between_openings(const Flow<Dim>& flow) {
+  if (!flow.setup.has_air()) return 0.0;
+  const Vec<2> nothing = Vec<2>::Zero();
+  Vec<2> beside_air_and_all = sum_over(flow.state.particles.owned, nothing, [&](std::size_t i) {
+    const double weight = flow.setup.weight_in_statistics(flow.state.particles.volume[i]);
+    return flow.role[i] == Role::water ? Vec<2>(weight * (1.0 - flow.surroundings.interior[i]), weight) : nothing;
+  });
+  flow.setup.ranks.sum_each(beside_air_and_all[0], beside_air_and_all[1]);
+  return beside_air_and_all[1] > 0.0 ? std::max(0.0, 1.0 - beside_air_and_all[0]) : 0.0;
+}
+
+/// Whether the weight of water that fills its walls is balanced. The steps of a thick liquid in a conduit follow its
+/// weight, which limits the error of the implicit viscous force.
+template <int Dim>
+bool may_fill_walls(const Flow<Dim>& flow) {
+  return flow.setup.liquids.are_several() || (flow.is_open() && !flow.setup.has_implicit_viscosity);
+}
+
+/// Whether the weight of water below its free surface is balanced: only where forces much smaller than the weight
+/// matter. Elsewhere the forces of pairs on walls are those that the water has.
+template <int Dim>
+bool may_have_still_surface(const Flow<Dim>& flow) {
+  const bool is_needed = flow.setup.liquids.are_several() ||
+                         std::ranges::any_of(flow.parts, [](const auto& part) { return part->needs_balance(); });
+  return is_needed && flow.setup.formulation.balanced_ramp != nullptr && flow.setup.has_air() &&
+         flow.pores == nullptr && flow.surroundings.support_terms.is_empty() &&
+         !flow.setup.gravity_across().isZero(0.0);
+}
+
+/// rho_b [kg/m^3] in water that fills its walls.
+template <int Dim>
+double density_in_full_walls(const Flow<Dim>& flow) {
+  return may_fill_walls(flow) ? flow.state.last_step.fullness * extreme_densities(flow.setup).first : 0.0;
+}
+
+/// m along gravity; the lowest place of the surface, at the start of the range of numbers if there is none. The place
+/// of a particle counts as far above it as it is inside water, which changes smoothly with its neighbours. Collective.
+template <int Dim>
+double lowest_beside_air(const Flow<Dim>& flow, const Vec<Dim>& down) {
+  constexpr double none = std::numeric_limits<double>::lowest();
+  return flow.setup.ranks.largest(largest_over(flow.state.particles.owned, none, [&](std::size_t i) {
+    const double inside = flow.surroundings.interior[i];
+    if (flow.role[i] != Role::water || inside >= 1.0) return none;
+    const double rows_above = std::pow(inside / (1.0 - inside), 2);
+    return down.dot(flow.state.particles.position[i]) - rows_above * flow.setup.scale.spacing;
+  }));
+}
+
+/// The largest fraction of q, at most 1, that leaves no fluid with p < q by more than the weight of half a row.
+/// Collective.
+template <int Dim>
+double share_without_tension(const Flow<Dim>& flow, const BalancedPressure<Dim>& balanced) {
+  const Particles<Dim>& particles = flow.state.particles;
+  const double half_row =
+      0.5 * flow.setup.scale.spacing * extreme_densities(flow.setup).first * flow.setup.gravity_across().norm();
+  return std::max(0.0, -flow.setup.ranks.largest(largest_over(particles.owned, -1.0, [&](std::size_t i) {
+    const double q = particles.is_fluid(i) ? balanced.at(particles.position[i]) : 0.0;
+    return q > 0.0 ? -(particles.pressure[i] + half_row) / q : -1.0;
+  })));
+}
+
+}  // namespace
+
+template <int Dim>
+double find_fullness(const Flow<Dim>& flow) {
+  return flow.is_open() ? 0.0 : find_fullness_between_openings(flow);
+}
+
+template <int Dim>
+void find_balance(Flow<Dim>& flow, bool is_start) {
+  StepMemory& memory = flow.state.last_step;
+  memory.fullness = may_fill_walls(flow) ? find_fullness_between_openings(flow) : 0.0;
+  memory.balanced_share = 0.0;
+  if (memory.fullness > 0.0 || !may_have_still_surface(flow)) return;
+  const Vec<Dim> down = flow.setup.gravity_across().normalized();
+  memory.lowest_beside_air = lowest_beside_air(flow, down);
+  if (memory.lowest_beside_air == std::numeric_limits<double>::lowest()) return;
+  memory.lowest_unbalanced = memory.lowest_beside_air;
+  for (const auto& part : flow.parts) {
+    memory.lowest_unbalanced = std::max(memory.lowest_unbalanced, part->lowest_unbalanced(flow, down));
+  }
+  memory.balanced_share = 1.0;
+  if (!is_start) memory.balanced_share = share_without_tension(flow, BalancedPressure<Dim>(flow));
+}
+
+template <int Dim>
+BalancedPressure<Dim>::BalancedPressure(const Flow<Dim>& flow, Extent extent) {
+  const StepMemory& memory = flow.state.last_step;
+  const Vec<Dim> across = flow.setup.gravity_across();
+  const double in_full_walls = density_in_full_walls(flow);
+  if (in_full_walls > 0.0) {
+    gradient_ = in_full_walls * across;
+  } else if (memory.balanced_share > 0.0) {
+    gradient_ = memory.balanced_share * extreme_densities(flow.setup).first * across;
+    ramp_ = flow.setup.formulation.balanced_ramp.get();
+    down_ = across.normalized();
+    const double lowest = extent == Extent::all_water ? memory.lowest_beside_air : memory.lowest_unbalanced;
+    level_ = lowest - rows_beside_air * flow.setup.scale.spacing;
+  }
+}
+
+template <int Dim>
+double BalancedPressure<Dim>::at(const Vec<Dim>& x) const {
+  return is_linear() ? gradient_.dot(x) : gradient_.norm() * ramp_->at(depth_of(x));
+}
+
+template <int Dim>
+Vec<Dim> BalancedPressure<Dim>::gradient_at(const Vec<Dim>& x) const {
+  return is_linear() ? gradient_ : Vec<Dim>(ramp_->gradient_at(depth_of(x)) * gradient_);
+}
+
+template <int Dim>
+double BalancedPressure<Dim>::morris_sum_at(const Vec<Dim>& x) const {
+  return is_linear() ? 0.0 : gradient_.norm() * ramp_->morris_sum_at(depth_of(x));
+}
+
+template <int Dim>
+std::vector<double> balanced_pressure(const Flow<Dim>& flow, const std::vector<double>& pressure) {
+  const BalancedPressure<Dim> balanced(flow);
+  if (!balanced.is_any()) return {};
+  const Particles<Dim>& particles = flow.state.particles;
+  std::vector<double> q(particles.size());
+  for_each(q.size(), [&](std::size_t i) { q[i] = balanced.at(particles.position[i]); });
+  if (!balanced.is_linear()) return q;
+  constexpr double none = std::numeric_limits<double>::lowest();
+  const double least = -flow.setup.ranks.largest(largest_over(
+      particles.owned, none, [&](std::size_t i) { return particles.is_fluid(i) ? q[i] - pressure[i] : none; }));
+  for_each(q.size(), [&](std::size_t i) { q[i] += least; });
+  return q;
+}
+
+template <int Dim>
+void find_pressure_gradient(const Flow<Dim>& flow, const std::vector<double>& pressure, std::span<Vec<Dim>> gradient) {
+  const std::vector<double> q = balanced_pressure(flow, pressure);
+  if (q.empty()) return flow.discretisation().find_gradient(flow, pressure, gradient);
+  const BalancedPressure<Dim> balanced(flow);
+  const std::vector<Vec<Dim>>& position = flow.state.particles.position;
+  const std::vector<std::size_t> water =
+      indices_where(flow.state.particles.owned, [&](std::size_t i) { return flow.role[i] == Role::water; });
+  const Interfaces& interfaces = flow.surroundings.interfaces;
+  if (!interfaces.are_any()) {
+    std::vector<double> rest(pressure.size());
+    for_each(rest.size(), [&](std::size_t i) { rest[i] = pressure[i] - q[i]; });
+    flow.discretisation().find_gradient(flow, rest, gradient);
+    for_each(water.size(), [&](std::size_t n) { gradient[water[n]] += balanced.gradient_at(position[water[n]]); });
+    return;
+  }
+  flow.discretisation().find_gradient(flow, pressure, gradient);
+  std::vector<Vec<Dim>> of_pairs(water.size());
+  flow.discretisation().find_gradient_at(flow, water, q, of_pairs);
+  for_each(water.size(), [&](std::size_t n) {
+    const std::size_t i = water[n];
+    gradient[i] += (balanced.gradient_at(position[i]) - of_pairs[n]) / interfaces.density[i];
+  });
+}
+
+template <int Dim>
+TimeStepRule time_step_rule(const Flow<Dim>& flow) {
+  TimeStepRule rule = flow.setup.time_step_rule;
+  const double balanced = density_in_full_walls(flow);
+  if (balanced == 0.0) return rule;
+  const double reduced = extreme_densities(flow.setup).second / balanced - 1.0;
+  rule.reference_speed *= std::sqrt(std::clamp(reduced, min_reduced_gravity, 1.0));
+  return rule;
+}
+
+template <int Dim>
+double noise_viscosity(const Setup<Dim>& setup, const TimeStepRule& rule, double speed) {
+  return setup.formulation.noise_viscosity * setup.scale.spacing * std::max(speed, rule.reference_speed);
+}
+
+template class BalancedPressure<2>;
+template class BalancedPressure<3>;
+TAILWATER_IN_2D_AND_3D(find_fullness);
+TAILWATER_IN_2D_AND_3D(find_balance);
+TAILWATER_IN_2D_AND_3D(balanced_pressure);
+TAILWATER_IN_2D_AND_3D(find_pressure_gradient);
+TAILWATER_IN_2D_AND_3D(time_step_rule);
+TAILWATER_IN_2D_AND_3D(noise_viscosity);
+
+}  // namespace tailwater
