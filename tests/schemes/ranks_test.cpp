@@ -614,7 +614,7 @@ TYPED_TEST(RanksTest, BodyFloats) {
   constexpr int Dim = TypeParam::value;
   CaseSpec spec = tank_case<Dim>(dx, Dim == 2 ? 0.8 : 0.6, 0.3);
   spec.particles.jitter = 0.1;  // on a lattice, rounding decides which cells are air
-  spec.particles.seed = 2;  // with seed 1 the motion of four ranks meets a switch in 2D, which rounding decides
+  spec.particles.seed = 2;      // with seed 1 the motion of four ranks meets a switch in 2D, which rounding decides
   WallTable hull;
   hull.name = "hull";
   hull.shape = WallShape::box;
