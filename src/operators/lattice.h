@@ -2,6 +2,8 @@
 // reference for how much of a neighbourhood is missing.
 #pragma once
 
+#include <cmath>
+
 #include "kernel/kernel.h"
 
 namespace tailwater {
@@ -24,6 +26,21 @@ KernelValues kernel_values_of(const Kernel<Dim>& kernel, double spacing) {
   const double W_spacing = kernel_value(kernel, spacing);
   const double ratio = kernel_value(kernel, 0.8 * spacing) / W_spacing;
   return {kernel_value(kernel, 0.0), W_spacing, ratio * ratio * ratio * ratio};
+}
+
+/// Calls visit(rows, r) for all nodes in a cube around a node, itself included, that contains the support of the
+/// kernel: the number of rows from the node in the middle up to this one, and the distance from it [m].
+template <int Dim, class Visit>
+void visit_lattice(const Kernel<Dim>& kernel, double spacing, Visit&& visit) {
+  const int reach = static_cast<int>(std::ceil(kernel_radius(kernel) / spacing));
+  const int reach_z = Dim == 3 ? reach : 0;
+  for (int z = -reach_z; z <= reach_z; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        visit(y, spacing * std::sqrt(static_cast<double>(x * x + y * y + z * z)));
+      }
+    }
+  }
 }
 
 template <int Dim>

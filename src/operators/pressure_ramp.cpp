@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "operators/laplacian_morris.h"
+#include "operators/lattice.h"
 
 namespace tailwater {
 namespace {
@@ -19,27 +20,20 @@ constexpr int entries_per_spacing = 32;
 template <int Dim>
 PressureRamp::PressureRamp(const Kernel<Dim>& kernel, double spacing)
     : length_(rows_of_ramp * spacing), first_(-kernel_radius(kernel)), step_(spacing / entries_per_spacing) {
-  const int reach = static_cast<int>(std::ceil(kernel_radius(kernel) / spacing));
-  const int reach_z = Dim == 3 ? reach : 0;
   const double volume = power<Dim>(spacing);
   for (double depth = first_; depth <= length_ - first_; depth += step_) {
     double difference = 0.0;
     double of_linear = 0.0;
     double morris_sum = 0.0;
-    for (int z = -reach_z; z <= reach_z; ++z) {
-      for (int y = -reach; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) {
-          const double r = spacing * std::sqrt(static_cast<double>(x * x + y * y + z * z));
-          if (r == 0.0) continue;
-          const double steepness = kernel_steepness(kernel, r);
-          const double down = spacing * y;
-          const double change = at(depth + down) - at(depth);
-          difference += steepness * down * change;
-          of_linear += steepness * down * down;
-          morris_sum -= morris_laplacian_weight(volume, steepness, r * r, spacing) * change;
-        }
-      }
-    }
+    visit_lattice(kernel, spacing, [&](int rows, double r) {
+      if (r == 0.0) return;
+      const double steepness = kernel_steepness(kernel, r);
+      const double down = spacing * rows;
+      const double change = at(depth + down) - at(depth);
+      difference += steepness * down * change;
+      of_linear += steepness * down * down;
+      morris_sum -= morris_laplacian_weight(volume, steepness, r * r, spacing) * change;
+    });
     gradient_.push_back(difference / of_linear);
     morris_sum_.push_back(morris_sum);
   }
