@@ -129,7 +129,7 @@ void FloatingBodies<Dim>::find_errors_of_pairs(const Flow<Dim>& flow, const Narr
   }
 }
 
-/// A body with some clearance rises above its lowest point by a distance without limit as its clearance grows to 1.
+/// The lowest point of a body without clearance. With clearance the place is higher, without limit as that grows to 1.
 template <int Dim>
 double FloatingBodies<Dim>::lowest_unbalanced(const Flow<Dim>& flow, const Vec<Dim>& down) const {
   double lowest = std::numeric_limits<double>::lowest();

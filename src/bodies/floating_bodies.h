@@ -35,8 +35,8 @@ class FloatingBodies final : public Part<Dim> {
   std::vector<std::size_t> stagnant;       ///< owned water that rests in narrow gaps
   bool has_stagnant_water = false;         ///< on any rank
   SealedWater sealed;                      ///< by the bodies
-  std::vector<double>
-      clearance;  ///< of each body, between walls: 0 in gaps up to 2 dx and out of the water, 1 from 3 dx on
+  /// For each body: 1 without other walls within 3 dx, 0 in gaps up to 2 dx and out of the water.
+  std::vector<double> clearance;
   std::vector<Twist<Dim>> error_of_pairs;  ///< of each body, in the force of the balanced pressure
   /// Whether a body has fallen below all other walls, and nothing can bring it back; for each body. In free fall it
   /// would shorten the time step of all water, so it stops there and takes no further part.

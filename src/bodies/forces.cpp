@@ -80,7 +80,11 @@ std::vector<std::optional<Twist<Dim>>> ForcesOnBodies<Dim>::errors_of_pairs() co
   if (balanced.is_linear()) return errors;
   std::vector<double> thrust;
   const std::vector<Twist<Dim>> used = error_of_pairs(balanced, thrust);
-  const std::vector<Twist<Dim>> in_all_water = error_of_pairs(Balanced(flow_, Balanced::Extent::all_water), thrust);
+  const StepMemory& memory = flow_.state.last_step;
+  const std::vector<Twist<Dim>> in_all_water =
+      memory.lowest_unbalanced == memory.lowest_beside_air
+          ? used
+          : error_of_pairs(Balanced(flow_, Balanced::Extent::all_water), thrust);
   for (std::size_t b = 0; b < errors.size(); ++b) {
     const bool is_in_water = in_all_water[b].template head<Dim>().norm() <= max_error_of_pairs * thrust[b];
     errors[b] = is_in_water ? std::optional(used[b]) : std::nullopt;
