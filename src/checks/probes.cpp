@@ -147,17 +147,19 @@ void check_zones_apart(const CaseSpec& spec, const DampingTable& first, const Da
 /// The nearest wall, but for floating bodies, that a hull faces across a gap within the reach of its pairs; -1: there
 /// is none.
 template <int Dim>
-int wall_beside(const CaseSpec& spec, const Boundary<Dim>& drawn, int hull) {
+int wall_beside(const CaseSpec& spec, const Boundary<Dim>& drawn, const std::vector<WallPatch<Dim>>& patches,
+                int hull) {
   std::vector<std::uint8_t> is_other(drawn.walls.size(), 1);
   is_other[hull] = 0;
   int beside = -1;
   double reach = reach_of_shares * spec.particles.spacing;
-  for (const WallPatch<Dim>& patch : make_wall_patches(drawn, spec.particles.spacing)) {
+  for (const WallPatch<Dim>& patch : patches) {
     if (drawn.faces[patch.face].wall != hull) continue;
-    const NearestWall<Dim> nearest = nearest_among<Dim>(drawn, is_other, patch.centre(drawn), reach);
+    const Vec<Dim> centre = patch.centre(drawn);
+    const NearestWall<Dim> nearest = nearest_among<Dim>(drawn, is_other, centre, reach);
     const double gap = std::abs(nearest.signed_distance);
     if (nearest.face < 0 || gap >= reach) continue;
-    const double ahead = drawn.faces[patch.face].normal.dot(nearest.point - patch.centre(drawn));
+    const double ahead = drawn.faces[patch.face].normal.dot(nearest.point - centre);
     if (ahead < std::max(0.5 * gap, corner_tolerance * spec.particles.spacing)) continue;
     beside = drawn.faces[nearest.face].wall;
     reach = gap;
@@ -174,11 +176,12 @@ void check_hulls_at_zones(const CaseSpec& spec, const Boundary<Dim>& drawn, Find
   };
   if (spec.refinement.empty() || std::ranges::none_of(spec.probes, is_on_part)) return;
   const SpacingField<Dim> field(spec, drawn);
+  const std::vector<WallPatch<Dim>> patches = make_wall_patches(drawn, spec.particles.spacing);
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     const auto hull = static_cast<int>(w);
     if (!is_hull(spec.walls[w]) || spec.walls[w].drive.by == Drive::By::body) continue;
     if (is_outside_zones(field, drawn, hull, spec.particles.spacing)) continue;
-    const int beside = wall_beside(spec, drawn, hull);
+    const int beside = wall_beside(spec, drawn, patches, hull);
     if (beside < 0) continue;
     for (const ProbeTable& probe : spec.probes) {
       const bool has_hull =
@@ -187,8 +190,7 @@ void check_hulls_at_zones(const CaseSpec& spec, const Boundary<Dim>& drawn, Find
       findings.push_back(
           Finding::warning("force-beside-zone",
                            {"{}: beside a zone of refinement the force on {} is the sum over pairs of particles, "
-                            "without the pressure in "
-                            "the gap to {}",
+                            "without the pressure in the gap to {}",
                             label(probe), wall_label(drawn, hull), wall_label(drawn, beside)},
                            {"end the zones {:.4g} before the hull, or measure with type = \"wall-pressure-mean\"",
                             Amount{reach_of_shares * spec.particles.spacing, "m"}}));
