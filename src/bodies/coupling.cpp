@@ -358,7 +358,7 @@ template <int Dim>
 void BodyCoupling<Dim>::report_forces(const std::vector<Twist<Dim>>& forces) {
   for (std::size_t b = 0; b < forces.size(); ++b) {
     const int beside = gaps_.wall_beside(static_cast<int>(b));
-    if (beside < 0 && bodies_.error_of_pairs[b].isZero(0.0)) continue;
+    if (beside < 0) continue;
     const Twist<Dim> force = forces[b] - bodies_.error_of_pairs[b];
     flow_.walls.forces.beside_walls.push_back({.walls = bodies_.bodies[b].walls,
                                                .beside = beside,

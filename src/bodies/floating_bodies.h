@@ -59,7 +59,6 @@ class FloatingBodies final : public Part<Dim> {
   bool needs_wall_forces() const override { return true; }
   bool changes_rows() const override { return has_stagnant_water || sealed.is_any(); }
   StepLimits step_limits(const Flow<Dim>& flow) const override;
-  bool needs_balance() const override { return freedom_count() > 0; }
   double lowest_unbalanced(const Flow<Dim>& flow, const Vec<Dim>& down) const override;
   void claim(const Flow<Dim>& flow, std::span<Role> role) override;
   /// Starts with the acceleration of the last step.

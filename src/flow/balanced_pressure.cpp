@@ -46,15 +46,11 @@ bool may_fill_walls(const Flow<Dim>& flow) {
   return flow.setup.liquids.are_several() || (flow.is_open() && !flow.setup.has_implicit_viscosity);
 }
 
-/// Whether the weight of water below its free surface is balanced: only where forces much smaller than the weight
-/// matter. Elsewhere the forces of pairs on walls are those that the water has.
+/// Whether the weight of water below its free surface is balanced.
 template <int Dim>
 bool may_have_still_surface(const Flow<Dim>& flow) {
-  const bool is_needed = flow.setup.liquids.are_several() ||
-                         std::ranges::any_of(flow.parts, [](const auto& part) { return part->needs_balance(); });
-  return is_needed && flow.setup.formulation.balanced_ramp != nullptr && flow.setup.has_air() &&
-         flow.pores == nullptr && flow.surroundings.support_terms.is_empty() &&
-         !flow.setup.gravity_across().isZero(0.0);
+  return flow.setup.formulation.balanced_ramp != nullptr && flow.setup.has_air() && flow.pores == nullptr &&
+         flow.surroundings.support_terms.is_empty() && !flow.setup.gravity_across().isZero(0.0);
 }
 
 /// rho_b [kg/m^3] in water that fills its walls.
@@ -76,17 +72,47 @@ double lowest_beside_air(const Flow<Dim>& flow, const Vec<Dim>& down) {
   }));
 }
 
-/// The largest fraction of q, at most 1, that leaves no fluid with p < q by more than the weight of half a row.
-/// Collective.
-template <int Dim>
-double share_without_tension(const Flow<Dim>& flow, const BalancedPressure<Dim>& balanced) {
+/// Largest value(i) of the fluid, at least `least`. Collective.
+template <int Dim, class Value>
+double largest_in_fluid(const Flow<Dim>& flow, double least, Value&& value) {
   const Particles<Dim>& particles = flow.state.particles;
+  return flow.setup.ranks.largest(
+      largest_over(particles.owned, least, [&](std::size_t i) { return particles.is_fluid(i) ? value(i) : least; }));
+}
+
+/// 0 where no water is deeper below the level than two rows, 1 where some is deeper than four rows. Thin water, and a
+/// free surface that faces down, do not have the neighbours below them that q is for. Collective.
+template <int Dim>
+double share_by_depth(const Flow<Dim>& flow, const Vec<Dim>& down) {
+  constexpr double none = std::numeric_limits<double>::lowest();
+  const double deepest =
+      largest_in_fluid(flow, none, [&](std::size_t i) { return down.dot(flow.state.particles.position[i]); });
+  const double depth = deepest - flow.state.last_step.lowest_unbalanced;
+  return std::clamp(0.5 * (depth / flow.setup.scale.spacing + rows_beside_air) - 1.0, 0.0, 1.0);
+}
+
+/// The largest fraction of q, at most 1, that leaves no fluid with p < q by more than that fraction of the weight of
+/// half a row. Collective.
+template <int Dim>
+double share_without_tension(const Flow<Dim>& flow, const BalancedPressure<Dim>& balanced,
+                             const std::vector<double>& pressure) {
   const double half_row =
       0.5 * flow.setup.scale.spacing * extreme_densities(flow.setup).first * flow.setup.gravity_across().norm();
-  return std::max(0.0, -flow.setup.ranks.largest(largest_over(particles.owned, -1.0, [&](std::size_t i) {
-    const double q = particles.is_fluid(i) ? balanced.at(particles.position[i]) : 0.0;
-    return q > 0.0 ? -(particles.pressure[i] + half_row) / q : -1.0;
-  })));
+  return -largest_in_fluid(flow, -1.0, [&](std::size_t i) {
+    const double excess = balanced.at(flow.state.particles.position[i]) - half_row;
+    return excess > 0.0 ? -std::max(0.0, pressure[i] / excess) : -1.0;
+  });
+}
+
+/// The largest p - q over the largest p, at most 1. Collective.
+template <int Dim>
+double largest_unbalanced_share(const Flow<Dim>& flow, const BalancedPressure<Dim>& balanced,
+                                const std::vector<double>& pressure) {
+  const std::vector<Vec<Dim>>& position = flow.state.particles.position;
+  const double largest = largest_in_fluid(flow, 0.0, [&](std::size_t i) { return pressure[i]; });
+  const double rest =
+      largest_in_fluid(flow, 0.0, [&](std::size_t i) { return pressure[i] - balanced.at(position[i]); });
+  return largest > 0.0 ? std::min(1.0, rest / largest) : 1.0;
 }
 
 }  // namespace
@@ -101,6 +127,7 @@ void find_balance(Flow<Dim>& flow, bool is_start) {
   StepMemory& memory = flow.state.last_step;
   memory.fullness = may_fill_walls(flow) ? find_fullness_between_openings(flow) : 0.0;
   memory.balanced_share = 0.0;
+  memory.unbalanced_share = 1.0;
   if (memory.fullness > 0.0 || !may_have_still_surface(flow)) return;
   const Vec<Dim> down = flow.setup.gravity_across().normalized();
   memory.lowest_beside_air = lowest_beside_air(flow, down);
@@ -109,8 +136,16 @@ void find_balance(Flow<Dim>& flow, bool is_start) {
   for (const auto& part : flow.parts) {
     memory.lowest_unbalanced = std::max(memory.lowest_unbalanced, part->lowest_unbalanced(flow, down));
   }
+  const double by_depth = share_by_depth(flow, down);
+  if (is_start || by_depth == 0.0) {
+    memory.balanced_share = by_depth;
+    return;
+  }
+  std::vector<double> pressure = flow.state.particles.pressure;
+  for (const auto& part : flow.parts) part->subtract_pressure(std::span(pressure).first(flow.state.particles.owned));
   memory.balanced_share = 1.0;
-  if (!is_start) memory.balanced_share = share_without_tension(flow, BalancedPressure<Dim>(flow));
+  memory.balanced_share = std::min(by_depth, share_without_tension(flow, BalancedPressure<Dim>(flow), pressure));
+  memory.unbalanced_share = largest_unbalanced_share(flow, BalancedPressure<Dim>(flow), pressure);
 }
 
 template <int Dim>
@@ -195,8 +230,9 @@ TimeStepRule time_step_rule(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-double noise_viscosity(const Setup<Dim>& setup, const TimeStepRule& rule, double speed) {
-  return setup.formulation.noise_viscosity * setup.scale.spacing * std::max(speed, rule.reference_speed);
+double noise_viscosity(const Flow<Dim>& flow, double speed) {
+  const double of_noise = time_step_rule(flow).reference_speed * std::sqrt(flow.state.last_step.unbalanced_share);
+  return flow.setup.formulation.noise_viscosity * flow.setup.scale.spacing * std::max(speed, of_noise);
 }
 
 template class BalancedPressure<2>;

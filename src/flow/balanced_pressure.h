@@ -11,9 +11,9 @@
 //
 //   rho_b is the density of the lightest liquid times the fullness, which is 0 as soon as there is a free surface, and
 //   0 for one liquid in a box.
-// - Water below the lowest place of its free surface, in cases with several liquids or floating bodies. q begins there
-//   and soon grows by rho_b g per m (operators/pressure_ramp.h). rho_b is the density of the lightest liquid times a
-//   fraction that leaves no water with p < q by more than half a row.
+// - Water below the lowest place of its free surface. q begins there and soon grows by rho_b g per m
+//   (operators/pressure_ramp.h). rho_b is the density of the lightest liquid times a fraction that leaves no water
+//   with p < q by more than half a row.
 //
 // No pressure balances the weight along a periodic direction: here g is without it (Setup::gravity_across).
 #pragma once
@@ -77,8 +77,9 @@ void find_pressure_gradient(const Flow<Dim>& flow, const std::vector<double>& pr
 template <int Dim>
 TimeStepRule time_step_rule(const Flow<Dim>& flow);
 
-/// Viscosity [m^2/s] of the noise dissipation at the case's spacing, by a time-step rule and the largest speed [m/s].
+/// Viscosity [m^2/s] of the noise dissipation at the case's spacing, by the largest speed [m/s]. Noise comes from the
+/// errors of pairs, so the reference speed is that of a head of the largest p - q.
 template <int Dim>
-double noise_viscosity(const Setup<Dim>& setup, const TimeStepRule& rule, double speed);
+double noise_viscosity(const Flow<Dim>& flow, double speed);
 
 }  // namespace tailwater

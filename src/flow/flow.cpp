@@ -20,6 +20,7 @@
 #include "motion/wall_motion.h"
 #include "neighbours/neighbourhood.h"
 #include "operators/graded_sums.h"
+#include "walls/patches.h"
 #include "walls/wall_model.h"
 
 namespace tailwater {
@@ -106,6 +107,9 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   setup.wall_motion->get_velocity(0.0, state.motion, state.wall_velocity);
   equation->rows.set_constant_is_free(setup.is_closed);
   walls.forces.pressure_is_requested = has_force_probe(spec);
+  if (setup.formulation.balanced_ramp != nullptr && (has_force_probe(spec) || setup.wall_motion->has_paths())) {
+    walls.patches = divide_into_patches(walls, setup.scale.spacing);
+  }
   walls.forces.are_requested =
       has_force_probe(spec) || std::ranges::any_of(parts, [](const auto& part) { return part->needs_wall_forces(); });
   regather_walls(*this);

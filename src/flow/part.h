@@ -118,9 +118,8 @@ class Part {
   /// Limits at the present velocities.
   virtual StepLimits step_limits(const Flow<Dim>& flow) const;
 
-  /// Whether the weight of water below its free surface is to be balanced (flow/balanced_pressure.h) for the part.
-  virtual bool needs_balance() const { return false; }
-  /// m along the unit vector `down`; up to this place sums over pairs must have the whole pressure.
+  /// m along the unit vector `down`; up to this place sums over pairs must have the whole pressure
+  /// (flow/balanced_pressure.h).
   virtual double lowest_unbalanced(const Flow<Dim>& flow, const Vec<Dim>& down) const;
 
   // The beginning of a step.

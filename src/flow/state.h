@@ -21,6 +21,7 @@ struct StepMemory {
   double lowest_beside_air = 0.0;  ///< m along gravity; of the water
   double lowest_unbalanced = 0.0;  ///< m along gravity; of the water beside air and of what parts need
   double balanced_share = 0.0;     ///< of the weight below a free surface
+  double unbalanced_share = 1.0;   ///< of the pressure, where it is largest
 };
 
 template <int Dim>

@@ -2,6 +2,7 @@
 // time.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -145,6 +146,10 @@ class WallMotion {
     AffineMap<Dim> mean_velocity(double from, double to, const MotionState<Dim>& state) const;
   };
   const std::vector<MovingWall>& moving() const { return moving_; }
+  /// Whether walls move that belong to no body.
+  bool has_paths() const {
+    return std::ranges::any_of(moving_, [](const MovingWall& moving) { return moving.body < 0; });
+  }
 
   /// Replaces the path of `moving()[which]`, which belongs to no body. Throws InputError, with the wall's `label`, if
   /// the new path begins farther than `off` [m] from the wall's position at `time` [s].

@@ -24,21 +24,26 @@ inline constexpr double share_of_water = 0.5;
 /// Forces between water and walls, one entry per owned particle. Entry of a wall particle: the force of its pairs with
 /// fluid particles, without the part of the pressure that acts through the fluid particles. Entry of a fluid particle:
 /// that part for its own pairs, and the reaction of the last guard that kept it in front of a wall. The sum of all
-/// entries is the momentum per time that the walls have taken from the water. In 2D per metre of width.
+/// entries, with the force of the balanced pressure, is the momentum per time that the walls have taken from the water.
+/// In 2D per metre of width.
 template <int Dim>
 struct WallForces {
   std::vector<Vec<Dim>> pressure;                  ///< N; on a fluid particle the reaction of the guard
   std::vector<Vec<Dim>> through_water;             ///< N; pressure through a fluid particle, 0 on a wall particle
   std::vector<Vec<Dim>> friction;                  ///< N
   std::vector<ForceBesideWall<Dim>> beside_walls;  ///< identical on all ranks
-  bool are_requested = false;                      ///< whether a probe or a part needs friction and the guard's forces
-  bool pressure_is_requested = false;              ///< whether a probe needs the pressure forces too
+  /// Pa; of each wet patch of the walls, the pressure that balances the weight (pressure/balanced_on_walls.h). It is
+  /// not in the other forces. 0 on dry patches; empty: none. Identical on all ranks.
+  std::vector<double> balanced;
+  bool are_requested = false;          ///< whether a probe or a part needs friction and the guard's forces
+  bool pressure_is_requested = false;  ///< whether a probe needs the pressure forces too
 
   void reset(std::size_t owned) {
     pressure.assign(owned, Vec<Dim>::Zero());
     through_water.assign(owned, Vec<Dim>::Zero());
     friction.assign(owned, Vec<Dim>::Zero());
     beside_walls.clear();
+    balanced.clear();
   }
 };
 

@@ -18,7 +18,7 @@ void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<
   });
   for (const auto& part : flow.parts) part->correct(flow, dt);
   flow.state.wall_velocity = drive.velocity;
-  add_wall_forces(flow, particles.pressure);
+  find_wall_forces(flow);
 }
 
 TAILWATER_IN_2D_AND_3D(correct);

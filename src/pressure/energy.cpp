@@ -7,8 +7,10 @@
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
 #include "motion/wall_motion.h"
+#include "pressure/balanced_on_walls.h"
 #include "pressure/operators.h"
 #include "pressure/stages.h"
+#include "walls/patches.h"
 
 namespace tailwater {
 namespace {
@@ -56,16 +58,18 @@ double density_work(const Flow<Dim>& flow, const PosedEquation& equation, double
   });
 }
 
-/// Work [J] of the pressure of moving walls on this rank's water. The force changes the velocity of the water from that
-/// of the last step, when walls had the velocities `from`, to that of this one, so its work has the mean of both; the
-/// velocity of this step alone would bring half of m a dt more in each step to water that follows the accelerations of
-/// its walls.
-template <int Dim>
-double wall_work(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, const std::vector<double>& pressure,
-                 double dt) {
+/// Work [J] on this rank's water by the pairs of a pressure field at moving walls for which is_counted(wall). The force
+/// changes the velocity of the water from that of the last step, when walls had the velocities `from`, to that of this
+/// one, so its work has the mean of both; the velocity of this step alone would bring half of m a dt more in each step
+/// to water that follows the accelerations of its walls.
+template <int Dim, class IsCounted>
+double wall_work(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, const std::vector<double>& pressure, double dt,
+                 IsCounted&& is_counted) {
   const Particles<Dim>& particles = flow.state.particles;
-  const std::vector<std::size_t> walls = indices_where(
-      particles.owned, [&](std::size_t i) { return !particles.is_fluid(i) && flow.surroundings.is_wet[i]; });
+  const std::vector<std::size_t> walls = indices_where(particles.owned, [&](std::size_t i) {
+    return !particles.is_fluid(i) && flow.surroundings.is_wet[i] &&
+           is_counted(flow.walls.particles.wall[particles.wall_row[i]]);
+  });
   const std::vector<Vec<Dim>> pushes = reactions_of_walls<Dim>(flow, walls, pressure);
   return sum_over(walls.size(), 0.0, [&](std::size_t n) {
     const std::size_t i = walls[n];
@@ -74,6 +78,28 @@ double wall_work(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, const st
     const Vec<Dim> mean = 0.5 * (before + entry_of<Dim>(flow.state.wall_velocity, row));
     return dt * particles.volume[i] * pushes[n].dot(mean);
   });
+}
+
+/// Work [J] on this rank's water by which the balanced pressure on walls that move on a path exceeds that of its pairs.
+template <int Dim>
+double excess_work_of_balanced(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, double dt) {
+  const std::vector<double>& balanced = flow.walls.forces.balanced;
+  if (balanced.empty()) return 0.0;
+  const Boundary<Dim>& boundary = flow.walls.boundary;
+  std::vector<bool> has_path(boundary.walls.size(), false);
+  for (const auto& moving : flow.setup.wall_motion->moving()) has_path[moving.wall] = moving.body < 0;
+  const std::vector<double> q = balanced_at_particles(flow);
+  double work = -wall_work(flow, from, q, dt, [&](int wall) { return has_path[wall]; });
+  if (!flow.setup.ranks.is_root()) return work;
+  for (std::size_t k = 0; k < balanced.size(); ++k) {
+    const WallPatch<Dim>& patch = flow.walls.patches->all[k];
+    const WallFace<Dim>& face = boundary.faces[patch.face];
+    if (balanced[k] == 0.0 || !has_path[face.wall]) continue;
+    const std::int32_t row = flow.walls.patches->row[k];
+    const Vec<Dim> mean = 0.5 * (entry_of<Dim>(from, row) + entry_of<Dim>(flow.state.wall_velocity, row));
+    work += dt * balanced[k] * patch.measure * face.normal.dot(mean);
+  }
+  return work;
 }
 
 /// Work [J] of gravity along periodic directions on this rank's water since `start`.
@@ -97,7 +123,8 @@ Works work_of_boundaries(const Flow<Dim>& flow, std::span<const Vec<Dim>> from, 
   if (!flow.setup.wall_motion->moving().empty()) {
     on_walls = flow.state.particles.pressure;
     for (const auto& part : flow.parts) part->subtract_from_walls(flow, on_walls);
-    works.walls = wall_work(flow, from, on_walls, dt);
+    works.walls = wall_work(flow, from, on_walls, dt, [](int /*wall*/) { return true; }) +
+                  excess_work_of_balanced(flow, from, dt);
   }
   for (const auto& part : flow.parts) part->add_work(flow, on_walls, dt, works);
   return works;

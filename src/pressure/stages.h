@@ -50,8 +50,11 @@ void add_pressure_of_parts(Flow<Dim>& flow);
 template <int Dim>
 void correct(Flow<Dim>& flow, const Prediction<Dim>& predicted, const WallDrive<Dim>& drive, double dt);
 
-/// Adds the forces of a pressure field [Pa], up to date on ghosts, to those on the walls in this step, if a probe needs
-/// them.
+/// Adds the forces of the pressure to those on the walls in this step, if a probe needs them. Collective.
+template <int Dim>
+void find_wall_forces(Flow<Dim>& flow);
+
+/// Adds those of the pairs of a pressure field [Pa] that is up to date on ghosts.
 template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure);
 

@@ -3,6 +3,7 @@
 
 #include "base/for_each.h"
 #include "motion/wall_motion.h"
+#include "pressure/balanced_on_walls.h"
 #include "pressure/operators.h"
 #include "pressure/stages.h"
 #include "walls/facing_walls.h"
@@ -84,6 +85,16 @@ void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
   take_forces_across_gaps(flow, water, normals, pressure);
 }
 
+template <int Dim>
+void find_wall_forces(Flow<Dim>& flow) {
+  flow.walls.forces.balanced = balanced_on_walls(flow);
+  if (flow.walls.forces.balanced.empty()) return add_wall_forces(flow, flow.state.particles.pressure);
+  std::vector<double> rest = balanced_at_particles(flow);
+  for_each(rest.size(), [&](std::size_t i) { rest[i] = flow.state.particles.pressure[i] - rest[i]; });
+  add_wall_forces(flow, rest);
+}
+
 TAILWATER_IN_2D_AND_3D(add_wall_forces);
+TAILWATER_IN_2D_AND_3D(find_wall_forces);
 
 }  // namespace tailwater

@@ -19,6 +19,7 @@
 #include "geometry/wall_label.h"
 #include "motion/wall_motion.h"
 #include "probes/chosen_walls.h"
+#include "probes/force_memory.h"
 #include "probes/force_shares.h"
 #include "probes/nearby_parts.h"
 #include "probes/patch_shares.h"
@@ -93,7 +94,8 @@ class WallForceProbe {
       return part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
-    return loads + loads_beside_walls(context, velocity) + loads_of_air(context, velocity);
+    return loads + loads_of_balanced(context, velocity, chosen_) + loads_beside_walls(context, velocity) +
+           loads_of_air(context, velocity);
   }
 
  private:
@@ -108,7 +110,8 @@ class WallForceProbe {
   bool takes_all_and_rests() const { return takes_all_ && !has_power_; }
 
   void place_patches(const ProbeContext<Dim>& context) {
-    const bool needs_patches = context.air_pressure != nullptr || !context.wall_forces->beside_walls.empty();
+    const bool needs_patches = context.air_pressure != nullptr || !context.wall_forces->beside_walls.empty() ||
+                               !context.wall_forces->balanced.empty();
     bool rest = true;
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
     if ((takes_all_and_rests() && !needs_patches) || (rest && !wetted_.centres().empty())) return;
@@ -131,10 +134,12 @@ class WallForceProbe {
         return std::ranges::find(other.walls, one.beside) != other.walls.end();
       });  // which has a force of its own here
       if (has_hull ? has_wall && !is_beside_hull : !has_wall || is_beside_hull) continue;
-      const WallLoads<Dim> of_pairs = pressure_of_pairs(context, velocity, hull_of(context.boundary, one.walls));
+      Selection& hull = hull_of(context.boundary, one.walls);
+      const WallLoads<Dim> known =
+          pressure_of_pairs(context, velocity, hull) + loads_of_balanced(context, velocity, hull);
       const double sign = has_hull ? 1.0 : -1.0;
-      const Vec<Dim> force = one.force - of_pairs.pressure;
-      const Moment<Dim> about = moment(one.centre, one.force) + one.moment - of_pairs.moment;
+      const Vec<Dim> force = one.force - known.pressure;
+      const Moment<Dim> about = moment(one.centre, one.force) + one.moment - known.moment;
       const Moment<Dim> about_centre = about - moment(one.centre, force);
       const AffineMap<Dim>& motion = velocity[one.walls.front()];
       sum.pressure += sign * force;
@@ -185,6 +190,29 @@ class WallForceProbe {
       return is_part_of_it ? part_of(whole, context, i, velocity, hull) : WallLoads<Dim>();
     });
     loads.gather(context.ranks);
+    return loads;
+  }
+
+  /// The loads of the pressure that balances the weight on the selected patches; the same on all ranks.
+  WallLoads<Dim> loads_of_balanced(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
+                                   const Selection& selection) const {
+    WallLoads<Dim> loads;
+    const std::vector<double>& balanced = context.wall_forces->balanced;
+    TAILWATER_ASSERT(balanced.empty() || balanced.size() == patches_.size(), "the flow has the patches of the probe");
+    for (std::size_t k = 0; k < balanced.size(); ++k) {
+      const double area = selection.taken[k] * wetted_.share(static_cast<std::int32_t>(k)) * patches_[k].measure;
+      if (area == 0.0 || balanced[k] == 0.0) continue;
+      const WallFace<Dim>& face = context.boundary.faces[patches_[k].face];
+      const Vec<Dim> force = -balanced[k] * area * face.normal;
+      Vec<Dim> x = wetted_.centres()[k];
+      loads.pressure += force;
+      if (moves(face.wall)) {
+        const Vec<Dim> wall_velocity = velocity[face.wall](x);
+        loads.power -= force.dot(wall_velocity);
+        x -= age_ * context.dt * wall_velocity;
+      }
+      loads.moment += moment(x, force);
+    }
     return loads;
   }
 
@@ -317,29 +345,6 @@ class WallForceProbe {
   std::vector<int> mover_;          ///< of each wall: a number, equal for walls that move alike; -1: it rests
   std::map<int, Selection> hulls_;  ///< by the first wall of a hull, its patches where they are now
   PatchShares<Dim> shares_;         ///< of the particle that is being read
-};
-
-/// Largest and mean force so far, as numbers that a checkpoint saves.
-template <int Dim>
-struct ForceMemory {
-  std::vector<double>& numbers;
-
-  static constexpr std::size_t count = 4 + Dim;
-  double& last_time() const { return numbers[0]; }        // s
-  double& duration() const { return numbers[1]; }         // s; of the impulse
-  double& largest() const { return numbers[2]; }          // N
-  double& time_of_largest() const { return numbers[3]; }  // s
-  Vec<Dim> impulse() const { return Vec<Dim>::Map(numbers.data() + 4); }
-
-  void add(double time, const Vec<Dim>& force) const {
-    const double since_last = time - last_time();
-    last_time() = time;
-    duration() += since_last;
-    (since_last * force).add_to(numbers.data() + 4);
-    if (force.norm() <= largest()) return;
-    largest() = force.norm();
-    time_of_largest() = time;
-  }
 };
 
 /// Throws CaseError where the forces between particles are not equal and opposite.

@@ -62,8 +62,7 @@ void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::sp
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<double> viscosity(particles.size(), 0.0);
   const bool damps_noise = setup.formulation.noise_viscosity > 0.0;
-  const double noise_viscosity =
-      damps_noise ? tailwater::noise_viscosity(setup, time_step_rule(flow), largest_speed(flow)) : 0.0;
+  const double noise_viscosity = damps_noise ? tailwater::noise_viscosity(flow, largest_speed(flow)) : 0.0;
   std::vector<float> density;  // of particles, if there are several liquids
   if (setup.has_implicit_viscosity) {
     if (!damps_noise || std::ranges::count(setup.liquids.is_thin, 1) == 0) return;

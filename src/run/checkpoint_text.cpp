@@ -65,8 +65,8 @@ template <int Dim>
 std::string text_of(const Checkpoint<Dim>& checkpoint) {
   // A new member of State or StepMemory does not compile here until it is saved.
   const auto& [time, step, particles, wall_velocity, motion, last_step] = checkpoint.flow.state;
-  const auto& [approach, energy_rise, density_share, fullness, lowest_beside_air, lowest_unbalanced, balanced_share] =
-      last_step;
+  const auto& [approach, energy_rise, density_share, fullness, lowest_beside_air, lowest_unbalanced, balanced_share,
+               unbalanced_share] = last_step;
   Json json{{"time", time},
             {"step", step},
             {"approach", approach},
@@ -76,6 +76,7 @@ std::string text_of(const Checkpoint<Dim>& checkpoint) {
             {"lowest_beside_air", lowest_beside_air},
             {"lowest_unbalanced", lowest_unbalanced},
             {"balanced_share", balanced_share},
+            {"unbalanced_share", unbalanced_share},
             {"reference_step", checkpoint.reference_step},
             {"wave_makers", motion.wave_makers},
             {"bodies", Json::array()},
@@ -98,7 +99,8 @@ void take_text(const std::string& text, Checkpoint<Dim>& checkpoint) {
                      .fullness = json.at("fullness"),
                      .lowest_beside_air = json.at("lowest_beside_air"),
                      .lowest_unbalanced = json.at("lowest_unbalanced"),
-                     .balanced_share = json.at("balanced_share")};
+                     .balanced_share = json.at("balanced_share"),
+                     .unbalanced_share = json.at("unbalanced_share")};
   checkpoint.reference_step = json.at("reference_step");
   json.at("wave_makers").get_to(state.motion.wave_makers);
   for (const Json& body : json.at("bodies")) state.motion.bodies.each.push_back(body_of<Dim>(body));

@@ -14,7 +14,7 @@ template <int Dim>
 void predict_pressure_at_start(Flow<Dim>& flow, const StepStart<Dim>& start, double dt) {
   WallDrive<Dim> drive = drive_walls_to_end(flow, start.wall_velocity, dt);
   predict_pressure(flow, start, drive, dt);
-  add_wall_forces(flow, flow.state.particles.pressure);
+  find_wall_forces(flow);
   std::copy(start.position.begin(), start.position.end(), flow.state.particles.position.begin());
   place_walls(flow, flow.state.time);
   flow.surroundings.are_current = false;
@@ -27,7 +27,7 @@ void project_in_place(Flow<Dim>& flow, const StepStart<Dim>& start, WallDrive<Di
   const std::vector<double> target = target_divergence(flow, std::move(predicted.velocity_gradient), dt);
   solve(flow, assemble(flow, predicted, target, drive, dt), drive);
   for (const auto& part : flow.parts) part->stay(flow);
-  add_wall_forces(flow, flow.state.particles.pressure);
+  find_wall_forces(flow);
 }
 
 template <int Dim>

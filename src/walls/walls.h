@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ template <int Dim>
 struct Pairs;
 template <int Dim>
 struct Surroundings;
+template <int Dim>
+struct PatchesOfWalls;
 
 /// The walls of a case at their present positions. The table begins with the rows of walls that move, on all ranks.
 /// Then come the rows of walls at rest that this rank keeps, and the halo rows (shared_rows.h). The first two groups
@@ -34,6 +37,7 @@ struct Walls {
   std::size_t kept = 0;                 ///< rows without halo rows
   std::int64_t all = 0;                 ///< rows of the case on all ranks
   WallForces<Dim> forces;               ///< in the last step; empty if neither a probe nor a part needs them
+  std::shared_ptr<const PatchesOfWalls<Dim>> patches;  ///< null if nothing needs the forces on them
   /// m/s^2; of each row of walls that move, along the directions that it blocks: that of the rows of the last pressure.
   std::vector<Vec<Dim>> acceleration;
   std::vector<Vec<Dim>> turn_acceleration;  ///< m/s^2; of water along walls that turn, of owned particles; or empty

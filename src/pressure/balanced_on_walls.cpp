@@ -1,0 +1,82 @@
+#include "pressure/balanced_on_walls.h"
+
+#include <cstdint>
+
+#include "base/for_each.h"
+#include "flow/balanced_pressure.h"
+#include "geometry/images.h"
+#include "neighbours/cell_grid.h"
+#include "walls/patches.h"
+
+namespace tailwater {
+namespace {
+
+/// dx; water in front of a patch is not farther from its centre than this.
+constexpr double reach_of_water = 1.5;
+
+/// dx; from the centre of a patch into the space in front, so that its own wall does not hide the water there.
+constexpr double margin_of_eye = 0.1;
+
+/// Sets q to 0 on all patches but the wet ones. Collective.
+template <int Dim>
+void keep_wet(const Flow<Dim>& flow, std::vector<double>& q) {
+  const Boundary<Dim>& boundary = flow.walls.boundary;
+  const std::vector<WallPatch<Dim>>& patches = flow.walls.patches->all;
+  const double spacing = flow.setup.scale.spacing;
+  const double reach = reach_of_water * spacing;
+  const std::vector<std::size_t> deep = indices_where(q.size(), [&](std::size_t k) { return q[k] > 0.0; });
+  std::vector<Vec<Dim>> centres(deep.size());
+  for_each(deep.size(), [&](std::size_t n) { centres[n] = patches[deep[n]].centre(boundary); });
+  Box<Dim> around;
+  for (const Vec<Dim>& centre : centres) around.extend(centre);
+  around.widen(reach);
+  const CellGrid<Dim> grid(centres, reach);
+  std::vector<double> water_in_front(deep.size(), 0.0);
+  const auto wet_near = [&](const Vec<Dim>& x) {
+    if (!around.contains(x)) return;
+    grid.for_each_near(x, [&](std::int32_t n) {
+      const Vec<Dim> offset = x - centres[n];
+      const Vec<Dim>& normal = boundary.faces[patches[deep[n]].face].normal;
+      if (offset.dot(normal) <= 0.0 || offset.squaredNorm() >= reach * reach || water_in_front[n] != 0.0) return;
+      const Vec<Dim> eye = centres[n] + margin_of_eye * spacing * normal;
+      if (!is_hidden<Dim>(boundary.screens, boundary.screens_near(eye, reach), eye, x)) water_in_front[n] = 1.0;
+    });
+  };
+  const Particles<Dim>& particles = flow.state.particles;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: several mark one patch
+    if (!particles.is_fluid(i) || flow.pairs().sees_wall[i] == 0) continue;
+    const Vec<Dim>& x = particles.position[i];
+    wet_near(x);
+    visit_images<Dim>(flow.setup.domain, Box<Dim>(x), around, [&](const Vec<Dim>& by) { wet_near(x + by); });
+  }
+  flow.setup.ranks.sum_of_each(water_in_front);
+  for_each(deep.size(), [&](std::size_t n) {
+    if (water_in_front[n] == 0.0) q[deep[n]] = 0.0;
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> balanced_on_walls(const Flow<Dim>& flow) {
+  const BalancedPressure<Dim> balanced(flow);
+  if (flow.walls.patches == nullptr || balanced.is_linear()) return {};
+  const std::vector<WallPatch<Dim>>& patches = flow.walls.patches->all;
+  std::vector<double> q(patches.size());
+  for_each(q.size(), [&](std::size_t k) { q[k] = balanced.at(patches[k].centre(flow.walls.boundary)); });
+  keep_wet(flow, q);
+  return q;
+}
+
+template <int Dim>
+std::vector<double> balanced_at_particles(const Flow<Dim>& flow) {
+  const BalancedPressure<Dim> balanced(flow);
+  std::vector<double> q(flow.state.particles.size());
+  for_each(q.size(), [&](std::size_t i) { q[i] = balanced.at(flow.state.particles.position[i]); });
+  return q;
+}
+
+TAILWATER_IN_2D_AND_3D(balanced_on_walls);
+TAILWATER_IN_2D_AND_3D(balanced_at_particles);
+
+}  // namespace tailwater

@@ -1,0 +1,101 @@
+// The pressure that balances the weight of water (docs/theory/balanced_pressure.md), in cases without floating bodies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "schemes/cases.h"
+#include "schemes/force_reader.h"
+
+namespace tailwater {
+namespace balanced_pressure_test {
+
+using testing_cases::box_fluid;
+using testing_cases::empty_case;
+using testing_cases::polyline;
+
+constexpr double depth = 0.4;
+constexpr double dx = depth / 20.0;
+
+// Pairs have p - q only, so the force of q must be that on the wet part of each wall: the left half of the floor and
+// one side of the partition.
+TEST(BalancedPressure, PressesOnTheWetPartsOfWalls) {
+  CaseSpec spec = empty_case(dx);
+  spec.particles.jitter = 0.2;
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.8, 0.0}, {0.8, 0.6}}), polyline({{0.4, 0.0}, {0.4, 0.6}})};
+  spec.walls[0].name = "tank";
+  spec.walls[1].name = "partition";
+  spec.walls[1].shape = WallShape::plate;
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.4, depth})};
+  for (const double from : {0.0, 0.4}) {
+    spec.probes.push_back(force_probe({0.0, 0.0}, {"tank"}));
+    spec.probes.back().region_min = {from + 0.01, -0.1};
+    spec.probes.back().region_max = {from + 0.39, 0.1};
+  }
+  spec.probes.push_back(force_probe({0.4, 0.0}, {"partition"}));
+  Flow<2> flow = make_flow<2>(spec);
+  std::vector<Reader<2>> readers;
+  for (std::size_t which = 0; which < spec.probes.size(); ++which) readers.emplace_back(spec, flow, which);
+  while (flow.state.time < 1.0) step(flow);
+  ASSERT_EQ(flow.state.last_step.balanced_share, 1.0);
+  const double dt = step(flow).dt;
+  const double pressure = 1000.0 * g * depth;
+  EXPECT_NEAR(readers[0].force(dt)[1], -0.38 * pressure, 0.02 * 0.38 * pressure);
+  EXPECT_NEAR(readers[1].force(dt)[1], 0.0, 0.002 * pressure);
+  EXPECT_NEAR(readers[2].force(dt)[0], 0.5 * depth * pressure, 0.01 * 0.5 * depth * pressure);
+  EXPECT_NEAR(readers[2].row(dt).at(6), -depth * depth / 6.0 * pressure, 0.015 * depth * depth / 6.0 * pressure);
+}
+
+// Water that has left its floor falls with g, although its lowest row is a surface with water above it.
+TEST(BalancedPressure, DoesNotHoldFallingWater) {
+  CaseSpec spec = tank_case<2>(dx, 0.8, depth);
+  spec.fluid[0].velocity = {0.0, 3.0};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  while (flow.state.time < 0.05) step(flow);
+  const auto mean_rise = [&] {
+    const Vec<2> sums = sum_over(flow.state.particles.owned, Vec<2>(Vec<2>::Zero()), [&](std::size_t i) {
+      return flow.state.particles.is_fluid(i) ? Vec<2>(flow.state.particles.velocity[i][1], 1.0) : Vec<2>(0.0, 0.0);
+    });
+    return sums[0] / sums[1];
+  };
+  const double begin = flow.state.time;
+  const double before = mean_rise();
+  while (flow.state.time < 0.15) step(flow);
+  EXPECT_NEAR(mean_rise() - before, -g * (flow.state.time - begin), 0.002 * before);
+}
+
+// A standing wave, half a length in the tank, loses 1.15 % of its amplitude per period; 1.5 % with sums of pairs alone.
+TEST(BalancedPressure, KeepsAStandingWave) {
+  constexpr double h = 0.2;
+  constexpr double length = 2.0 * h;
+  const double k = std::numbers::pi / length;
+  CaseSpec spec = tank_case<2>(h / 20.0, length, h);
+  spec.fluid[0] = {};
+  spec.fluid[0].shape = BlockShape::polygon;
+  spec.fluid[0].points = {{0.0, 0.0}, {length, 0.0}};
+  for (int n = 40; n >= 0; --n) {
+    const double x = length * n / 40.0;
+    spec.fluid[0].points.push_back({x, h + 0.05 * h * std::cos(k * x)});
+  }
+  Flow<2> flow = make_flow<2>(spec);
+  const double period = 2.0 * std::numbers::pi / std::sqrt(g * k * std::tanh(k * h));
+  const auto largest_kinetic_energy_until = [&](double time) {
+    double largest = 0.0;
+    while (flow.state.time < time) {
+      step(flow);
+      largest = std::max(largest, measure(flow).kinetic_energy);
+    }
+    return largest;
+  };
+  largest_kinetic_energy_until(0.5 * period);
+  const double early = largest_kinetic_energy_until(1.0 * period);
+  largest_kinetic_energy_until(3.5 * period);
+  const double late = largest_kinetic_energy_until(4.0 * period);
+  EXPECT_GT(std::sqrt(late / early), std::pow(1.0 - 0.0135, 3.0));
+}
+
+}  // namespace balanced_pressure_test
+}  // namespace tailwater
