@@ -91,7 +91,8 @@ struct StepReport {
   /// J; by which the potential energy of the end of the step is below that of mid-step, to which velocity and works
   /// belong with the explicit integrator.
   double fallen = 0.0;
-  double density_share = 1.0;  ///< fraction of the lifting density source in the next step
+  double fallen_at_start = 0.0;  ///< J; the same for the velocity at the start of the run, in the first step
+  double density_share = 1.0;    ///< fraction of the lifting density source in the next step
   Interventions interventions;
 
   void add(const PressureReport& pressure);

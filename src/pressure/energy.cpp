@@ -102,6 +102,16 @@ double excess_work_of_balanced(const Flow<Dim>& flow, std::span<const Vec<Dim>> 
   return work;
 }
 
+/// Power [W] of the weight of this rank's water at the velocities where the step starts.
+template <int Dim>
+double fall_power_at(const Flow<Dim>& flow, const StepStart<Dim>& start) {
+  const Vec<Dim> g = flow.setup.gravity_across();
+  return sum_over(flow.state.particles.owned, 0.0, [&](std::size_t i) {
+    if (!flow.state.particles.is_fluid(i)) return 0.0;
+    return flow.density_of(i) * flow.water_volume_of(i) * g.dot(start.velocity[i]);
+  });
+}
+
 /// Work [J] of gravity along periodic directions on this rank's water since `start`.
 template <int Dim>
 double slope_work(const Flow<Dim>& flow, const StepStart<Dim>& start) {
@@ -151,6 +161,10 @@ void balance_energy(Flow<Dim>& flow, const StepStart<Dim>& start, StepReport& re
                        sums.kinetic_energy, sums.fall_power);
   const bool is_midway = !setup.formulation.moves_with_mean_velocity && !setup.formulation.has_second_projection;
   if (is_midway) report.fallen = 0.5 * report.dt * sums.fall_power;
+  if (is_midway && state.step == 0) {
+    report.fallen_at_start = 0.5 * report.dt * fall_power_at(flow, start);
+    setup.ranks.sum_each(report.fallen_at_start);
+  }
 
   const double doubt = in_doubt * (std::abs(work.walls) + std::abs(work.ends) + report.dragged());
   const double g = setup.gravity.norm();

@@ -13,6 +13,10 @@ RunStatistics::RunStatistics(const FlowMeasures& start, double energy_scale)
       unexplained_least_(energy_start_) {}
 
 void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, std::size_t escaped) {
+  if (steps_ == 0) {
+    energy_least_ += report.fallen_at_start;
+    unexplained_least_ += report.fallen_at_start;
+  }
   dt_least_ = steps_ == 0 ? report.dt : std::min(dt_least_, report.dt);
   dt_largest_ = std::max(dt_largest_, report.dt);
   dt_sum_ += report.dt;

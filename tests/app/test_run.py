@@ -225,6 +225,11 @@ class Books(ProgramTest):
         self.assertEqual(summary["volume"]["outside_the_walls_most"], 0)
         self.assertEqual(summary["warnings"], [])
 
+    def test_a_tank_that_sinks_from_the_start_gains_no_energy(self):
+        self.call("run", "small.toml", "--out", "run", "--quiet", "--set", 'wall[0].displacement=[0, "-t"]', "--set",
+                  "fluid[0].velocity=[0, -1]", "--set", "time.end=0.1")
+        self.assertEqual(self.summary("run")["warnings"], [])
+
     def test_water_that_left_over_a_rim_is_outside(self):
         for ranks in ("1", "2"):
             with self.subTest(ranks=ranks):
