@@ -55,6 +55,9 @@ std::shared_ptr<const WallPath<Dim>> path_of_bed(const ProbeTable& probe, const 
 /// dx; a level with smaller oscillations about its mean has no waves.
 constexpr double wave_band = 0.125;
 
+/// dx; water that begins lower than this stands on the bed. No air is so thin; in a narrow valley no particle is lower.
+constexpr double thinnest_air = 1.0;
+
 /// dx; the search for drops above the bed ends at this height.
 constexpr double tallest_column = 1e4;
 
@@ -85,7 +88,10 @@ WaterColumn column_on(const ProbeContext<Dim>& context, const UprightLine<Dim>& 
   while (depth < end) {
     const double step = std::min(0.25 * context.spacing, end - depth);
     const double next_share = share_at(depth + step);
-    if (share <= surface_share && next_share > surface_share) wet_from = depth + passage(share, next_share, step);
+    if (share <= surface_share && next_share > surface_share) {
+      wet_from = depth + passage(share, next_share, step);
+      is_connected = is_connected || wet_from < thinnest_air * context.spacing;
+    }
     if (share > surface_share && next_share <= surface_share) {
       column.highest = depth + passage(share, next_share, step);
       if (first == 0.0) first = column.highest;

@@ -192,6 +192,18 @@ class PressureOnMovingWalls(ProgramTest):
         return [[float(number) for number in line.split(",")] for line in lines if line]
 
 
+class DepthInAValley(ProgramTest):
+    def test_water_stands_on_the_bed_where_no_particle_is_as_low(self):
+        (self.folder / "valley.toml").write_text(
+            'particles.spacing = 0.05\n[[fluid]]\nshape = "fill"\nseed = [0, 0.3]\nlevel = 0.4\n'
+            '[[wall]]\nname = "valley"\npoints = [[-1, 1], [0, 0], [1, 1]]\n[time]\nend = 0.02\n'
+            '[[probe]]\nname = "d"\ntype = "depth"\nat = [0, 0.2]\n')
+        self.call("run", "valley.toml", "--out", "run", "--quiet")
+        _, connected, highest, _ = (self.folder / "run/probes/d.csv").read_text().splitlines()[1].split(",")
+        self.assertEqual(connected, highest)
+        self.assertAlmostEqual(float(connected), 0.4, delta=0.005)
+
+
 class ProbeOutput(ProgramTest):
     def page(self, dimension):
         return read_page(self.call("run", "--help-case=probes").stdout, dimension)
