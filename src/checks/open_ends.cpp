@@ -15,6 +15,7 @@ namespace tailwater {
 namespace {
 
 constexpr double wall_clearance = 0.25;   // dx, between walls and the path of the water
+constexpr double max_along = 0.3;         // cosine between an opening's normal and that of a wall beside its duct
 constexpr double min_flush = 0.9;         // cosine between an opening's normal and that of the wall that it is cut into
 constexpr double largest_opening = 10.0;  // over the size of all walls and water
 
@@ -172,10 +173,15 @@ void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   const Opening<Dim>& end = channel_end.mouth;
   const double depth = end.meets_air ? lead_over_spacing * dx : channel_end.duct;
   for (const Vec<Dim>& x : places_beyond(end, depth, dx)) {
-    const NearestWall<Dim> wall = boundary.nearest(x, wall_clearance * dx);
+    const NearestWall<Dim> wall = boundary.nearest(x, (0.5 + corner_tolerance) * dx);
     if (wall.face < 0) continue;
-    const CaseLabel label = wall_label(boundary, boundary.faces[wall.face].wall);
-    if (end.beyond(x) <= wall_clearance * dx) {
+    // A wall may be the side of the duct, but not with its back to it, where its particles are.
+    const WallFace<Dim>& face = boundary.faces[wall.face];
+    const bool is_along = std::abs(face.normal.dot(end.normal)) < max_along && !boundary.walls[face.wall].is_plate;
+    const bool turns_its_back = is_along && wall.signed_distance < -wall_clearance * dx;
+    if (std::abs(wall.signed_distance) > wall_clearance * dx && !turns_its_back) continue;
+    const CaseLabel label = wall_label(boundary, face.wall);
+    if (end.beyond(x) <= wall_clearance * dx && !turns_its_back) {
       findings.push_back(Finding::error(
           "wall-in-opening", {"{} overlaps {} at {}: no wall may stand in it", end.label(), label, place(wall.point)},
           {"leave that piece of wall out (of a box: open = [...]), or move the {}", end.label().table}));

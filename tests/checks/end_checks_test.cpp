@@ -120,6 +120,17 @@ TEST(EndChecks, TheSpaceBeyondIsShortWhereWallsLeadToTheOpening) {
   EXPECT_NE(errors_of(spec).find("up to 0.08 m outside of it must be free"), std::string::npos) << errors_of(spec);
 }
 
+// The particles of a wall are behind it, so they would stand in the duct. The water there had three times its density.
+TEST(EndChecks, AWallBesideADuctFacesIt) {
+  CaseSpec spec = empty_case(0.02);
+  spec.walls = {polyline({{0.0, 0.0}, {1.0, 0.0}}), polyline({{0.0, 0.2}, {-1.0, 0.2}})};
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.2, 0.2})};
+  spec.inlets = {inlet({0.0, 0.0}, {0.0, 0.2}, Varying(0.1))};
+  EXPECT_EQ(errors_of(spec).find("stands beyond"), std::string::npos) << errors_of(spec);
+  spec.walls[1] = polyline({{-1.0, 0.2}, {0.0, 0.2}});
+  EXPECT_NE(errors_of(spec).find("wall 'wall2' stands beyond inlet"), std::string::npos) << errors_of(spec);
+}
+
 TEST(EndChecks, DuctsDoNotMeet) {
   CaseSpec spec = empty_case(0.02);
   spec.walls = {polyline({{0.0, 0.8}, {0.0, 0.0}, {1.0, 0.0}}), polyline({{1.125, 0.0}, {2.0, 0.0}, {2.0, 0.8}})};
