@@ -32,8 +32,8 @@ struct WallForces {
   std::vector<Vec<Dim>> through_water;             ///< N; pressure through a fluid particle, 0 on a wall particle
   std::vector<Vec<Dim>> friction;                  ///< N
   std::vector<ForceBesideWall<Dim>> beside_walls;  ///< identical on all ranks
-  /// Pa; of each wet patch of the walls, the pressure that balances the weight (pressure/balanced_on_walls.h). It is
-  /// not in the other forces. 0 on dry patches; empty: none. Identical on all ranks.
+  /// Pa; of each patch of the walls, the pressure that balances the weight and is not in the other forces
+  /// (pressure/balanced_on_walls.h). Empty: none. Identical on all ranks.
   std::vector<double> balanced;
   bool are_requested = false;          ///< whether a probe or a part needs friction and the guard's forces
   bool pressure_is_requested = false;  ///< whether a probe needs the pressure forces too

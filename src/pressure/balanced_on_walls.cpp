@@ -5,6 +5,7 @@
 #include "base/for_each.h"
 #include "flow/balanced_pressure.h"
 #include "geometry/images.h"
+#include "motion/wall_motion.h"
 #include "neighbours/cell_grid.h"
 #include "walls/patches.h"
 
@@ -17,9 +18,9 @@ constexpr double reach_of_water = 1.5;
 /// dx; from the centre of a patch into the space in front, so that its own wall does not hide the water there.
 constexpr double margin_of_eye = 0.1;
 
-/// Sets q to 0 on all patches but the wet ones. Collective.
+/// Sets q to 0 on walls that are not wet everywhere below its level. Bodies are (flow/balanced_pressure.h). Collective.
 template <int Dim>
-void keep_wet(const Flow<Dim>& flow, std::vector<double>& q) {
+void keep_wet_walls(const Flow<Dim>& flow, std::vector<double>& q) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
   const std::vector<WallPatch<Dim>>& patches = flow.walls.patches->all;
   const double spacing = flow.setup.scale.spacing;
@@ -50,9 +51,16 @@ void keep_wet(const Flow<Dim>& flow, std::vector<double>& q) {
     visit_images<Dim>(flow.setup.domain, Box<Dim>(x), around, [&](const Vec<Dim>& by) { wet_near(x + by); });
   }
   flow.setup.ranks.sum_of_each(water_in_front);
-  for_each(deep.size(), [&](std::size_t n) {
-    if (water_in_front[n] == 0.0) q[deep[n]] = 0.0;
-  });
+  std::vector<std::uint8_t> is_dry(boundary.walls.size(), 0);
+  for (std::size_t n = 0; n < deep.size(); ++n) {
+    if (water_in_front[n] == 0.0) is_dry[boundary.faces[patches[deep[n]].face].wall] = 1;
+  }
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
+    if (moving.body >= 0) is_dry[moving.wall] = 0;
+  }
+  for (const std::size_t k : deep) {
+    if (is_dry[boundary.faces[patches[k].face].wall] != 0) q[k] = 0.0;
+  }
 }
 
 }  // namespace
@@ -64,8 +72,18 @@ std::vector<double> balanced_on_walls(const Flow<Dim>& flow) {
   const std::vector<WallPatch<Dim>>& patches = flow.walls.patches->all;
   std::vector<double> q(patches.size());
   for_each(q.size(), [&](std::size_t k) { q[k] = balanced.at(patches[k].centre(flow.walls.boundary)); });
-  keep_wet(flow, q);
+  keep_wet_walls(flow, q);
   return q;
+}
+
+template <int Dim>
+std::vector<bool> walls_with_balanced(const Flow<Dim>& flow) {
+  const std::vector<double>& balanced = flow.walls.forces.balanced;
+  std::vector<bool> walls(balanced.empty() ? 0 : flow.walls.boundary.walls.size(), false);
+  for (std::size_t k = 0; k < balanced.size(); ++k) {
+    if (balanced[k] > 0.0) walls[flow.walls.boundary.faces[flow.walls.patches->all[k].face].wall] = true;
+  }
+  return walls;
 }
 
 template <int Dim>
@@ -77,6 +95,7 @@ std::vector<double> balanced_at_particles(const Flow<Dim>& flow) {
 }
 
 TAILWATER_IN_2D_AND_3D(balanced_on_walls);
+TAILWATER_IN_2D_AND_3D(walls_with_balanced);
 TAILWATER_IN_2D_AND_3D(balanced_at_particles);
 
 }  // namespace tailwater

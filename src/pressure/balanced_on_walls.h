@@ -1,6 +1,7 @@
-// The force on walls of the pressure q that balances the weight of water (flow/balanced_pressure.h). Pairs have p - q,
-// so the force of q is its integral over the part of the walls that water wets. Below the level of q all space between
-// walls is water or dry, so a patch of a wall is wet if a fluid particle is close in front of it.
+// The force of the pressure q that balances the weight of water (flow/balanced_pressure.h) on walls that are wet
+// everywhere below its level, on one side or, for plates, on both. Pairs have p - q there, and the force of q is its
+// integral over the walls. On other walls, such as a bed below a block, the force is that of the pairs of p: the border
+// between their wet and dry parts is not known to less than a spacing.
 #pragma once
 
 #include <vector>
@@ -9,10 +10,14 @@
 
 namespace tailwater {
 
-/// q [Pa] at the centre of each wet patch of Walls::patches, 0 on dry ones; empty where there is none. The same on all
-/// ranks. Collective.
+/// q [Pa] at the centre of each patch of Walls::patches on such walls, 0 on others; empty where there is none. The same
+/// on all ranks. Collective.
 template <int Dim>
 std::vector<double> balanced_on_walls(const Flow<Dim>& flow);
+
+/// Whether each wall has a force of q in the present forces; empty where there is none.
+template <int Dim>
+std::vector<bool> walls_with_balanced(const Flow<Dim>& flow);
 
 /// q [Pa] at all particles.
 template <int Dim>

@@ -86,8 +86,10 @@ double excess_work_of_balanced(const Flow<Dim>& flow, std::span<const Vec<Dim>> 
   const std::vector<double>& balanced = flow.walls.forces.balanced;
   if (balanced.empty()) return 0.0;
   const Boundary<Dim>& boundary = flow.walls.boundary;
-  std::vector<bool> has_path(boundary.walls.size(), false);
-  for (const auto& moving : flow.setup.wall_motion->moving()) has_path[moving.wall] = moving.body < 0;
+  std::vector<bool> has_path = walls_with_balanced(flow);
+  for (const auto& moving : flow.setup.wall_motion->moving()) {
+    if (moving.body >= 0) has_path[moving.wall] = false;
+  }
   const std::vector<double> q = balanced_at_particles(flow);
   double work = -wall_work(flow, from, q, dt, [&](int wall) { return has_path[wall]; });
   if (!flow.setup.ranks.is_root()) return work;

@@ -39,14 +39,14 @@ void add_through_water(Flow<Dim>& flow, std::span<const std::size_t> water, std:
 }
 
 /// Takes from these water particles the forces along the normals n of walls in gaps: n n^T f of each pair, entry by
-/// entry of n n^T.
+/// entry of n n^T. `whole`: the fraction with which the forces of pairs were added.
 template <int Dim>
-void take_forces_across_gaps(Flow<Dim>& flow, std::span<const std::size_t> water, const std::vector<Vec<Dim>>& normals,
-                             const std::vector<double>& pressure) {
+void take_forces_across_gaps(Flow<Dim>& flow, std::span<const std::size_t> water, const std::vector<double>& whole,
+                             const std::vector<Vec<Dim>>& normals, const std::vector<double>& pressure) {
   std::vector<double> share(normals.size());
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b <= a; ++b) {
-      for_each(share.size(), [&](std::size_t i) { share[i] = share_of_water * normals[i][a] * normals[i][b]; });
+      for_each(share.size(), [&](std::size_t i) { share[i] = whole[i] * normals[i][a] * normals[i][b]; });
       if (std::ranges::none_of(share, [](double one) { return one != 0.0; })) continue;
       add_through_water(flow, water, share, pressure, [&](Vec<Dim>& sum, const Vec<Dim>& force) {
         sum[a] -= force[b];
@@ -56,22 +56,21 @@ void take_forces_across_gaps(Flow<Dim>& flow, std::span<const std::size_t> water
   }
 }
 
-}  // namespace
-
-template <int Dim>
-void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
-  if (!flow.walls.forces.pressure_is_requested) return;
+/// Adds the forces of the pairs of a pressure field to those on the walls for which is_counted(wall).
+template <int Dim, class IsCounted>
+void add_forces_of_pairs(Flow<Dim>& flow, const std::vector<double>& pressure, IsCounted&& is_counted) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<Vec<Dim>> normals = normals_in_gaps(flow);
   std::vector<double> share(particles.size(), 0.0);
   std::vector<std::size_t> walls;
   std::vector<std::size_t> water;
   for (std::size_t i = 0; i < particles.size(); ++i) {  // in order: lists
-    if (!particles.is_fluid(i) && flow.surroundings.is_wet[i]) share[i] = share_of_water;
+    const bool is_of_wall = !particles.is_fluid(i) && is_counted(flow.walls.particles.wall[particles.wall_row[i]]);
+    if (is_of_wall && flow.surroundings.is_wet[i]) share[i] = share_of_water;
     if (i >= particles.owned) continue;
-    if (!particles.is_fluid(i)) {
+    if (is_of_wall) {
       walls.push_back(i);
-    } else if (flow.pairs().sees_wall[i] != 0) {
+    } else if (particles.is_fluid(i) && flow.pairs().sees_wall[i] != 0) {
       water.push_back(i);
     }
   }
@@ -82,16 +81,28 @@ void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
     flow.walls.forces.pressure[i] -= particles.volume[i] * ((1.0 - share[i]) * pushes[n] + share_of_water * across);
   });
   add_through_water(flow, water, share, pressure, [](Vec<Dim>& sum, const Vec<Dim>& force) { sum += force; });
-  take_forces_across_gaps(flow, water, normals, pressure);
+  take_forces_across_gaps(flow, water, share, normals, pressure);
+}
+
+}  // namespace
+
+template <int Dim>
+void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
+  if (!flow.walls.forces.pressure_is_requested) return;
+  add_forces_of_pairs(flow, pressure, [](int /*wall*/) { return true; });
 }
 
 template <int Dim>
 void find_wall_forces(Flow<Dim>& flow) {
+  const std::vector<double>& pressure = flow.state.particles.pressure;
   flow.walls.forces.balanced = balanced_on_walls(flow);
-  if (flow.walls.forces.balanced.empty()) return add_wall_forces(flow, flow.state.particles.pressure);
+  const std::vector<bool> is_integrated = walls_with_balanced(flow);
+  if (is_integrated.empty()) return add_wall_forces(flow, pressure);
+  if (!flow.walls.forces.pressure_is_requested) return;
   std::vector<double> rest = balanced_at_particles(flow);
-  for_each(rest.size(), [&](std::size_t i) { rest[i] = flow.state.particles.pressure[i] - rest[i]; });
-  add_wall_forces(flow, rest);
+  for_each(rest.size(), [&](std::size_t i) { rest[i] = pressure[i] - rest[i]; });
+  add_forces_of_pairs(flow, pressure, [&](int wall) { return !is_integrated[wall]; });
+  add_forces_of_pairs(flow, rest, [&](int wall) { return is_integrated[wall]; });
 }
 
 TAILWATER_IN_2D_AND_3D(add_wall_forces);

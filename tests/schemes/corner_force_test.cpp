@@ -308,8 +308,8 @@ TEST(LeaningMesh, HasTheForceOfWaterAtRest) {
   EXPECT_NEAR(means[0][1], 0.0, 0.025 * scale);
   EXPECT_NEAR(means[0][2], across * slope, 0.025 * scale);
   const double weight = spec.physics.density * g * width * level * (toe - 0.5 * slope * level);
-  EXPECT_NEAR(means[1][2], -weight, 2e-3 * weight);
-  EXPECT_NEAR(means[1][0], 0.0, 2e-3 * weight);
+  EXPECT_NEAR(means[1][2], -weight, 6e-3 * weight);  // by pairs, whose errors the water does not feel
+  EXPECT_NEAR(means[1][0], 0.0, 6e-3 * weight);
 }
 
 /// A block in the middle of a tank full of water: its faces meet in edges and in corners of three. A uniform pressure

