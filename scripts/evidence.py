@@ -15,6 +15,7 @@ import pathlib
 import re
 import shlex
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "python")]
@@ -67,8 +68,9 @@ def sentence(evidence):
 
 def origin(evidence, has_commit):
     commit = f", commit {evidence['commit']}" if has_commit else ""
-    return (f"All rows are results of one `tailwater validate --level {evidence['level']}`, {evidence['date']}{commit}, "
+    text = (f"All rows are results of one `tailwater validate --level {evidence['level']}`, {evidence['date']}{commit}, "
             f"{evidence['processor']}.")
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False)
 
 
 def table(evidence, what):
