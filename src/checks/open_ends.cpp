@@ -15,7 +15,7 @@ namespace tailwater {
 namespace {
 
 constexpr double wall_clearance = 0.25;   // dx, between walls and the path of the water
-constexpr double max_along = 0.3;         // cosine between an opening's normal and that of a wall beside its duct
+constexpr double max_beside_duct = 0.3;   // cosine between an opening's normal and that of a wall beside its duct
 constexpr double min_flush = 0.9;         // cosine between an opening's normal and that of the wall that it is cut into
 constexpr double largest_opening = 10.0;  // over the size of all walls and water
 
@@ -177,7 +177,8 @@ void check_space_beyond(const CaseSpec& spec, const Boundary<Dim>& boundary, con
     if (wall.face < 0) continue;
     // A wall may be the side of the duct, but not with its back to it, where its particles are.
     const WallFace<Dim>& face = boundary.faces[wall.face];
-    const bool is_along = std::abs(face.normal.dot(end.normal)) < max_along && !boundary.walls[face.wall].is_plate;
+    const bool is_along =
+        std::abs(face.normal.dot(end.normal)) < max_beside_duct && !boundary.walls[face.wall].is_plate;
     const bool turns_its_back = is_along && wall.signed_distance < -wall_clearance * dx;
     if (std::abs(wall.signed_distance) > wall_clearance * dx && !turns_its_back) continue;
     const CaseLabel label = wall_label(boundary, face.wall);

@@ -13,7 +13,7 @@ namespace tailwater {
 namespace {
 
 /// dx; water in front of a patch is not farther from its centre than this.
-constexpr double reach_of_water = 1.5;
+constexpr double reach_in_front = 1.5;
 
 /// dx; from the centre of a patch into the space in front, so that its own wall does not hide the water there.
 constexpr double margin_of_eye = 0.1;
@@ -24,7 +24,7 @@ void keep_wet_walls(const Flow<Dim>& flow, std::vector<double>& q) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
   const std::vector<WallPatch<Dim>>& patches = flow.walls.patches->all;
   const double spacing = flow.setup.scale.spacing;
-  const double reach = reach_of_water * spacing;
+  const double reach = reach_in_front * spacing;
   const std::vector<std::size_t> deep = indices_where(q.size(), [&](std::size_t k) { return q[k] > 0.0; });
   std::vector<Vec<Dim>> centres(deep.size());
   for_each(deep.size(), [&](std::size_t n) { centres[n] = patches[deep[n]].centre(boundary); });
