@@ -353,7 +353,7 @@ void BodyCoupling<Dim>::go_back_to(const Iterate& iterate) {
   flow_.state.particles.pressure = iterate.pressure;
 }
 
-/// Stores the forces on bodies that are not the sums of their pairs, for probes.
+/// Stores the forces on bodies beside walls for probes, which divide the forces of pairs between walls.
 template <int Dim>
 void BodyCoupling<Dim>::report_forces(const std::vector<Twist<Dim>>& forces) {
   for (std::size_t b = 0; b < forces.size(); ++b) {

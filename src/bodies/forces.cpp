@@ -55,9 +55,7 @@ template <int Dim>
 std::vector<Twist<Dim>> ForcesOnBodies<Dim>::error_of_pairs(const BalancedPressure<Dim>& balanced,
                                                             std::vector<double>& thrust) const {
   ForceSums<Dim> sums = sums_on_bodies(flow_, time_);
-  const std::vector<Vec<Dim>>& position = flow_.state.particles.position;
-  std::vector<double> q(position.size());
-  for_each(q.size(), [&](std::size_t i) { q[i] = balanced.at(position[i]); });
+  const std::vector<double> q = balanced.at_each(flow_.state.particles.position);
   add_pressure_of_pairs<Dim>(flow_, bodies_.body_of_wall, q, sums);
   thrust.assign(bodies_.bodies.size(), 0.0);
   const Boundary<Dim>& boundary = flow_.walls.boundary;

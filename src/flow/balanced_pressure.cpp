@@ -170,6 +170,13 @@ double BalancedPressure<Dim>::at(const Vec<Dim>& x) const {
 }
 
 template <int Dim>
+std::vector<double> BalancedPressure<Dim>::at_each(const std::vector<Vec<Dim>>& places) const {
+  std::vector<double> q(places.size());
+  for_each(q.size(), [&](std::size_t i) { q[i] = at(places[i]); });
+  return q;
+}
+
+template <int Dim>
 Vec<Dim> BalancedPressure<Dim>::gradient_at(const Vec<Dim>& x) const {
   return is_linear() ? gradient_ : Vec<Dim>(ramp_->gradient_at(depth_of(x)) * gradient_);
 }
@@ -183,13 +190,10 @@ template <int Dim>
 std::vector<double> balanced_pressure(const Flow<Dim>& flow, const std::vector<double>& pressure) {
   const BalancedPressure<Dim> balanced(flow);
   if (!balanced.is_any()) return {};
-  const Particles<Dim>& particles = flow.state.particles;
-  std::vector<double> q(particles.size());
-  for_each(q.size(), [&](std::size_t i) { q[i] = balanced.at(particles.position[i]); });
+  std::vector<double> q = balanced.at_each(flow.state.particles.position);
   if (!balanced.is_linear()) return q;
   constexpr double none = std::numeric_limits<double>::lowest();
-  const double least = -flow.setup.ranks.largest(largest_over(
-      particles.owned, none, [&](std::size_t i) { return particles.is_fluid(i) ? q[i] - pressure[i] : none; }));
+  const double least = -largest_in_fluid(flow, none, [&](std::size_t i) { return q[i] - pressure[i]; });
   for_each(q.size(), [&](std::size_t i) { q[i] += least; });
   return q;
 }

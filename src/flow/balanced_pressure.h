@@ -13,7 +13,7 @@
 //   0 for one liquid in a box.
 // - Water below the lowest place of its free surface. q begins there and soon grows by rho_b g per m
 //   (operators/pressure_ramp.h). rho_b is the density of the lightest liquid times a fraction that leaves no water
-//   with p < q by more than half a row.
+//   with p < q by more than half a row, and that is 0 where no water is more than two rows deep.
 //
 // No pressure balances the weight along a periodic direction: here g is without it (Setup::gravity_across).
 #pragma once
@@ -50,6 +50,7 @@ class BalancedPressure {
   /// Whether its gradient is the same everywhere.
   bool is_linear() const { return ramp_ == nullptr; }
   double at(const Vec<Dim>& x) const;  ///< Pa
+  std::vector<double> at_each(const std::vector<Vec<Dim>>& places) const;
   // Sums over pairs of undisturbed particles.
   Vec<Dim> gradient_at(const Vec<Dim>& x) const;  ///< Pa/m
   double morris_sum_at(const Vec<Dim>& x) const;  ///< Pa/m^2; of c_ij (q_i - q_j)

@@ -8,11 +8,12 @@
 
 namespace tailwater {
 
-/// Pressure force on a hull, a floating body or a wall that water surrounds, that differs from the force of its pairs.
+/// Pressure force on a hull, a floating body or a wall that water surrounds, beside another wall, where the forces of
+/// pairs are incomplete.
 template <int Dim>
 struct ForceBesideWall {
   std::vector<int> walls;  ///< of the hull, indices into Boundary::walls
-  int beside;              ///< the nearest other wall in reach, or -1
+  int beside;              ///< the nearest other wall
   Vec<Dim> centre;
   Vec<Dim> force;                ///< N
   Vec<Dim == 2 ? 1 : 3> moment;  ///< N m; about the centre
@@ -24,8 +25,8 @@ inline constexpr double share_of_water = 0.5;
 /// Forces between water and walls, one entry per owned particle. Entry of a wall particle: the force of its pairs with
 /// fluid particles, without the part of the pressure that acts through the fluid particles. Entry of a fluid particle:
 /// that part for its own pairs, and the reaction of the last guard that kept it in front of a wall. The sum of all
-/// entries, with the force of the balanced pressure, is the momentum per time that the walls have taken from the water.
-/// In 2D per metre of width.
+/// entries is the momentum per time that the walls have taken from the water, up to the balanced pressure and the
+/// errors of its pairs. In 2D per metre of width.
 template <int Dim>
 struct WallForces {
   std::vector<Vec<Dim>> pressure;                  ///< N; on a fluid particle the reaction of the guard

@@ -79,23 +79,14 @@ std::vector<double> balanced_on_walls(const Flow<Dim>& flow) {
 template <int Dim>
 std::vector<bool> walls_with_balanced(const Flow<Dim>& flow) {
   const std::vector<double>& balanced = flow.walls.forces.balanced;
-  std::vector<bool> walls(balanced.empty() ? 0 : flow.walls.boundary.walls.size(), false);
+  std::vector<bool> walls(flow.walls.boundary.walls.size(), false);
   for (std::size_t k = 0; k < balanced.size(); ++k) {
     if (balanced[k] > 0.0) walls[flow.walls.boundary.faces[flow.walls.patches->all[k].face].wall] = true;
   }
   return walls;
 }
 
-template <int Dim>
-std::vector<double> balanced_at_particles(const Flow<Dim>& flow) {
-  const BalancedPressure<Dim> balanced(flow);
-  std::vector<double> q(flow.state.particles.size());
-  for_each(q.size(), [&](std::size_t i) { q[i] = balanced.at(flow.state.particles.position[i]); });
-  return q;
-}
-
 TAILWATER_IN_2D_AND_3D(balanced_on_walls);
 TAILWATER_IN_2D_AND_3D(walls_with_balanced);
-TAILWATER_IN_2D_AND_3D(balanced_at_particles);
 
 }  // namespace tailwater

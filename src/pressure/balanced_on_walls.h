@@ -15,12 +15,8 @@ namespace tailwater {
 template <int Dim>
 std::vector<double> balanced_on_walls(const Flow<Dim>& flow);
 
-/// Whether each wall has a force of q in the present forces; empty where there is none.
+/// Whether each wall has a force of q in the present forces.
 template <int Dim>
 std::vector<bool> walls_with_balanced(const Flow<Dim>& flow);
-
-/// q [Pa] at all particles.
-template <int Dim>
-std::vector<double> balanced_at_particles(const Flow<Dim>& flow);
 
 }  // namespace tailwater

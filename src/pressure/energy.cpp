@@ -6,6 +6,7 @@
 
 #include "base/for_each.h"
 #include "closures/fluid_pairs.h"
+#include "flow/balanced_pressure.h"
 #include "motion/wall_motion.h"
 #include "pressure/balanced_on_walls.h"
 #include "pressure/operators.h"
@@ -90,7 +91,7 @@ double excess_work_of_balanced(const Flow<Dim>& flow, std::span<const Vec<Dim>> 
   for (const auto& moving : flow.setup.wall_motion->moving()) {
     if (moving.body >= 0) has_path[moving.wall] = false;
   }
-  const std::vector<double> q = balanced_at_particles(flow);
+  const std::vector<double> q = balanced_pressure(flow, flow.state.particles.pressure);
   double work = -wall_work(flow, from, q, dt, [&](int wall) { return has_path[wall]; });
   if (!flow.setup.ranks.is_root()) return work;
   for (std::size_t k = 0; k < balanced.size(); ++k) {

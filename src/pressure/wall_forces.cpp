@@ -2,6 +2,7 @@
 #include <span>
 
 #include "base/for_each.h"
+#include "flow/balanced_pressure.h"
 #include "motion/wall_motion.h"
 #include "pressure/balanced_on_walls.h"
 #include "pressure/operators.h"
@@ -97,11 +98,14 @@ void find_wall_forces(Flow<Dim>& flow) {
   const std::vector<double>& pressure = flow.state.particles.pressure;
   flow.walls.forces.balanced = balanced_on_walls(flow);
   const std::vector<bool> is_integrated = walls_with_balanced(flow);
-  if (is_integrated.empty()) return add_wall_forces(flow, pressure);
+  const auto integrated = std::ranges::count(is_integrated, true);
+  if (integrated == 0) return add_wall_forces(flow, pressure);
   if (!flow.walls.forces.pressure_is_requested) return;
-  std::vector<double> rest = balanced_at_particles(flow);
+  std::vector<double> rest = balanced_pressure(flow, pressure);
   for_each(rest.size(), [&](std::size_t i) { rest[i] = pressure[i] - rest[i]; });
-  add_forces_of_pairs(flow, pressure, [&](int wall) { return !is_integrated[wall]; });
+  if (integrated < std::ssize(is_integrated)) {
+    add_forces_of_pairs(flow, pressure, [&](int wall) { return !is_integrated[wall]; });
+  }
   add_forces_of_pairs(flow, rest, [&](int wall) { return is_integrated[wall]; });
 }
 

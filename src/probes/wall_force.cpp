@@ -128,8 +128,7 @@ class WallForceProbe {
     for (const ForceBesideWall<Dim>& one : all) {
       const auto is_of_hull = [&](int wall) { return std::ranges::find(one.walls, wall) != one.walls.end(); };
       const bool has_hull = takes_all_of(context.boundary, is_of_hull);
-      const bool has_wall =
-          one.beside >= 0 && takes_all_of(context.boundary, [&](int wall) { return wall == one.beside; });
+      const bool has_wall = takes_all_of(context.boundary, [&](int wall) { return wall == one.beside; });
       const bool is_beside_hull = std::ranges::any_of(all, [&](const ForceBesideWall<Dim>& other) {
         return std::ranges::find(other.walls, one.beside) != other.walls.end();
       });  // which has a force of its own here

@@ -4,8 +4,9 @@
 //
 // f_i is the force on the walls through particle i in the last step (wall_forces.h). The pressure's pair forces count
 // half through the wall particle and half through the water particle. So the forces on all walls together equal the
-// momentum that the water has lost to them, to round-off. P_i f_i is the part of f_i that belongs to the selected part
-// of the walls. With the patches k near i,
+// momentum that the water has lost to them: to round-off, or to a percent where a pressure balances the weight, whose
+// integral over the walls is added (pressure/balanced_on_walls.h). P_i f_i is the part of f_i that belongs to the
+// selected part of the walls. With the patches k near i,
 //
 //   P_i = sum over chosen k of A_k (sum over all k of A_k)^-1,    A_k = s_k (1 - |r_i - r_k|/R)^4 (n_k n_k^T + e I)
 //
