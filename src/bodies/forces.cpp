@@ -63,7 +63,7 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::error_of_pairs(const BalancedPressu
     const WallFace<Dim>& face = boundary.faces[patch.face];
     const int body = bodies_.body_of_wall[face.wall];
     const Vec<Dim> x = patch.centre(boundary);
-    const Vec<Dim> against = balanced.at(x) * patch.measure * face.normal;
+    const Vec<Dim> against = balanced.on_wall(x, face.normal) * patch.measure * face.normal;
     thrust[body] += against.norm();
     if (flow_.setup.ranks.is_root()) sums.add(body, x, against);
   }

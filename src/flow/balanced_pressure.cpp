@@ -166,7 +166,19 @@ BalancedPressure<Dim>::BalancedPressure(const Flow<Dim>& flow, Extent extent) {
 
 template <int Dim>
 double BalancedPressure<Dim>::at(const Vec<Dim>& x) const {
-  return is_linear() ? gradient_.dot(x) : gradient_.norm() * ramp_->at(depth_of(x));
+  return is_linear() ? gradient_.dot(x) : below_level(depth_of(x));
+}
+
+template <int Dim>
+double BalancedPressure<Dim>::on_wall(const Vec<Dim>& x, const Vec<Dim>& normal) const {
+  if (is_linear()) return at(x);
+  const double level_share = std::pow(down_.dot(normal), 2);
+  return std::lerp(at(x), gradient_.norm() * ramp_->on_level_wall(depth_of(x)), level_share);
+}
+
+template <int Dim>
+double BalancedPressure<Dim>::below_level(double depth) const {
+  return gradient_.norm() * ramp_->at(depth);
 }
 
 template <int Dim>

@@ -50,7 +50,10 @@ class BalancedPressure {
   /// Whether its gradient is the same everywhere.
   bool is_linear() const { return ramp_ == nullptr; }
   double at(const Vec<Dim>& x) const;  ///< Pa
+  /// Pa; on a wall with this normal. On a level wall it carries the water by the sums below.
+  double on_wall(const Vec<Dim>& x, const Vec<Dim>& normal) const;
   std::vector<double> at_each(const std::vector<Vec<Dim>>& places) const;
+  double below_level(double depth) const;  ///< Pa; `depth` [m] below the level where q begins
   // Sums over pairs of undisturbed particles.
   Vec<Dim> gradient_at(const Vec<Dim>& x) const;  ///< Pa/m
   double morris_sum_at(const Vec<Dim>& x) const;  ///< Pa/m^2; of c_ij (q_i - q_j)

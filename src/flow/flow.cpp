@@ -108,7 +108,7 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   equation->rows.set_constant_is_free(setup.is_closed);
   walls.forces.pressure_is_requested = has_force_probe(spec);
   if (setup.formulation.balanced_ramp != nullptr && (has_force_probe(spec) || setup.wall_motion->has_paths())) {
-    walls.patches = divide_into_patches(walls, setup.scale.spacing);
+    walls.patches = divide_into_patches(spec, walls);
   }
   walls.forces.are_requested =
       has_force_probe(spec) || std::ranges::any_of(parts, [](const auto& part) { return part->needs_wall_forces(); });

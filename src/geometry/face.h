@@ -21,7 +21,8 @@ template <int Dim>
 struct WallFace {
   std::array<Vec<Dim>, Dim> corners;
   Vec<Dim> normal;
-  int wall = 0;  ///< index into Boundary::walls
+  int wall = 0;           ///< index into Boundary::walls
+  bool is_image = false;  ///< of a face that moves, in another period of the domain
 
   /// Distance from the face's plane, m; positive on the fluid side.
   double height(const Vec<Dim>& x) const { return normal.dot(x - corners[0]); }

@@ -195,7 +195,9 @@ WallMotion<Dim>::WallMotion(const CaseSpec& spec, Boundary<Dim>& boundary, const
       back.constant[axis] = -wall.period[axis];
       const std::size_t count = boundary.faces.size();
       for (std::size_t f = 0; f < count; ++f) {
-        if (boundary.faces[f].wall == static_cast<int>(w)) boundary.faces.push_back(moved(back, boundary.faces[f]));
+        if (boundary.faces[f].wall != static_cast<int>(w)) continue;
+        boundary.faces.push_back(moved(back, boundary.faces[f]));
+        boundary.faces.back().is_image = true;
       }
     }
   }

@@ -34,7 +34,10 @@ PressureRamp::PressureRamp(const Kernel<Dim>& kernel, double spacing)
       of_linear += steepness * down * down;
       morris_sum -= morris_laplacian_weight(volume, steepness, r * r, spacing) * change;
     });
-    gradient_.push_back(difference / of_linear);
+    const double gradient = difference / of_linear;
+    const double above = gradient_.empty() ? 0.0 : on_level_wall_.back() + 0.5 * step_ * (gradient_.back() + gradient);
+    gradient_.push_back(gradient);
+    on_level_wall_.push_back(above);
     morris_sum_.push_back(morris_sum);
   }
 }
@@ -55,6 +58,8 @@ double PressureRamp::entry_of(const std::vector<double>& table, double depth, do
 }
 
 double PressureRamp::gradient_at(double depth) const { return entry_of(gradient_, depth, 1.0); }
+
+double PressureRamp::on_level_wall(double depth) const { return entry_of(on_level_wall_, depth, at(depth)); }
 
 double PressureRamp::morris_sum_at(double depth) const { return entry_of(morris_sum_, depth, 0.0); }
 

@@ -17,6 +17,8 @@ class PressureRamp {
   double at(double depth) const;  ///< m
   /// 1; the gradient by the pairs of a lattice, which is exact for a linear pressure.
   double gradient_at(double depth) const;
+  /// m; the pressure on a level wall that carries the water above it: the integral of `gradient_at` over the depth.
+  double on_level_wall(double depth) const;
   /// 1/m; the sum of Morris weights c_ij (q_i - q_j) over a lattice.
   double morris_sum_at(double depth) const;
 
@@ -27,6 +29,7 @@ class PressureRamp {
   double first_;   ///< m; depth of the first entry of the tables
   double step_;    ///< m; between entries
   std::vector<double> gradient_;
+  std::vector<double> on_level_wall_;
   std::vector<double> morris_sum_;
 };
 

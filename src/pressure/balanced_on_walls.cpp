@@ -15,32 +15,56 @@ namespace {
 /// dx; water in front of a patch is not farther from its centre than this.
 constexpr double reach_in_front = 1.5;
 
+/// dx; between the centres of patches of two walls with a film of water between them, which holds no particle.
+constexpr double reach_across_film = 2.0;
+
 /// dx; from the centre of a patch into the space in front, so that its own wall does not hide the water there.
 constexpr double margin_of_eye = 0.1;
 
-/// Sets q to 0 on walls that are not wet everywhere below its level. Bodies are (flow/balanced_pressure.h). Collective.
+/// dx; less deep below the level q is small, and waves leave patches dry.
+constexpr double least_depth = 1.0;
+
+/// Patches below the level of q that are not covered by other walls.
 template <int Dim>
-void keep_wet_walls(const Flow<Dim>& flow, std::vector<double>& q) {
-  const Boundary<Dim>& boundary = flow.walls.boundary;
-  const std::vector<WallPatch<Dim>>& patches = flow.walls.patches->all;
-  const double spacing = flow.setup.scale.spacing;
-  const double reach = reach_in_front * spacing;
-  const std::vector<std::size_t> deep = indices_where(q.size(), [&](std::size_t k) { return q[k] > 0.0; });
-  std::vector<Vec<Dim>> centres(deep.size());
-  for_each(deep.size(), [&](std::size_t n) { centres[n] = patches[deep[n]].centre(boundary); });
+struct DeepPatches {
+  /// Those with more than `least` [Pa] of `q`.
+  DeepPatches(const Flow<Dim>& flow, const std::vector<double>& q, double least)
+      : boundary(flow.walls.boundary),
+        patches(flow.walls.patches->all),
+        spacing(flow.setup.scale.spacing),
+        index(indices_where(q.size(), [&](std::size_t k) { return q[k] > least; })) {
+    for (const std::size_t k : index) centres.push_back(flow.walls.patches->wetted.centres()[k]);
+    grid = CellGrid<Dim>(centres, reach_across_film * spacing);
+  }
+
+  const WallFace<Dim>& face(std::size_t n) const { return boundary.faces[patches[index[n]].face]; }
+
+  const Boundary<Dim>& boundary;
+  const std::vector<WallPatch<Dim>>& patches;
+  double spacing;  ///< m
+  std::vector<std::size_t> index;
+  std::vector<Vec<Dim>> centres;
+  CellGrid<Dim> grid;  ///< of the centres
+};
+
+/// 0 for patches without water in front of them. Collective.
+template <int Dim>
+std::vector<double> find_water_in_front(const Flow<Dim>& flow, const DeepPatches<Dim>& deep) {
+  const double reach = reach_in_front * deep.spacing;
   Box<Dim> around;
-  for (const Vec<Dim>& centre : centres) around.extend(centre);
+  for (const Vec<Dim>& centre : deep.centres) around.extend(centre);
   around.widen(reach);
-  const CellGrid<Dim> grid(centres, reach);
-  std::vector<double> water_in_front(deep.size(), 0.0);
+  std::vector<double> water_in_front(deep.index.size(), 0.0);
   const auto wet_near = [&](const Vec<Dim>& x) {
     if (!around.contains(x)) return;
-    grid.for_each_near(x, [&](std::int32_t n) {
-      const Vec<Dim> offset = x - centres[n];
-      const Vec<Dim>& normal = boundary.faces[patches[deep[n]].face].normal;
+    deep.grid.for_each_near(x, [&](std::int32_t n) {
+      const Vec<Dim> offset = x - deep.centres[n];
+      const Vec<Dim>& normal = deep.face(n).normal;
       if (offset.dot(normal) <= 0.0 || offset.squaredNorm() >= reach * reach || water_in_front[n] != 0.0) return;
-      const Vec<Dim> eye = centres[n] + margin_of_eye * spacing * normal;
-      if (!is_hidden<Dim>(boundary.screens, boundary.screens_near(eye, reach), eye, x)) water_in_front[n] = 1.0;
+      const Vec<Dim> eye = deep.centres[n] + margin_of_eye * deep.spacing * normal;
+      if (!is_hidden<Dim>(deep.boundary.screens, deep.boundary.screens_near(eye, reach), eye, x)) {
+        water_in_front[n] = 1.0;
+      }
     });
   };
   const Particles<Dim>& particles = flow.state.particles;
@@ -51,28 +75,56 @@ void keep_wet_walls(const Flow<Dim>& flow, std::vector<double>& q) {
     visit_images<Dim>(flow.setup.domain, Box<Dim>(x), around, [&](const Vec<Dim>& by) { wet_near(x + by); });
   }
   flow.setup.ranks.sum_of_each(water_in_front);
-  std::vector<std::uint8_t> is_dry(boundary.walls.size(), 0);
-  for (std::size_t n = 0; n < deep.size(); ++n) {
-    if (water_in_front[n] == 0.0) is_dry[boundary.faces[patches[deep[n]].face].wall] = 1;
+  return water_in_front;
+}
+
+/// Whether another wall faces this patch across a film.
+template <int Dim>
+bool has_film(const DeepPatches<Dim>& deep, std::size_t n) {
+  const Vec<Dim>& normal = deep.face(n).normal;
+  const double reach = reach_across_film * deep.spacing;
+  bool found = false;
+  deep.grid.for_each_near(deep.centres[n], [&](std::int32_t m) {
+    const Vec<Dim> offset = deep.centres[m] - deep.centres[n];
+    found = found || (deep.face(m).wall != deep.face(n).wall && deep.face(m).normal.dot(normal) < 0.0 &&
+                      offset.dot(normal) > 0.0 && offset.squaredNorm() < reach * reach);
+  });
+  return found;
+}
+
+/// Sets q to 0 on walls with dry patches among those with more than `least` [Pa] of it. Bodies are wet
+/// (flow/balanced_pressure.h). Collective.
+template <int Dim>
+void keep_wet_walls(const Flow<Dim>& flow, double least, std::vector<double>& q) {
+  const DeepPatches<Dim> deep(flow, q, least);
+  const std::vector<double> water_in_front = find_water_in_front(flow, deep);
+  std::vector<std::uint8_t> is_dry(deep.boundary.walls.size(), 0);
+  for (std::size_t n = 0; n < deep.index.size(); ++n) {
+    if (water_in_front[n] == 0.0 && !has_film(deep, n)) is_dry[deep.face(n).wall] = 1;
   }
   for (const auto& moving : flow.setup.wall_motion->moving()) {
     if (moving.body >= 0) is_dry[moving.wall] = 0;
   }
-  for (const std::size_t k : deep) {
-    if (is_dry[boundary.faces[patches[k].face].wall] != 0) q[k] = 0.0;
-  }
+  for_each(q.size(), [&](std::size_t k) {
+    if (is_dry[deep.boundary.faces[deep.patches[k].face].wall] != 0) q[k] = 0.0;
+  });
 }
 
 }  // namespace
 
 template <int Dim>
-std::vector<double> balanced_on_walls(const Flow<Dim>& flow) {
+std::vector<double> balanced_on_walls(Flow<Dim>& flow) {
   const BalancedPressure<Dim> balanced(flow);
   if (flow.walls.patches == nullptr || balanced.is_linear()) return {};
-  const std::vector<WallPatch<Dim>>& patches = flow.walls.patches->all;
-  std::vector<double> q(patches.size());
-  for_each(q.size(), [&](std::size_t k) { q[k] = balanced.at(patches[k].centre(flow.walls.boundary)); });
-  keep_wet_walls(flow, q);
+  place_patches(flow.walls, *flow.walls.patches);
+  const PatchesOfWalls<Dim>& patches = *flow.walls.patches;
+  std::vector<double> q(patches.all.size());
+  for_each(q.size(), [&](std::size_t k) {
+    const Vec<Dim>& normal = flow.walls.boundary.faces[patches.all[k].face].normal;
+    const bool is_wet = patches.wetted.share(static_cast<std::int32_t>(k)) > 0.0;
+    q[k] = is_wet ? balanced.on_wall(patches.wetted.centres()[k], normal) : 0.0;
+  });
+  keep_wet_walls(flow, balanced.below_level(least_depth * flow.setup.scale.spacing), q);
   return q;
 }
 

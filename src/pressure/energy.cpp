@@ -100,7 +100,8 @@ double excess_work_of_balanced(const Flow<Dim>& flow, std::span<const Vec<Dim>> 
     if (balanced[k] == 0.0 || !has_path[face.wall]) continue;
     const std::int32_t row = flow.walls.patches->row[k];
     const Vec<Dim> mean = 0.5 * (entry_of<Dim>(from, row) + entry_of<Dim>(flow.state.wall_velocity, row));
-    work += dt * balanced[k] * patch.measure * face.normal.dot(mean);
+    const double area = patch.measure * flow.walls.patches->wetted.share(static_cast<std::int32_t>(k));
+    work += dt * balanced[k] * area * face.normal.dot(mean);
   }
   return work;
 }

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "geometry/point_grid.h"
-#include "probes/wetted_patches.h"
+#include "walls/wetted_patches.h"
 
 namespace tailwater {
 

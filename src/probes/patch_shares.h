@@ -9,7 +9,7 @@
 
 #include "geometry/facing.h"
 #include "probes/force_shares.h"
-#include "probes/wetted_patches.h"
+#include "walls/wetted_patches.h"
 
 namespace tailwater {
 

@@ -25,9 +25,9 @@
 #include "probes/patch_shares.h"
 #include "probes/places.h"
 #include "probes/wall_pressure.h"
-#include "probes/wetted_patches.h"
 #include "refinement/spacing_field.h"
 #include "sampling/wall_particles.h"
+#include "walls/wetted_patches.h"
 
 namespace tailwater {
 namespace {

@@ -1,5 +1,6 @@
 #include "walls/patches.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -13,12 +14,19 @@ namespace {
 /// dx; the first row is 0.5 behind its wall, and a patch has edges of up to `longest_patch_edge`.
 constexpr double reach_of_rows = 2.0;
 
+/// dx; half of the depth in another wall down to which a patch is known to be behind it.
+constexpr double reach_of_walls = 6.0;
+
 }  // namespace
 
 template <int Dim>
-std::shared_ptr<const PatchesOfWalls<Dim>> divide_into_patches(const Walls<Dim>& walls, double spacing) {
-  const auto patches = std::make_shared<PatchesOfWalls<Dim>>();
-  patches->all = make_wall_patches(walls.boundary, longest_patch_edge * spacing);
+std::shared_ptr<PatchesOfWalls<Dim>> divide_into_patches(const CaseSpec& spec, const Walls<Dim>& walls) {
+  const double spacing = spec.particles.spacing;
+  const auto patches = std::make_shared<PatchesOfWalls<Dim>>(
+      PatchesOfWalls<Dim>{.all = make_wall_patches(walls.boundary, longest_patch_edge * spacing),
+                          .row = {},
+                          .wetted = {spec, walls.boundary, spacing, reach_of_walls * spacing}});
+  patches->wetted.place(walls.boundary, patches->all);
   patches->row.assign(patches->all.size(), -1);
   const std::span<const Vec<Dim>> rows = std::span(walls.particles.position).first(walls.moving);
   const CellGrid<Dim> grid(rows, reach_of_rows * spacing);
@@ -37,6 +45,13 @@ std::shared_ptr<const PatchesOfWalls<Dim>> divide_into_patches(const Walls<Dim>&
   return patches;
 }
 
+template <int Dim>
+void place_patches(const Walls<Dim>& walls, PatchesOfWalls<Dim>& patches) {
+  const bool moves = std::ranges::any_of(walls.boundary.walls, &WallProperties::moves);
+  if (moves) patches.wetted.place(walls.boundary, patches.all);
+}
+
 TAILWATER_IN_2D_AND_3D(divide_into_patches);
+TAILWATER_IN_2D_AND_3D(place_patches);
 
 }  // namespace tailwater

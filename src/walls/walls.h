@@ -37,7 +37,7 @@ struct Walls {
   std::size_t kept = 0;                 ///< rows without halo rows
   std::int64_t all = 0;                 ///< rows of the case on all ranks
   WallForces<Dim> forces;               ///< in the last step; empty if neither a probe nor a part needs them
-  std::shared_ptr<const PatchesOfWalls<Dim>> patches;  ///< null if nothing needs the forces on them
+  std::shared_ptr<PatchesOfWalls<Dim>> patches;  ///< null if nothing needs the forces on them
   /// m/s^2; of each row of walls that move, along the directions that it blocks: that of the rows of the last pressure.
   std::vector<Vec<Dim>> acceleration;
   std::vector<Vec<Dim>> turn_acceleration;  ///< m/s^2; of water along walls that turn, of owned particles; or empty

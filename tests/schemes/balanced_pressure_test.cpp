@@ -44,6 +44,56 @@ TEST(BalancedPressure, PressesOnWalls) {
   EXPECT_LT(readers[2].force(dt).norm(), 0.005 * depth * pressure);
 }
 
+// The bottom of a block that stands on the bed is covered, and so is the bed below it. The rest of both walls is wet.
+// With the forces of pairs the block had 2.2 % too little force, and a pier in a stream 30 % too much.
+TEST(BalancedPressure, PressesOnABlockThatStandsOnTheBed) {
+  constexpr double top = depth - 2.0 * dx;
+  CaseSpec spec = tank_case<2>(dx, 0.8, depth);
+  spec.particles.jitter = 0.2;
+  spec.walls[0].name = "tank";
+  spec.walls.push_back(testing_cases::box_wall({0.3, 0.0}, {0.5, top}, {}, FluidSide::outside));
+  spec.walls[1].name = "block";
+  spec.probes = {force_probe({0.0, 0.0}, {"tank"}), force_probe({0.0, 0.0}, {"block"})};
+  Flow<2> flow = make_flow<2>(spec);
+  const Reader<2> on_tank(spec, flow, 0), on_block(spec, flow, 1);
+  while (flow.state.time < 0.6) step(flow);
+  Vec<2> tank = Vec<2>::Zero(), block = Vec<2>::Zero();
+  constexpr int steps = 40;
+  for (int n = 0; n < steps; ++n) {
+    const double dt = step(flow).dt;
+    tank += on_tank.force(dt) / steps;
+    block += on_block.force(dt) / steps;
+  }
+  const double weight = 1000.0 * g;
+  EXPECT_NEAR(block[1], -weight * 0.2 * (depth - top), 0.015 * weight * 0.2 * (depth - top));
+  EXPECT_NEAR(tank[1], -weight * 0.6 * depth, 0.002 * weight * 0.6 * depth);
+}
+
+// A wall that moves along a period has an image in the next one, which counted too: the bed lacked the weight of the
+// water that the block displaces.
+TEST(BalancedPressure, CountsAWallThatMovesAlongAPeriodOnce) {
+  constexpr double length = 0.8;
+  CaseSpec spec = empty_case(dx);
+  spec.domain.periodic_x = {0.0, length};
+  spec.walls = {polyline({{0.0, 0.0}, {length, 0.0}}),
+                testing_cases::box_wall({0.6, 0.1}, {0.7, 0.2}, {}, FluidSide::outside)};
+  spec.walls[0].name = "bed";
+  spec.walls[1].name = "block";
+  spec.walls[1].displacement = {"t", 0.0};
+  spec.fluid = {box_fluid({0.0, 0.0}, {length, depth})};
+  spec.fluid[0].velocity = {1.0, 0.0};
+  spec.probes = {force_probe({0.0, 0.0}, {"bed"}), force_probe({0.0, 0.0}, {"block"})};
+  Flow<2> flow = make_flow<2>(spec);
+  const Reader<2> on_bed(spec, flow, 0), on_block(spec, flow, 1);
+  const double weight = 1000.0 * g;
+  while (flow.state.time < 0.02) step(flow);
+  while (flow.state.time < 0.25) {  // the block crosses the boundary
+    const double dt = step(flow).dt;
+    EXPECT_NEAR(on_bed.force(dt)[1], -weight * length * depth, 0.01 * weight * length * depth) << flow.state.time;
+    EXPECT_NEAR(on_block.force(dt)[1], weight * 0.1 * 0.1, 0.05 * weight * 0.1 * 0.1) << flow.state.time;
+  }
+}
+
 // Water that has left its floor falls with g, although its lowest row is a surface with water above it.
 TEST(BalancedPressure, DoesNotHoldFallingWater) {
   CaseSpec spec = tank_case<2>(dx, 0.8, depth);

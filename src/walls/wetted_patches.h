@@ -83,7 +83,9 @@ class WettedPatches {
   NearestWall<Dim> nearest(const Boundary<Dim>& boundary, const Others& others, const Vec<Dim>& x) const;
 
   void find_part(const Boundary<Dim>& boundary, const WallPatch<Dim>& patch, std::size_t k);
-  bool is_under_wall(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches, std::size_t k) const;
+  std::vector<std::int32_t> patches_facing(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches,
+                                           std::int32_t k) const;
+  bool take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches);
 
   PeriodicDomain<Dim> domain_;
   double spacing_;

@@ -1,7 +1,9 @@
-#include "probes/wetted_patches.h"
+#include "walls/wetted_patches.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "base/for_each.h"
 #include "geometry/facing.h"
@@ -13,9 +15,15 @@ namespace {
 /// dx; edge of the pieces of a patch that another wall cuts.
 constexpr double edge_of_wet_pieces = 0.25;
 
-/// dx; a place that is less far behind a wall lies on it. Water has no access to a patch that is so near to a wall that
+/// dx; a place that is less far behind a wall lies on it. Water has no access to a place that is so near to a wall that
 /// faces it.
 constexpr double reach_of_cover = 0.05;
+
+/// dx; no place of a patch is farther from its centre.
+constexpr double radius_of_patches = 0.9;
+
+/// Fraction of a patch that is less than the rounding of its pieces.
+constexpr double no_share = 1e-9;
 
 }  // namespace
 
@@ -52,9 +60,7 @@ void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const Wa
   around_ = {};
   for (const Vec<Dim>& centre : centres_) around_.extend(centre);
   around_.widen(reach_);
-  for_each(patches.size(), [&](std::size_t k) {
-    if (is_under_wall(boundary, patches, k)) share_[k] = 0.0;
-  });
+  if (take_covered(boundary, patches)) grid_ = CellGrid<Dim>(centres_, reach_);
   parts_.clear();
   for (const std::int32_t k : grid_.order()) {
     const Vec<Dim>& normal = boundary.faces[patches[k].face].normal;
@@ -62,23 +68,70 @@ void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const Wa
   }
 }
 
-/// Whether another wall lies on the patch, as a bed does below a block that stands on it.
+/// Patches of walls that face patch k and may lie on it. Of two walls only one finds the other: a hull the wall that it
+/// stands on, because all of its bottom is covered.
 template <int Dim>
-bool WettedPatches<Dim>::is_under_wall(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches,
-                                       std::size_t k) const {
+std::vector<std::int32_t> WettedPatches<Dim>::patches_facing(const Boundary<Dim>& boundary,
+                                                             std::span<const WallPatch<Dim>> patches,
+                                                             std::int32_t k) const {
   const WallFace<Dim>& own = boundary.faces[patches[k].face];
-  const double reach = (longest_patch_edge + reach_of_cover) * spacing_;  // of the patch at the nearest place of a face
-  bool found = false;
+  const double radius = radius_of_patches * spacing_;
+  const double cover = reach_of_cover * spacing_;
+  std::vector<std::int32_t> facing;
   visit_images_of(centres_[k], [&](const Vec<Dim>& x) {
-    grid_.for_each_range_near(x, x, reach, [&](std::int32_t begin, std::int32_t end) {
-      for (std::int32_t n = begin; n < end && !found; ++n) {
-        const WallFace<Dim>& other = boundary.faces[patches[grid_.order()[n]].face];
-        if (other.wall == own.wall || !face_each_other<Dim>(own.normal, other.normal)) continue;
-        found = (closest_point(other, x) - x).norm() < reach_of_cover * spacing_;
+    grid_.for_each_range_near(x, x, 2.0 * radius + cover, [&](std::int32_t begin, std::int32_t end) {
+      for (std::int32_t n = begin; n < end; ++n) {
+        const std::int32_t m = grid_.order()[n];
+        const WallFace<Dim>& face = boundary.faces[patches[m].face];
+        if (std::pair(is_hull_[face.wall], own.wall) >= std::pair(is_hull_[own.wall], face.wall)) continue;
+        if (!face_each_other<Dim>(own.normal, face.normal)) continue;
+        if ((closest_point(face, x) - x).norm() < radius + cover) facing.push_back(m);
       }
     });
   });
-  return found;
+  return facing;
+}
+
+/// Takes what lies on another wall, such as the bottom of a block that stands on a bed, from the patches of both walls.
+/// Returns whether there is such a place.
+template <int Dim>
+bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
+  bool has_taken = false;
+  const auto take = [&](std::int32_t k, const Vec<Dim>& x, double measure) {
+    const double before = share_[k];
+    share_[k] -= measure / patches[k].measure;
+    if (share_[k] < no_share) share_[k] = 0.0;
+    if (share_[k] == 0.0) return;
+    const Vec<Dim> centre = centres_[k] + (before / share_[k] - 1.0) * (centres_[k] - x);
+    if ((centre - patches[k].centre(boundary)).norm() < radius_of_patches * spacing_) centres_[k] = centre;
+    has_taken = true;
+  };
+  for (std::int32_t k = 0; k < std::ssize(patches); ++k) {  // in order: several take from one patch
+    if (share_[k] == 0.0) continue;
+    const std::vector<std::int32_t> facing = patches_facing(boundary, patches, k);
+    if (facing.empty()) continue;
+    for (const WallPatch<Dim>& piece : pieces_of(patches[k], boundary, edge_of_wet_pieces * spacing_)) {
+      const Vec<Dim> place = piece.centre(boundary);
+      std::int32_t nearest = -1;
+      Vec<Dim> image = place;
+      double least = std::numeric_limits<double>::infinity();
+      visit_images_of(place, [&](const Vec<Dim>& x) {
+        for (const std::int32_t m : facing) {
+          const double distance = (patches[m].centre(boundary) - x).norm();
+          if (share_[m] == 0.0 || distance >= least) continue;
+          const Vec<Dim> to_face = closest_point(boundary.faces[patches[m].face], x) - x;
+          if (to_face.norm() >= reach_of_cover * spacing_) continue;
+          nearest = m;
+          least = distance;
+          image = x;
+        }
+      });
+      if (nearest < 0) continue;
+      take(k, place, piece.measure);
+      take(nearest, image, piece.measure);
+    }
+  }
+  return has_taken;
 }
 
 /// The wall of `others` nearest to x or to an image of it; none if they do not matter.
@@ -101,6 +154,7 @@ void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatc
   const int wall = boundary.faces[patch.face].wall;
   const Vec<Dim> centre = patch.centre(boundary);
   centres_[k] = centre;
+  if (boundary.faces[patch.face].is_image) share_[k] = 0.0;  // the face itself stands for it
   const double size = longest_patch_edge * spacing_;
   std::vector<const Others*> cutting;
   for (const Others& other : others_) {
