@@ -37,6 +37,17 @@ std::string home_of(std::string_view key) {
   return homes.empty() ? "" : fmt::format("it belongs to {}; ", fmt::join(homes, " or "));
 }
 
+/// Whether the expression of a level has the name of the discharge, which is also that of one of the numbers.
+bool has_ambiguous_discharge(const std::string& text, NamedNumbers numbers) {
+  if (numbers.erase(std::string(level_names[1])) == 0) return false;
+  try {
+    Formula(text, numbers, time_name);
+    return false;
+  } catch (const ExpressionError& error) {
+    return error.unknown_name() == level_names[1];
+  }
+}
+
 }  // namespace
 
 std::optional<double> number_in(const toml::node& node) {
@@ -301,6 +312,13 @@ std::optional<Varying> TableReader::read_varying(std::string_view key, const std
                                                       : position;
   const auto* text = node.as_string();
   if (variables == Variables::height) numbers.erase(std::string(height_name[0]));  // a parameter may have the name
+  if (text != nullptr && variables == Variables::level && has_ambiguous_discharge(text->get(), numbers)) {
+    wrong("q-is-a-parameter", key, *text,
+          "uses q, which would be the discharge of the opening, but the case has a parameter q; rename the parameter "
+          "here and in [parameters]",
+          place);
+    return std::nullopt;
+  }
   try {
     if (text != nullptr && Formula(text->get(), numbers, names).uses_variables()) return text->get();
   } catch (const ExpressionError& error) {

@@ -136,10 +136,11 @@ std::string case_reference_markdown() {
       "- names: the keys of `[parameters]` (letters, digits, `_`), `pi`, `dx` = `particles.spacing`, `g` = the "
       "magnitude of `physics.gravity`, which may use one another in any order; in `fluid.velocity` also `x`, `y`, `z`, "
       "the particle's position, and in what varies with time (such as `wall.displacement` and `inlet.discharge`) the "
-      "time `t`; none of these can name a parameter\n"
+      "time `t`; none of these can name a parameter. In the `level` of an opening `q` is its discharge; the case "
+      "must not have a parameter `q` then\n"
       "- functions: " +
       functions_text() +
-      "\n\n"
+      "; `log` and `ln` are natural logarithms\n\n"
       "## Changes from the command line\n\n"
       "`--set key=value` replaces or adds one value: `--set scheme.integrator=implicit`, `--set parameters.H=0.5`, "
       "`--set 'fluid[0].max=[1, 2]'` (tables count from 0), `--set probe.NAME.interval=0.01`. Words and expressions "

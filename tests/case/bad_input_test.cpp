@@ -527,6 +527,11 @@ const std::vector<BadInput> table{
     {"point_not_a_list", required_keys + water + "[[wall]]\npoints = [0]\n", "7:11", {"wall[0].points[0] = 0"}},
     {"points_not_a_list", required_keys + water + "[[wall]]\npoints = 1\n", "7:10", {"list of points in m"}},
     // Outlets
+    {"level_of_the_discharge_or_of_a_parameter",
+     "parameters.q = 0.1\nparameters.a = 1\n" + required_keys + water +
+         "[[outlet]]\nfrom = [1, 0]\nto = [1, 1]\nlevel = \"0.2 + a*q^(2/3)\"\n",
+     "11:9",
+     {"outlet[0].level", "the case has a parameter q", "rename the parameter"}},
     {"outlet_without_end", required_keys + water + "[[outlet]]\nfrom = [1, 0]\n", "6:1", {"outlet[0].to is missing"}},
     {"outlet_without_extent",
      required_keys + water + "[[outlet]]\nfrom = [1, 0]\nto = [1, 0]\n",

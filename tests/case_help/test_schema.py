@@ -34,6 +34,7 @@ UNSEEN = {
         "wall without length"},
     "expressions": {
         "displacement_of_a_position", "gravity_of_itself", "infinite_expression", "inlet_discharge_of_position",
+        "level_of_the_discharge_or_of_a_parameter",
         "parameter_is_reported_once", "parameter_of_itself", "parameter_of_unknown", "parameter_of_unknown_is_told_all_names",
         "parameter_that_waits_for_a_circle", "spacing_and_parameter_of_each_other", "range_of_an_expression",
         "rotation_of_an_unknown_function", "spacing_of_itself", "unknown_name",
