@@ -38,8 +38,8 @@ inline constexpr std::array<std::string_view, 1> time_name{"t"};
 /// Name of the height above an open end's lowest point, over the depth of the water, in profiles of velocity.
 inline constexpr std::array<std::string_view, 1> height_name{"s"};
 
-/// Names of the time and of the discharge through an open end, in expressions of its level. A parameter with the name
-/// of the discharge takes precedence.
+/// Names of the time and of the discharge through an open end, in expressions of its level. An expression that uses the
+/// latter is rejected if a parameter has its name.
 inline constexpr std::array<std::string_view, 2> level_names{"t", "q"};
 
 /// Variables of an expression, besides the named numbers.
@@ -991,8 +991,9 @@ struct LimitsTable {
   static void describe(Self& self, Visitor& v) {
     v.number("energy_warning", self.energy_warning, "", Range::at_least(0.0),
              "The run warns when the energy, without the work of walls, has risen by more than this fraction of m g "
-             "L/2 plus the kinetic energy and the work of open ends. A smaller rise than the energy of lifting the "
-             "water by dx/10 plus a tenth of that work and a twentieth of the work of walls does not count. 0: never");
+             "L/2 plus the kinetic energy and the largest work of open ends. A smaller rise than the energy of lifting "
+             "the water by dx/20 plus a tenth of that work and a twentieth of the largest work of walls does not "
+             "count. 0: never");
     v.number("energy_stop", self.energy_stop, "", Range::at_least(0.0), "The same fraction at which the run fails");
     v.number("volume_warning", self.volume_warning, "", Range::at_least(0.0),
              "The run warns when the mean density of the water away from the surface is off by more than this "

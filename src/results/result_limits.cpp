@@ -48,11 +48,10 @@ void ResultLimits::check(double time, double energy_rise, double work_of_ends, d
   // The work of the prescribed flow at open ends is an estimate, whose error grows with the water that passes. A case
   // that fills has hardly any energy at the start as a reference.
   const double volume = volume_at_start_ + measures.arrived.volume;
-  const double brought = volume * potential_scale_ + std::abs(work_of_ends);
+  const double brought = volume * potential_scale_ + work_of_ends;
   const double at_hand = brought + measures.kinetic_energy;
   if (at_hand <= 0.0) return;
-  const double harmless =
-      volume * unresolved_ + doubt_of_ends * std::abs(work_of_ends) + doubt_of_walls * std::abs(work_of_walls);
+  const double harmless = volume * unresolved_ + doubt_of_ends * work_of_ends + doubt_of_walls * work_of_walls;
   const double growth_scale = brought + kinetic_at_start_;
   check(energy_, time, energy_rise / at_hand, harmless / at_hand,
         energy_rise / (growth_scale > 0.0 ? growth_scale : at_hand));

@@ -16,10 +16,10 @@ class ResultLimits {
   ResultLimits(const LimitsTable& limits, const Flow<Dim>& flow);
 
   /// Call after every step; `energy_rise` [J] is the largest rise so far, `work_of_ends` and `work_of_walls` [J] the
-  /// work of the pressure at open ends and of moving walls. Warns when an error passes its limit. A rise of energy
-  /// causes no warning as long as it would lift the water's surface by less than a tenth of dx. A lattice cut by walls
-  /// determines its state of rest no better than that. Throws SolverError, which names the key, beyond a limit that
-  /// ends the run.
+  /// largest magnitudes of the work of the pressure at open ends and of moving walls. Warns when an error passes its
+  /// limit. A rise of energy causes no warning as long as it would lift the water's surface by less than a tenth of dx.
+  /// A lattice cut by walls determines its state of rest no better than that. Throws SolverError, which names the key,
+  /// beyond a limit that ends the run.
   void check(double time, double energy_rise, double work_of_ends, double work_of_walls, const FlowMeasures& measures);
   /// Warns again of errors that have grown since their warning. Call at the end of the run.
   void warn_of_largest();

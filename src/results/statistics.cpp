@@ -39,6 +39,8 @@ void RunStatistics::add(const StepReport& report, const FlowMeasures& measures, 
   brought_by_ends_ += report.work.ends;
   brought_by_air_ += report.work.air;
   brought_by_slope_ += report.work.slope;
+  largest_work_of_walls_ = std::max(largest_work_of_walls_, std::abs(brought_by_walls_));
+  largest_work_of_ends_ = std::max(largest_work_of_ends_, std::abs(brought_by_ends_));
   viscous_work_ += report.work.viscous;
   const double accounted = energy_end_ + report.fallen + energy_out_ - energy_in_ - brought_by_walls_ -
                            brought_by_ends_ - brought_by_air_ - brought_by_slope_;

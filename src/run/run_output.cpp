@@ -261,8 +261,8 @@ void RunOutput<Dim>::record_step(const Flow<Dim>& flow, const StepReport& report
   record_probes(flow, measures, report.dt);
   progress_.show(flow.state.time, flow.state.step, report, measures);
   try {
-    limits_.check(flow.state.time, statistics_.energy_rise(), statistics_.work_of_ends(), statistics_.work_of_walls(),
-                  measures);
+    limits_.check(flow.state.time, statistics_.energy_rise(), statistics_.largest_work_of_ends(),
+                  statistics_.largest_work_of_walls(), measures);
   } catch (const SolverError&) {
     write_fields(flow);
     frames_.write(flow);

@@ -45,6 +45,19 @@ TEST(RunStatistics, AddUpSteps) {
   EXPECT_EQ(json["volume"]["fluid_particles_end"], 98);
 }
 
+// A tide that ended where it began had no work left, and an old rise of the energy was held against it.
+TEST(RunStatistics, KeepTheLargestWorkOfATide) {
+  RunStatistics statistics(with_energy(0.0, 10.0), 10.0);
+  StepReport report = step_of(0.1, 1, 1);
+  for (const double work : {3.0, 1.0, -4.0}) {
+    report.work.ends = work;
+    report.work.walls = -work;
+    statistics.add(report, with_energy(0.0, 10.0), 0);
+  }
+  EXPECT_EQ(statistics.largest_work_of_ends(), 4.0);
+  EXPECT_EQ(statistics.largest_work_of_walls(), 4.0);
+}
+
 TEST(RunStatistics, KeepEnergyThatTheDensitySourceBringsApart) {
   RunStatistics statistics(with_energy(0.0, 10.0), 10.0);
   StepReport report = step_of(0.1, 1, 1);
