@@ -19,29 +19,6 @@
 namespace tailwater {
 namespace {
 
-/// Checks that a series lasts to the end of the run; `start` [s] is the time of the run at which it begins.
-void check_end_of_series(const TimeSeries& series, double start, double end, const CaseLabel& key,
-                         const toml::node* node, Problems& problems) {
-  const double last = series.empty() ? end : start + series.time.back();
-  if (node == nullptr || last >= end) return;
-  problems.wrong(
-      "series-ends-before-run", key, *node,
-      fmt::format("{}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; add lines (the "
-                  "last values again, if it then rests), or end the run before",
-                  series.file, series.line.back(), last, end));
-}
-
-void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problems& problems) {
-  for (std::size_t k = 0; k < spec.walls.size(); ++k) {
-    check_end_of_series(spec.walls[k].series, 0.0, spec.time.end, CaseLabel("wall", k).with_key("motion"),
-                        root["wall"][k]["motion"].node(), problems);
-  }
-  for (std::size_t k = 0; k < spec.gates.size(); ++k) {
-    check_end_of_series(spec.gates[k].series, spec.gates[k].start, spec.time.end, CaseLabel("gate", k).with_key("file"),
-                        root["gate"][k]["file"].node(), problems);
-  }
-}
-
 /// Checks an interval: a mistyped one would fill the disk, or make the run very slow.
 void check_interval(double interval, double end, double most, const CaseLabel& key, const toml::node* node,
                     std::string_view what, std::string_view remedy, Problems& problems) {

@@ -16,4 +16,7 @@ void check_named_walls(const CaseSpec& spec, const toml::table& root, Problems& 
 /// sound.
 void check_across_tables(const CaseSpec& spec, const toml::table& root, Problems& problems);
 
+/// Reports series of walls and gates that end before the run.
+void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problems& problems);
+
 }  // namespace tailwater

@@ -22,7 +22,6 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   }
   append(findings, check_wall_thickness(spec, boundary, fluid));
   append(findings, check_plates(spec, boundary));
-  if (!has_error(findings)) append(findings, check_closed_gaps(spec, boundary));
   append(findings, check_roughness(spec, boundary, fluid));
   append(findings, check_overlap(spec, boundary, fluid));
   append(findings, check_fluid_at_walls(spec, boundary, fluid));
@@ -45,6 +44,7 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   if (!has_error(findings)) append(findings, check_sealed_space(spec, boundary, fluid));
   append(findings, check_moving_walls(spec, boundary, fluid));
   if (!has_error(findings)) {
+    append(findings, check_closed_gaps(spec, boundary));
     append(findings, check_damping(spec, boundary, fluid));
     append(findings, check_wave_zones(spec, fluid));
     append(findings, check_probes(spec, boundary, fluid));

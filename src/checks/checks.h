@@ -52,7 +52,8 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
 template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Warning: an opening between walls at rest, or beside a plate, that is closed, or too narrow for its water.
+/// Warning: an opening between walls, or beside a plate, that is closed, or too narrow for its water. Walls on a path
+/// count where they come to rest before the end of the run. Their paths must be finite.
 template <int Dim>
 Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
@@ -136,7 +137,7 @@ Findings check_creep(const CaseSpec& spec, const FluidParticles<Dim>& fluid);
 template <int Dim>
 Findings check_units(const CaseSpec& spec);
 
-/// Warning: a gate or a wave maker that starts after the end of the run.
+/// Warning: a gate, a wave maker or a measurement that starts after the end of the run.
 Findings check_late_starts(const CaseSpec& spec);
 
 /// Warning: a zone that reflects waves, brakes a flow, or whose own waves the particles do not resolve. Errors: a level

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "geometry/mesh_surface.h"
 #include "geometry/plate_shape.h"
 #include "geometry/wall_label.h"
+#include "motion/wall_motion.h"
 #include "refinement/spacing_field.h"
 
 namespace tailwater {
@@ -32,6 +35,9 @@ constexpr double min_facing_of_gap = 0.7;
 
 /// Minimum cosine: places within 60 degrees of the outward direction of an edge are beyond it, not beside the plate.
 constexpr double min_beyond_edge = 0.5;
+
+/// Fraction of the run's time; walls that are where they were then have come to rest.
+constexpr double start_of_rest = 0.95;
 
 /// An opening between two walls that is too narrow for water.
 template <int Dim>
@@ -122,16 +128,24 @@ std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int
   return near;
 }
 
+/// Walls at some time, and which of them are at rest then.
+template <int Dim>
+struct WallsAtRest {
+  Boundary<Dim> boundary;
+  std::vector<std::uint8_t> rests;  ///< by wall
+};
+
 /// Faces of other walls at rest within `reach` of an edge of a plate.
 template <int Dim>
-std::vector<int> faces_near_plate(const Boundary<Dim>& boundary, int plate, const std::vector<PlateEdge<Dim>>& edges,
+std::vector<int> faces_near_plate(const WallsAtRest<Dim>& walls, int plate, const std::vector<PlateEdge<Dim>>& edges,
                                   double reach) {
+  const Boundary<Dim>& boundary = walls.boundary;
   EdgeBox<Dim> box;
   for (const PlateEdge<Dim>& edge : edges) box.extend(box_of(edge));
   std::vector<int> others;
   for (int f = 0; f < static_cast<int>(boundary.faces.size()); ++f) {
     const int wall = boundary.faces[f].wall;
-    if (wall != plate && !boundary.walls[wall].moves()) others.push_back(f);
+    if (wall != plate && walls.rests[wall] != 0) others.push_back(f);
   }
   return faces_near<Dim>(boundary, others, box, reach);
 }
@@ -193,12 +207,14 @@ std::optional<Gap<Dim>> gap_between(const WallFace<Dim>& face, const WallFace<Di
 
 /// Gaps between walls, except walls of one body that are no plates: near a corner, and in a fold, these are as near.
 template <int Dim>
-std::vector<Gap<Dim>> gaps_of(const Boundary<Dim>& boundary, double dx) {
+std::vector<Gap<Dim>> gaps_of(const WallsAtRest<Dim>& walls, double dx) {
+  const Boundary<Dim>& boundary = walls.boundary;
   std::vector<Gap<Dim>> gaps;
   for (const WallPlate& plate : boundary.plates) {
-    if (boundary.walls[plate.wall].moves()) continue;
+    const bool is_drawn_elsewhere = plate.sheet && boundary.walls[plate.wall].moves();  // edges_of
+    if (walls.rests[plate.wall] == 0 || is_drawn_elsewhere) continue;
     const std::vector<PlateEdge<Dim>> edges = edges_of(boundary, plate, dx);
-    const std::vector<int> faces = faces_near_plate<Dim>(boundary, plate.wall, edges, narrow * dx);
+    const std::vector<int> faces = faces_near_plate<Dim>(walls, plate.wall, edges, narrow * dx);
     for (const PlateEdge<Dim>& edge : edges) {
       auto gap = closed_gap_beside<Dim>(boundary, plate.wall, edge, dx);
       if (!gap) gap = narrow_gap_beyond<Dim>(boundary, faces, plate.wall, edge, dx);
@@ -207,14 +223,62 @@ std::vector<Gap<Dim>> gaps_of(const Boundary<Dim>& boundary, double dx) {
   }
   boundary.visit_plain_faces([&](int f) {
     const WallFace<Dim>& face = boundary.faces[f];
-    if (boundary.walls[face.wall].moves()) return;
+    if (walls.rests[face.wall] == 0) return;
     boundary.visit_plain_faces([&](int g) {
       const WallFace<Dim>& other = boundary.faces[g];
-      if (other.wall == face.wall || boundary.walls[other.wall].moves()) return;
+      if (other.wall == face.wall || walls.rests[other.wall] == 0) return;
       if (const auto gap = gap_between<Dim>(face, other, dx)) gaps.push_back(*gap);
     });
   });
   return gaps;
+}
+
+/// The walls where those on a path are at `time` [s].
+template <int Dim>
+Boundary<Dim> walls_at(const CaseSpec& spec, const Boundary<Dim>& drawn, double time) {
+  Boundary<Dim> boundary = drawn;
+  WallParticles<Dim> no_particles;
+  const WallMotion<Dim> motion(spec, boundary, no_particles);
+  motion.place(time, initial_motion<Dim>(spec), boundary, no_particles);
+  return boundary;
+}
+
+/// The walls at the end of the run, where a gate or another wall on a path may have come to rest. If none has, no wall
+/// counts as at rest.
+template <int Dim>
+WallsAtRest<Dim> walls_at_end(const CaseSpec& spec, const Boundary<Dim>& drawn) {
+  WallsAtRest<Dim> end{drawn, std::vector<std::uint8_t>(drawn.walls.size(), 0)};
+  for (int wall = 0; wall < std::ssize(drawn.walls); ++wall) {
+    const Drive::By by = spec.walls[wall].drive.by;
+    if (drawn.walls[wall].moves() && by != Drive::By::body && by != Drive::By::wave_maker) end.rests[wall] = 1;
+  }
+  if (std::ranges::find(end.rests, 1) == end.rests.end()) return end;
+  end.boundary = walls_at<Dim>(spec, drawn, spec.time.end);
+  const Boundary<Dim> before = walls_at<Dim>(spec, drawn, start_of_rest * spec.time.end);
+  for (std::size_t f = 0; f < end.boundary.faces.size(); ++f) {
+    const WallFace<Dim>& face = end.boundary.faces[f];
+    for (int c = 0; c < Dim; ++c) {
+      const double way = (face.corners[c] - before.faces[f].corners[c]).norm();
+      if (!(way < narrowest_drawn * spec.particles.spacing)) end.rests[face.wall] = 0;
+    }
+  }
+  if (std::ranges::find(end.rests, 1) == end.rests.end()) return end;
+  for (int wall = 0; wall < std::ssize(drawn.walls); ++wall) end.rests[wall] |= drawn.walls[wall].moves() ? 0 : 1;
+  return end;
+}
+
+/// Adds the gaps beside walls on a path that are not as wide as when drawn: a piston may slide along a narrow gap.
+template <int Dim>
+void append_new_gaps(const Boundary<Dim>& boundary, const std::vector<Gap<Dim>>& drawn,
+                     const std::vector<Gap<Dim>>& at_end, double dx, std::vector<Gap<Dim>>& gaps) {
+  for (const Gap<Dim>& gap : at_end) {
+    const auto is_the_same = [&](const Gap<Dim>& other) {
+      return other.wall == gap.wall && other.other == gap.other &&
+             std::abs(other.width - gap.width) < narrowest_drawn * dx;
+    };
+    const bool has_moved = boundary.walls[gap.wall].moves() || boundary.walls[gap.other].moves();
+    if (has_moved && std::ranges::none_of(drawn, is_the_same)) gaps.push_back(gap);
+  }
 }
 
 /// `local` is the spacing in the gap [m]. Whether it counts as closed depends on that of the case (hang_screens).
@@ -223,19 +287,21 @@ Finding finding_of(const Boundary<Dim>& boundary, const Gap<Dim>& gap, double dx
   const CaseLabel a = wall_label(boundary, gap.wall);
   const CaseLabel b = wall_label(boundary, gap.other);
   const Amount width{gap.width, "m"};
+  const bool has_moved = boundary.walls[gap.wall].moves() || boundary.walls[gap.other].moves();
+  const std::string_view when = has_moved ? " at the end of the run" : "";
   const double good_spacing = gap.width / rows_of_good_gap;
   if (gap.width <= closed * dx) {
     return Finding::warning(
         "gap-closed",
-        {"the gap of {:.3g} between {} and {} at {} counts as closed, because it is narrower than half a spacing",
-         width, a, b, place(gap.where)},
+        {"the gap of {:.3g} between {} and {} at {}{} counts as closed, because it is narrower than half a spacing",
+         width, a, b, place(gap.where), when},
         {"let the walls touch, or use a spacing of at most {:.3g} m to let water pass", good_spacing});
   }
   return Finding::warning(
       "gap-few-rows",
-      {"the gap of {:.3g} between {} and {} at {} is {:.1f} spacings wide, so too little water "
+      {"the gap of {:.3g} between {} and {} at {}{} is {:.1f} spacings wide, so too little water "
        "passes: under a plate above a bed about 20 % less with half a spacing, 9 % with one and 4 % with four",
-       width, a, b, place(gap.where), gap.width / local},
+       width, a, b, place(gap.where), when, gap.width / local},
       {"use a spacing of at most {:.3g} m", good_spacing});
 }
 
@@ -265,7 +331,11 @@ template <int Dim>
 Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
   const SpacingField<Dim> field(spec, boundary);
-  std::vector<Gap<Dim>> gaps = gaps_of<Dim>(boundary, dx);
+  WallsAtRest<Dim> drawn{boundary, {}};
+  for (const WallProperties& wall : boundary.walls) drawn.rests.push_back(wall.moves() ? 0 : 1);
+  const WallsAtRest<Dim> end = walls_at_end(spec, boundary);
+  std::vector<Gap<Dim>> gaps = gaps_of(drawn, dx);
+  append_new_gaps(boundary, gaps_of<Dim>({boundary, end.rests}, dx), gaps_of(end, dx), dx, gaps);
   std::stable_sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) { return a.width < b.width; });
   Findings findings;
   std::set<std::pair<int, int>> reported;
