@@ -2,11 +2,13 @@
 
 import argparse
 import math
+import os
 import sys
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
-from .errors import DataError, IoError
+from .errors import DataError, InputError, IoError, RunWarning, SolverError
 
 __all__ = ["Parser", "complain", "exit_code_of", "number"]
 
@@ -38,12 +40,33 @@ def complain(what, code: int) -> int:
     return code
 
 
-def exit_code_of(work: Callable[[], object]) -> int:
-    """Runs a command and prints its error. Returns the exit code: 0, 2 for wrong input, 4 for a file."""
-    try:
-        work()
-    except DataError as error:
-        return complain(error, 2)
-    except (IoError, OSError) as error:
-        return complain(error, 4)
-    return 0
+def show_warning(message, *_, **__):
+    print(f"warning: {message}", file=sys.stderr)
+
+
+def exit_code_of(work: Callable[[], object], code_of_data: int = 2) -> int:
+    """Runs a command and prints its warnings, each once, and its error. Returns what `work` returns, or 0 for None; 2
+    for wrong input, 3 for a failed solve, 4 for a file and 130 after an interruption; `code_of_data` for insufficient
+    data. A reader of the output may leave early, as head does."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("once", RunWarning)
+        warnings.showwarning = show_warning
+        try:
+            code = work() or 0
+            sys.stdout.flush()
+            return code
+        except InputError as error:
+            return complain(error, 2)
+        except SolverError as error:
+            return complain(error, 3)
+        except DataError as error:
+            return complain(error, code_of_data)
+        except IoError as error:
+            return complain(error, 4)
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # which Python flushes at its end
+            return 0
+        except OSError as error:
+            return complain(f"{error.filename}: {error.strerror}" if error.filename else error, 4)
+        except KeyboardInterrupt:
+            return 130

@@ -8,6 +8,7 @@ and estimates their cost.
 import json
 import math
 import os
+import re
 import sys
 import tempfile
 import tomllib
@@ -19,8 +20,8 @@ import numpy as np
 from .case import Case
 from .case_features import dimension_of
 from .case_text import toml_value
-from .command_line import Parser, complain
-from .errors import DataError, Error, InputError
+from .command_line import Parser, exit_code_of
+from .errors import DataError, InputError
 from .program import call
 from .run import Run
 from .study import COARSEST, Study
@@ -221,11 +222,15 @@ def names_for(case, count):
 
 
 def checked_with(case, tables, *words):
-    """The output of `tailwater check` for a case with these tables. Throws InputError."""
+    """The output of `tailwater check` for a case with these tables. Throws InputError, without places in the file that
+    was made for the check."""
     with tempfile.NamedTemporaryFile("w", suffix=".toml", dir=case.file.parent, prefix=f".{case.file.stem}-") as file:
         file.write(text_with(case, tables))
         file.flush()
-        return call("check", *words, file.name)
+        try:
+            return call("check", *words, file.name)
+        except InputError as error:
+            raise InputError(re.sub(rf"{re.escape(file.name)}(:\d+)*: ", "", str(error))) from error
 
 
 def cost_of(case, tables):
@@ -317,6 +322,8 @@ def refine(options):
     if not tables:
         print(f"# No zone: no water is thinner than {ROWS} rows of particles of {spacing:g} m for long, nor around gauges."
               if not refused else "# No zone is left.")
+        if options.write:
+            print(f"# {options.write} is not written, because the case would have no zone.")
         return
     print("\n" + "\n".join(tables))
     print("\n".join(f"# {line}" for line in cost))
@@ -344,15 +351,7 @@ def main(arguments):
         parser.error(f"--zones {options.zones}: give at least 1")
     if options.program:
         os.environ["TAILWATER"] = str(options.program)
-    try:
-        refine(options)
-    except (InputError, DataError) as error:
-        return complain(error, 2)
-    except (Error, OSError) as error:
-        return complain(error, 4)
-    except KeyboardInterrupt:
-        return 130
-    return 0
+    return exit_code_of(lambda: refine(options))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import os
 import sys
 from pathlib import Path
 
-from .command_line import Parser, complain
+from .command_line import Parser, exit_code_of
 
 
 def parser():
@@ -46,20 +46,7 @@ def main(arguments=None):
     options = parser().parse_args(arguments)
     if options.program:
         os.environ["TAILWATER"] = str(options.program)
-    from .errors import DataError, InputError, IoError, SolverError
-
-    try:
-        return work(options)
-    except (DataError, InputError) as error:
-        return complain(error, 2)
-    except SolverError as error:
-        return complain(error, 3)
-    except IoError as error:
-        return complain(error, 4)
-    except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}", 4)
-    except KeyboardInterrupt:
-        return 130
+    return exit_code_of(lambda: work(options))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Faults that make a number unreliable: a leak, a missed level, energy that rose, an unfinished run, an answer that
 still changes, a single spacing."""
 
+import math
 import re
 
 from .case_differences import differing_keys
@@ -14,6 +15,7 @@ LEAK = 1e-3  # of the initial water and inflow
 MIN_SPACINGS = 3
 MIN_READINGS = 10  # of a probe in the time over which its result is taken
 UNFINISHED, SEVERAL_PROGRAMS = "unfinished", "its runs were made by programs of different commits"
+START_STEPS = 10  # in which water that is released at once finds its pressure
 MAX_KEYS = 3  # differing keys that a fault names
 # Warnings of the program, found by words of its messages (a test checks that the sources still contain them).
 MESSAGES = {"the energy rose": re.compile(r"energy rose"),
@@ -51,6 +53,21 @@ def change_of(run, answer):
     """[(kind, details)] of an answer that is a mean and still changes at the end of the run."""
     what = words_of(run, answer)
     return [("the answer is not steady", what)] if "still" in what else []
+
+
+def start_of(run, answer):
+    """[(kind, details)] of an answer that is a largest value of the first steps, unless the mean has about its size."""
+    quantities = run.results.get(answer["probe"], {}).get("quantities", [])
+    one = next((one for one in quantities if one["name"] == answer["quantity"]), None)
+    time = re.match(r"at ([\d.e+-]+) s", one["what"]) if one else None
+    is_last = time and float(time[1]) >= 0.999 * run.summary["time_s"]["reached"]
+    if not time or is_last or float(time[1]) > START_STEPS * run.summary["steps"]["dt_mean_s"]:
+        return []
+    mean = math.hypot(*(other["value"] for other in quantities
+                        if other["unit"] == one["unit"] and "second half" in other["what"]))
+    if mean > 0.95 * abs(one["value"]):
+        return []
+    return [("the answer is a value of the start, when all water is released at once", one["what"])]
 
 
 def words_of(run, answer) -> str:
@@ -94,7 +111,8 @@ def faults_of_run(run, answer):
         reached, end = summary.get("time_s", {}).get("reached"), run.case["time"]["end"]
         place = f"at t = {reached:.4g} of {end:.4g} s" if reached is not None else f"before t = {end:.4g} s"
         return [(f"a run is {UNFINISHED}", f"{run.status} {place}")]
-    water, found = water_of(summary), [*readings_of(run, answer), *change_of(run, answer)] if answer else []
+    water, found = water_of(summary), [
+        *readings_of(run, answer), *change_of(run, answer), *start_of(run, answer)] if answer else []
     if water["outside_relative"] > LEAK:
         found.append(("water leaks", f"{100 * water['outside_relative']:.3g} % left the walls"))
     if abs(water["missing_relative"]) > LEAK:

@@ -243,7 +243,8 @@ class Run:
         return [wall_chain(wall) for wall in self.case.get("wall", []) if not is_moving(wall)]
 
     def walls_at(self, time: float):
-        """The walls at a time (s), with hulls of floating bodies at the positions that a motion probe recorded."""
+        """The walls at rest, and hulls of floating bodies where a motion probe recorded them at a time (s). Gates and other
+        walls on a path are not among them."""
         found = {probe["body"]: probe["name"] for probe in self.case.get("probe", []) if probe["type"] == "motion"}
         placed = {hull: place_of(self, body, found[body["name"]], time) for body in self.case.get("body", [])
                   if body["name"] in found for hull in body["walls"]}

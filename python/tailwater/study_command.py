@@ -9,7 +9,7 @@ import re
 import sys
 import tomllib
 
-from .command_line import Parser, complain
+from .command_line import Parser, exit_code_of
 
 UNITS = {"": 1, "s": 1, "min": 60, "h": 3600}
 
@@ -81,23 +81,14 @@ def main():
         os.environ["TAILWATER"] = str(options.program)
     import tailwater as tw  # imported late, when the path of the program is known
 
-    try:
+    def work():
         case = tw.Case(options.case)
         case.update(dict(options.set))
         found = tw.study(case, out=options.out, spacings=options.spacings, budget=options.budget, starts=options.starts,
                          jobs=options.jobs, ranks=options.ranks, progress=not options.quiet)
         print(found.text(), end="")
-    except tw.InputError as error:
-        return complain(error, 2)
-    except (tw.SolverError, tw.DataError) as error:
-        return complain(error, 3)
-    except tw.IoError as error:
-        return complain(error, 4)
-    except OSError as error:
-        return complain(f"{error.filename}: {error.strerror}", 4)
-    except KeyboardInterrupt:
-        return 130
-    return 0
+
+    return exit_code_of(work, code_of_data=3)
 
 
 if __name__ == "__main__":

@@ -412,6 +412,10 @@ def solitary(run, names=()):
     depth = float(gauges.depth[:, 0].mean())
     steepness = float(np.mean([gauge["height_m"] for gauge in found.values()])) / depth
     theory = np.sqrt(run.gravity * depth * (1 + steepness - steepness**2 / 20 - 3 * steepness**3 / 70))
+    if not 0.5 < speed / theory < 2.0:
+        raise DataError(f"the highest crests at the gauges are not those of one solitary wave: they would run at {speed:.4g} "
+                        f"m/s, and such a wave runs at {theory:.4g} m/s; remedy: leave out --solitary, or name gauges "
+                        f"that it passes in this order")
     return {"gauges": found, "depth_m": depth, "speed_m_per_s": float(speed),
             "theory_m_per_s": float(theory), "difference": float(speed / theory - 1)}
 

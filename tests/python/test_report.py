@@ -131,6 +131,20 @@ class MadeUp(PackageTest):
         self.assertIn("relied on: the answer is not steady (mean of the second half, still rising)",
                       self.first_line(results=results))
 
+    def test_largest_value_of_the_start(self):
+        def line(time, mean, dt=0.01):
+            results = summary()["results"]
+            results["depth"]["quantities"] = [
+                {"name": "depth", "value": 0.6, "unit": "m", "what": f"at {time} s"},
+                {"name": "mean depth", "value": mean, "unit": "m", "what": "mean of the second half"}]
+            shutil.rmtree("s", ignore_errors=True)
+            return self.first_line(results=results, steps={"count": 6, "dt_mean_s": dt})
+
+        told = "the answer is a value of the start, when all water is released at once (at 0.02 s)"
+        self.assertIn(told, line(0.02, 0.3))
+        self.assertNotIn("value of the start", line(0.02, 0.59))
+        self.assertNotIn("value of the start", line(0.02, 0.3, dt=0.001))
+
     def test_probe_that_is_read_too_seldom(self):
         results = summary()["results"]
         results["depth"]["quantities"][0]["what"] = "mean of the second half"
