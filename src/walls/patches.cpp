@@ -15,7 +15,7 @@ namespace {
 constexpr double reach_of_rows = 2.0;
 
 /// dx; half of the depth in another wall down to which a patch is known to be behind it.
-constexpr double reach_of_walls = 6.0;
+constexpr double depth_of_covers = 6.0;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::shared_ptr<PatchesOfWalls<Dim>> divide_into_patches(const CaseSpec& spec, c
   const auto patches = std::make_shared<PatchesOfWalls<Dim>>(
       PatchesOfWalls<Dim>{.all = make_wall_patches(walls.boundary, longest_patch_edge * spacing),
                           .row = {},
-                          .wetted = {spec, walls.boundary, spacing, reach_of_walls * spacing}});
+                          .wetted = {spec, walls.boundary, spacing, depth_of_covers * spacing}});
   patches->wetted.place(walls.boundary, patches->all);
   patches->row.assign(patches->all.size(), -1);
   const std::span<const Vec<Dim>> rows = std::span(walls.particles.position).first(walls.moving);
