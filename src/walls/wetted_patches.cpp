@@ -68,8 +68,35 @@ void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const Wa
   }
 }
 
-/// Patches of walls that face patch k and may lie on it. Of two walls only one finds the other: a hull the wall that it
-/// stands on, because all of its bottom is covered.
+/// Whether the places that wall lies on belong to it rather than to the other one: a hull stands on a wall that is
+/// none, because all of its bottom is covered.
+template <int Dim>
+bool WettedPatches<Dim>::lies_on(int wall, int other) const {
+  return std::pair(is_hull_[other], wall) < std::pair(is_hull_[wall], other);
+}
+
+/// By wall, whether some of it may lie on another one.
+template <int Dim>
+std::vector<std::uint8_t> WettedPatches<Dim>::find_covered_walls(const Boundary<Dim>& boundary) const {
+  std::vector<Box<Dim>> boxes(boundary.walls.size());
+  for (const WallFace<Dim>& face : boundary.faces) {
+    if (!face.is_image) boxes[face.wall].extend(face.box());
+  }
+  std::vector<std::uint8_t> is_covered(boxes.size(), 0);
+  for (int wall = 0; wall < std::ssize(boxes); ++wall) {
+    if (boxes[wall].isEmpty()) continue;
+    Box<Dim> around = boxes[wall];
+    around.widen(reach_of_cover * spacing_);
+    for (int other = 0; other < std::ssize(boxes); ++other) {
+      if (boxes[other].isEmpty() || !lies_on(wall, other)) continue;
+      if (around.intersects(boxes[other])) is_covered[wall] = 1;
+      visit_images<Dim>(domain_, boxes[other], around, [&](const Vec<Dim>& /*by*/) { is_covered[wall] = 1; });
+    }
+  }
+  return is_covered;
+}
+
+/// Patches that face patch k and may lie on it, in the order of their faces.
 template <int Dim>
 std::vector<std::int32_t> WettedPatches<Dim>::patches_facing(const Boundary<Dim>& boundary,
                                                              std::span<const WallPatch<Dim>> patches,
@@ -83,13 +110,37 @@ std::vector<std::int32_t> WettedPatches<Dim>::patches_facing(const Boundary<Dim>
       for (std::int32_t n = begin; n < end; ++n) {
         const std::int32_t m = grid_.order()[n];
         const WallFace<Dim>& face = boundary.faces[patches[m].face];
-        if (std::pair(is_hull_[face.wall], own.wall) >= std::pair(is_hull_[own.wall], face.wall)) continue;
-        if (!face_each_other<Dim>(own.normal, face.normal)) continue;
-        if ((closest_point(face, x) - x).norm() < radius + cover) facing.push_back(m);
+        if (!lies_on(own.wall, face.wall) || !face_each_other<Dim>(own.normal, face.normal)) continue;
+        if (std::abs(face.height(x)) < radius + cover) facing.push_back(m);
       }
     });
   });
+  std::ranges::sort(facing);
   return facing;
+}
+
+/// The patch on which a place lies, and the image of the place there; -1 if it lies on none.
+template <int Dim>
+std::pair<std::int32_t, Vec<Dim>> WettedPatches<Dim>::patch_under(const Boundary<Dim>& boundary,
+                                                                  std::span<const WallPatch<Dim>> patches,
+                                                                  const std::vector<std::int32_t>& facing,
+                                                                  const Vec<Dim>& place) const {
+  std::pair<std::int32_t, Vec<Dim>> nearest{-1, place};
+  double least = std::numeric_limits<double>::infinity();
+  visit_images_of(place, [&](const Vec<Dim>& x) {
+    int looked_at = -1;
+    bool is_on_face = false;
+    for (const std::int32_t m : facing) {
+      const int f = patches[m].face;
+      if (f != looked_at) is_on_face = (closest_point(boundary.faces[f], x) - x).norm() < reach_of_cover * spacing_;
+      looked_at = f;
+      const double distance = (patches[m].centre(boundary) - x).norm();
+      if (!is_on_face || share_[m] == 0.0 || distance >= least) continue;
+      least = distance;
+      nearest = {m, x};
+    }
+  });
+  return nearest;
 }
 
 /// Takes what lies on another wall, such as the bottom of a block that stands on a bed, from the patches of both walls.
@@ -106,29 +157,17 @@ bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<c
     if ((centre - patches[k].centre(boundary)).norm() < radius_of_patches * spacing_) centres_[k] = centre;
     has_taken = true;
   };
+  const std::vector<std::uint8_t> is_covered = find_covered_walls(boundary);
   for (std::int32_t k = 0; k < std::ssize(patches); ++k) {  // in order: several take from one patch
-    if (share_[k] == 0.0) continue;
+    if (share_[k] == 0.0 || is_covered[boundary.faces[patches[k].face].wall] == 0) continue;
     const std::vector<std::int32_t> facing = patches_facing(boundary, patches, k);
     if (facing.empty()) continue;
     for (const WallPatch<Dim>& piece : pieces_of(patches[k], boundary, edge_of_wet_pieces * spacing_)) {
       const Vec<Dim> place = piece.centre(boundary);
-      std::int32_t nearest = -1;
-      Vec<Dim> image = place;
-      double least = std::numeric_limits<double>::infinity();
-      visit_images_of(place, [&](const Vec<Dim>& x) {
-        for (const std::int32_t m : facing) {
-          const double distance = (patches[m].centre(boundary) - x).norm();
-          if (share_[m] == 0.0 || distance >= least) continue;
-          const Vec<Dim> to_face = closest_point(boundary.faces[patches[m].face], x) - x;
-          if (to_face.norm() >= reach_of_cover * spacing_) continue;
-          nearest = m;
-          least = distance;
-          image = x;
-        }
-      });
-      if (nearest < 0) continue;
+      const auto [under, image] = patch_under(boundary, patches, facing, place);
+      if (under < 0) continue;
       take(k, place, piece.measure);
-      take(nearest, image, piece.measure);
+      take(under, image, piece.measure);
     }
   }
   return has_taken;
@@ -171,6 +210,10 @@ void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatc
       return nearest(boundary, *other, x).signed_distance < -reach_of_cover * spacing_;
     });
   };
+  int behind = is_behind(centre) ? 1 : 0;  // of the centre and the corners
+  for (int c = 0; c < Dim; ++c) behind += is_behind(patch.corner(boundary, c)) ? 1 : 0;
+  if (behind == Dim + 1) share_[k] = 0.0;
+  if (behind == 0 || behind == Dim + 1) return;
   double wet = 0.0;
   Vec<Dim> sum = Vec<Dim>::Zero();
   for (const WallPatch<Dim>& piece : pieces_of(patch, boundary, edge_of_wet_pieces * spacing_)) {

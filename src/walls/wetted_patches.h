@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/box.h"
@@ -83,6 +84,10 @@ class WettedPatches {
   NearestWall<Dim> nearest(const Boundary<Dim>& boundary, const Others& others, const Vec<Dim>& x) const;
 
   void find_part(const Boundary<Dim>& boundary, const WallPatch<Dim>& patch, std::size_t k);
+  bool lies_on(int wall, int other) const;
+  std::vector<std::uint8_t> find_covered_walls(const Boundary<Dim>& boundary) const;
+  std::pair<std::int32_t, Vec<Dim>> patch_under(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches,
+                                                const std::vector<std::int32_t>& facing, const Vec<Dim>& place) const;
   std::vector<std::int32_t> patches_facing(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches,
                                            std::int32_t k) const;
   bool take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches);
