@@ -113,7 +113,7 @@ template <int Dim>
 int FixedHulls<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
   if (!has_hulls() || !can_seal_) return 0;
   NarrowGaps<Dim> gaps(flow, hulls(near_patches_), flow.state.time);
-  gaps.measure({});
+  gaps.find_films({});
   sealed_ = gaps.find_sealed(flow.state.particles.pressure);
   let_through_films(sealed_, flow);
   return 0;

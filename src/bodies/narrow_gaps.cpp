@@ -40,8 +40,9 @@ NarrowGaps<Dim>::NarrowGaps(const Flow<Dim>& flow, const Hulls<Dim>& hulls, doub
   std::vector<Vec<Dim>> places;
   for (const Piece& piece : pieces_) places.push_back(piece.x);
   places_ = CellGrid<Dim>(places, reach_of_pairs * flow_.setup.scale.spacing);
-  for (const Vec<Dim>& place : places) around_.extend(place);
-  around_.widen(reach_of_pairs * flow_.setup.scale.spacing);
+  around_.resize(static_cast<std::size_t>(hulls_.count));
+  for (const Piece& piece : pieces_) around_[static_cast<std::size_t>(piece.hull)].extend(piece.x);
+  for (Box<Dim>& around : around_) around.widen(reach_of_pairs * flow_.setup.scale.spacing);
   number_gaps();
   find_nearest();
   find_water();
@@ -208,7 +209,7 @@ void NarrowGaps<Dim>::hold_water(Flow<Dim>& flow, std::span<const std::size_t> s
 }
 
 template <int Dim>
-void NarrowGaps<Dim>::measure(std::span<const std::size_t> stagnant) {
+void NarrowGaps<Dim>::find_films(std::span<const std::size_t> stagnant) {
   if (pieces_.empty()) return;
   is_stagnant_.assign(flow_.state.particles.size(), 0.0);
   stagnant_.assign(stagnant.begin(), stagnant.end());
@@ -216,13 +217,18 @@ void NarrowGaps<Dim>::measure(std::span<const std::size_t> stagnant) {
   flow_.halo().exchange(is_stagnant_);
   look_at_water();
   find_shares();
-  measure_pairs();
+}
+
+template <int Dim>
+void NarrowGaps<Dim>::measure(std::span<const std::size_t> stagnant) {
+  find_films(stagnant);
+  if (!pieces_.empty()) measure_pairs();
 }
 
 template <int Dim>
 std::int32_t NarrowGaps<Dim>::nearest_piece(int hull, const Vec<Dim>& x) const {
   std::int32_t nearest = -1;
-  if (!around_.contains(x)) return nearest;
+  if (pieces_.empty() || !around_[static_cast<std::size_t>(hull)].contains(x)) return nearest;
   double least = reach_of_pairs * flow_.setup.scale.spacing;
   places_.for_each_near(x, [&](std::int32_t n) {
     const double distance = (x - pieces_[n].x).norm();

@@ -43,12 +43,14 @@ class NarrowGaps {
 
   /// Owned water in gaps that are narrower than 0.75 dx, beside fixed hulls 1.5 dx.
   std::vector<std::size_t> find_stagnant() const;
-  /// Measures the pair forces of the water that is not stagnant per pressure. Collective.
+  /// Finds the water that is not stagnant, and the films where there is none. Collective.
+  void find_films(std::span<const std::size_t> stagnant);
+  /// Also measures the pair forces of this water per pressure. Collective.
   void measure(std::span<const std::size_t> stagnant);
   /// Holds the stagnant water at rest, with the pressure of the water around it. Changes the flow's rows. Collective.
   void hold_water(Flow<Dim>& flow, std::span<const std::size_t> stagnant) const;
 
-  /// The sealed water at the present `pressure` [Pa], after `measure` (sealed_water.cpp). Collective.
+  /// The sealed water at the present `pressure` [Pa], after `find_films` (sealed_water.cpp). Collective.
   SealedWater find_sealed(const std::vector<double>& pressure) const;
   /// Whether a hull touches another wall, or some piece faces one across a gap that a film can fill.
   bool can_seal() const {
@@ -227,8 +229,8 @@ class NarrowGaps {
   std::vector<std::size_t> stagnant_;  ///< owned
   std::vector<double> is_stagnant_;    ///< of all particles, 1 or 0
   static constexpr std::size_t twist_size = Dim + turns<Dim>;
-  CellGrid<Dim> places_;  ///< of the pieces
-  Box<Dim> around_;       ///< box around all places near pieces
+  CellGrid<Dim> places_;          ///< of the pieces
+  std::vector<Box<Dim>> around_;  ///< of each hull, contains all places near its pieces
 };
 
 }  // namespace tailwater

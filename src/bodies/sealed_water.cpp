@@ -148,6 +148,9 @@ SealedWater NarrowGaps<Dim>::find_sealed(const std::vector<double>& pressure) co
   flow_.setup.ranks.min_of_each(least);
   std::vector<double> water(pieces_.size());  // of each piece, -1: none or several
   for (std::size_t n = 0; n < water.size(); ++n) water[n] = least[3 * n] == -least[3 * n + 1] ? least[3 * n] : -1.0;
+  const auto one = std::ranges::find_if(water, [](double number) { return number >= 0.0; });
+  const bool has_others = std::any_of(one, water.end(), [&](double other) { return other >= 0.0 && other != *one; });
+  if (!has_others) return sealed;
   const std::vector<double> heads = heads_beside(pressure);
   std::vector<double> spaces;
   std::vector<double> target(flow_.state.particles.owned, -1.0);
