@@ -71,11 +71,12 @@ FixedHulls<Dim>::FixedHulls(const Boundary<Dim>& boundary, std::vector<int> hull
   const bool moves = std::ranges::any_of(boundary.walls, &WallProperties::moves);
   const double reach = reach_of_shares * spacing;
   for (const WallPatch<Dim>& patch : make_wall_patches(boundary, spacing)) {
-    const int hull = hull_of_wall_[boundary.faces[patch.face].wall];
+    const WallFace<Dim>& face = boundary.faces[patch.face];
+    const int hull = hull_of_wall_[face.wall];
     const auto is_near = [&](const ContactSurface<Dim>& surface) {
       return surface.hull != hull && surface.boundary.nearest(patch.centre(boundary), reach).face >= 0;
     };
-    if (hull < 0) continue;
+    if (hull < 0 || face.is_image) continue;
     all_patches_.push_back(patch);
     if (moves || std::ranges::any_of(surfaces_, is_near)) near_patches_.push_back(patch);
   }
