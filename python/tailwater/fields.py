@@ -1,5 +1,6 @@
 """The field files of a run."""
 
+import math
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,6 +84,8 @@ def spacings_of(run, frame: Frame) -> np.ndarray:
 def nearest_frames(run_folder, times) -> list:
     """The frame nearest to each of `times` (s)."""
     frames = list_frames(run_folder)
+    if any(math.isnan(time) for time in times):
+        raise DataError(f"{run_folder}: no frame is nearest to the time nan; remedy: give a number")
     if not frames:
         raise DataError(f"{run_folder}: the run wrote no field files")
     return [read_frame(*min(frames, key=lambda frame: abs(frame[0] - time))) for time in times]

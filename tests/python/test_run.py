@@ -66,6 +66,8 @@ class Runs(PackageTest):
         self.assertEqual([last.position.shape, last["velocity"].shape, last["pressure"].shape],
                          [(50, 3), (50, 3), (50,)])
         self.assertLess(abs(run.at(0.0).position[:, :2].mean(axis=0) - [0.5, 0.25]).max(), 1e-6)
+        with self.assertRaisesRegex(tw.DataError, "no frame is nearest"):
+            run.at(float("nan"))
         self.assertIn("50 particles, pressure", repr(last))
         with self.assertRaisesRegex(KeyError, "there are pressure"):
             last["speed"]
