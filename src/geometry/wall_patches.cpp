@@ -10,10 +10,13 @@
 namespace tailwater {
 namespace {
 
+/// Relative rounding of an edge that is as long as the longest. A wall that has moved has as many patches as drawn.
+constexpr double same_length = 1e-6;
+
 template <int Dim>
 void add_pieces(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, double longest,
                 std::vector<WallPatch<Dim>>& pieces) {
-  double length = longest;
+  double length = (1.0 + same_length) * longest;
   std::array<int, 2> edge{-1, -1};
   for (int a = 0; a < Dim; ++a) {
     for (int b = a + 1; b < Dim; ++b) {

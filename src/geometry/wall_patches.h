@@ -33,8 +33,9 @@ inline constexpr double longest_patch_edge = 1.5;
 /// Upper limit for the number of patches, which then take about 10 GB.
 inline constexpr double max_wall_patches = 1e8;
 
-/// Patches of all faces, halved at their longest edges until none is longer than `longest` [m]. The patches of a face
-/// are consecutive. Throws CaseError for more than `max_wall_patches` of them, before it allocates memory.
+/// Patches of all faces, halved at their longest edges until none is longer than `longest` [m]. Walls that have moved
+/// have as many patches as the walls as drawn. The patches of a face are consecutive. Throws CaseError for more than
+/// `max_wall_patches` of them, before it allocates memory.
 template <int Dim>
 std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest);
 

@@ -83,6 +83,20 @@ TEST(WallPatches, AreCountedBeforeTheyAreMade) {
   }
 }
 
+// The edges of a box of four times the length of a patch differ in their last digits once it has moved, and so did its
+// number of patches: a force probe read beyond the end of its own ones.
+TEST(WallPatches, AreAsManyWhenTheirWallHasMoved) {
+  CaseSpec spec = testing_cases::empty_case(0.05, 3);
+  spec.walls = {testing_cases::box_wall({0.35, 0.15, 0.1}, {0.65, 0.45, 0.4}, {}, FluidSide::outside)};
+  const Boundary<3> drawn = make_boundary<3>(spec);
+  const std::size_t count = make_wall_patches(drawn, 0.075).size();
+  for (const double way : {0.001, 0.1, 0.37, 123.4}) {
+    Boundary<3> moved = drawn;
+    for (WallFace<3>& face : moved.faces) face = face.moved(Vec<3>(way, -2.0 * way, 0.3 * way));
+    EXPECT_EQ(make_wall_patches(moved, 0.075).size(), count) << way;
+  }
+}
+
 TEST(MeshFile, IsScaledTurnedAndMoved) {
   const MeshFolder folder;
   WallTable wall = folder.wall(box_mesh({0.0, 0.0, 0.0}, {1000.0, 200.0, 300.0}), FluidSide::inside);
