@@ -8,15 +8,21 @@
 namespace tailwater {
 namespace {
 
+/// Keys of a table with the name of a series' file and its checksum.
+struct SeriesKeys {
+  std::string_view file;
+  std::string_view checksum;
+};
+
 /// Checks that a series of this table lasts to the end of the run; `start` [s] is the time of the run at which it
 /// begins. A table with a checksum, such as that of a run that is resumed, keeps its file.
 void check_end_of_series(const TimeSeries& series, double start, double end, const CaseLabel& owner,
-                         std::string_view key, const toml::node_view<const toml::node>& table, Problems& problems) {
+                         const SeriesKeys& keys, const toml::node_view<const toml::node>& table, Problems& problems) {
   const double last = series.empty() ? end : start + series.time.back();
-  const toml::node* node = table[key].node();
+  const toml::node* node = table[keys.file].node();
   if (node == nullptr || last >= end) return;
-  const CaseLabel label = owner.with_key(key);
-  if (table["checksum"]) {
+  const CaseLabel label = owner.with_key(keys.file);
+  if (table[keys.checksum]) {
     problems.wrong(
         "series-of-run-too-short", label, *node,
         fmt::format("{}:{}: its last line is that of t = {:.9g} s, and the run ends at {:.9g} s; end the run "
@@ -35,12 +41,12 @@ void check_end_of_series(const TimeSeries& series, double start, double end, con
 
 void check_ends_of_series(const CaseSpec& spec, const toml::table& root, Problems& problems) {
   for (std::size_t k = 0; k < spec.walls.size(); ++k) {
-    check_end_of_series(spec.walls[k].series, 0.0, spec.time.end, CaseLabel("wall", k), "motion", root["wall"][k],
-                        problems);
+    check_end_of_series(spec.walls[k].series, 0.0, spec.time.end, CaseLabel("wall", k), {"motion", "motion_checksum"},
+                        root["wall"][k], problems);
   }
   for (std::size_t k = 0; k < spec.gates.size(); ++k) {
-    check_end_of_series(spec.gates[k].series, spec.gates[k].start, spec.time.end, CaseLabel("gate", k), "file",
-                        root["gate"][k], problems);
+    check_end_of_series(spec.gates[k].series, spec.gates[k].start, spec.time.end, CaseLabel("gate", k),
+                        {"file", "checksum"}, root["gate"][k], problems);
   }
 }
 

@@ -278,6 +278,12 @@ class Refused(Resumed):
     def test_an_end_that_the_run_has_passed(self):
         self.refuse("run", "--set", "time.end=0.01", parts=("time.end = 0.01 s", "which the run has reached"))
 
+    def test_an_end_after_that_of_a_series(self):
+        self.run_case("rolls", "--set", HALF, *ROLL)
+        self.before = self.listing()
+        self.refuse("rolls", "--set", "time.end=1", parts=("roll.csv:26", "t = 0.48 s", "the run ends at 1 s",
+                                                           "start another run with a longer file"))
+
     def test_a_folder_that_is_no_runs(self):
         (self.folder / "other").mkdir()
         self.before = self.listing()
