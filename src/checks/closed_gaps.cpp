@@ -128,11 +128,11 @@ std::vector<int> faces_near(const Boundary<Dim>& boundary, const std::vector<int
   return near;
 }
 
-/// Walls at some time, and which of them are at rest then.
+/// Walls at some time, and which of them count as at rest then. Borrows the walls.
 template <int Dim>
 struct WallsAtRest {
-  Boundary<Dim> boundary;
-  std::vector<std::uint8_t> rests;  ///< by wall
+  const Boundary<Dim>& boundary;
+  const std::vector<std::uint8_t>& rests;  ///< by wall
 };
 
 /// Faces of other walls at rest within `reach` of an edge of a plate.
@@ -243,41 +243,38 @@ Boundary<Dim> walls_at(const CaseSpec& spec, const Boundary<Dim>& drawn, double 
   return boundary;
 }
 
-/// The walls at the end of the run, where a gate or another wall on a path may have come to rest. If none has, no wall
-/// counts as at rest.
+/// Adds the gaps that a gate or another wall on a path leaves where it comes to rest before the end of the run, unless
+/// they are as wide as when drawn: a piston may slide along a narrow gap.
 template <int Dim>
-WallsAtRest<Dim> walls_at_end(const CaseSpec& spec, const Boundary<Dim>& drawn) {
-  WallsAtRest<Dim> end{drawn, std::vector<std::uint8_t>(drawn.walls.size(), 0)};
-  for (int wall = 0; wall < std::ssize(drawn.walls); ++wall) {
+void append_gaps_at_end(const CaseSpec& spec, const Boundary<Dim>& drawn, std::vector<Gap<Dim>>& gaps) {
+  const double dx = spec.particles.spacing;
+  std::vector<std::uint8_t> has_stopped(drawn.walls.size(), 0);
+  for (std::size_t wall = 0; wall < drawn.walls.size(); ++wall) {
     const Drive::By by = spec.walls[wall].drive.by;
-    if (drawn.walls[wall].moves() && by != Drive::By::body && by != Drive::By::wave_maker) end.rests[wall] = 1;
+    has_stopped[wall] = drawn.walls[wall].moves() && by != Drive::By::body && by != Drive::By::wave_maker ? 1 : 0;
   }
-  if (std::ranges::find(end.rests, 1) == end.rests.end()) return end;
-  end.boundary = walls_at<Dim>(spec, drawn, spec.time.end);
+  const auto has_any = [&] { return std::ranges::find(has_stopped, 1) != has_stopped.end(); };
+  if (!has_any()) return;
   const Boundary<Dim> before = walls_at<Dim>(spec, drawn, start_of_rest * spec.time.end);
-  for (std::size_t f = 0; f < end.boundary.faces.size(); ++f) {
-    const WallFace<Dim>& face = end.boundary.faces[f];
+  const Boundary<Dim> end = walls_at<Dim>(spec, drawn, spec.time.end);
+  for (std::size_t f = 0; f < end.faces.size(); ++f) {
+    const WallFace<Dim>& face = end.faces[f];
     for (int c = 0; c < Dim; ++c) {
       const double way = (face.corners[c] - before.faces[f].corners[c]).norm();
-      if (!(way < narrowest_drawn * spec.particles.spacing)) end.rests[face.wall] = 0;
+      if (!(way < narrowest_drawn * dx)) has_stopped[face.wall] = 0;
     }
   }
-  if (std::ranges::find(end.rests, 1) == end.rests.end()) return end;
-  for (int wall = 0; wall < std::ssize(drawn.walls); ++wall) end.rests[wall] |= drawn.walls[wall].moves() ? 0 : 1;
-  return end;
-}
-
-/// Adds the gaps beside walls on a path that are not as wide as when drawn: a piston may slide along a narrow gap.
-template <int Dim>
-void append_new_gaps(const Boundary<Dim>& boundary, const std::vector<Gap<Dim>>& drawn,
-                     const std::vector<Gap<Dim>>& at_end, double dx, std::vector<Gap<Dim>>& gaps) {
-  for (const Gap<Dim>& gap : at_end) {
+  if (!has_any()) return;
+  std::vector<std::uint8_t> rests = has_stopped;
+  for (std::size_t wall = 0; wall < rests.size(); ++wall) rests[wall] |= drawn.walls[wall].moves() ? 0 : 1;
+  const std::vector<Gap<Dim>> gaps_as_drawn = gaps_of<Dim>({drawn, rests}, dx);
+  for (const Gap<Dim>& gap : gaps_of<Dim>({end, rests}, dx)) {
     const auto is_the_same = [&](const Gap<Dim>& other) {
       return other.wall == gap.wall && other.other == gap.other &&
              std::abs(other.width - gap.width) < narrowest_drawn * dx;
     };
-    const bool has_moved = boundary.walls[gap.wall].moves() || boundary.walls[gap.other].moves();
-    if (has_moved && std::ranges::none_of(drawn, is_the_same)) gaps.push_back(gap);
+    if (has_stopped[gap.wall] == 0 && has_stopped[gap.other] == 0) continue;
+    if (std::ranges::none_of(gaps_as_drawn, is_the_same)) gaps.push_back(gap);
   }
 }
 
@@ -331,11 +328,10 @@ template <int Dim>
 Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary) {
   const double dx = spec.particles.spacing;
   const SpacingField<Dim> field(spec, boundary);
-  WallsAtRest<Dim> drawn{boundary, {}};
-  for (const WallProperties& wall : boundary.walls) drawn.rests.push_back(wall.moves() ? 0 : 1);
-  const WallsAtRest<Dim> end = walls_at_end(spec, boundary);
-  std::vector<Gap<Dim>> gaps = gaps_of(drawn, dx);
-  append_new_gaps(boundary, gaps_of<Dim>({boundary, end.rests}, dx), gaps_of(end, dx), dx, gaps);
+  std::vector<std::uint8_t> rests;
+  for (const WallProperties& wall : boundary.walls) rests.push_back(wall.moves() ? 0 : 1);
+  std::vector<Gap<Dim>> gaps = gaps_of<Dim>({boundary, rests}, dx);
+  append_gaps_at_end(spec, boundary, gaps);
   std::stable_sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) { return a.width < b.width; });
   Findings findings;
   std::set<std::pair<int, int>> reported;
