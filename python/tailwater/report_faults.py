@@ -57,12 +57,12 @@ def change_of(run, answer):
 
 def start_of(run, answer):
     """[(kind, details)] of an answer that is a largest value of the first steps, unless the mean has about its size."""
-    quantities = run.results.get(answer["probe"], {}).get("quantities", [])
-    one = next((one for one in quantities if one["name"] == answer["quantity"]), None)
-    time = re.match(r"at ([\d.e+-]+) s", one["what"]) if one else None
+    time = re.match(r"at ([\d.e+-]+) s", words_of(run, answer))
     is_last = time and float(time[1]) >= 0.999 * run.summary["time_s"]["reached"]
     if not time or is_last or float(time[1]) > START_STEPS * run.summary["steps"]["dt_mean_s"]:
         return []
+    quantities = run.results[answer["probe"]]["quantities"]
+    one = next(one for one in quantities if one["name"] == answer["quantity"])
     mean = math.hypot(*(other["value"] for other in quantities
                         if other["unit"] == one["unit"] and "second half" in other["what"]))
     if mean > 0.95 * abs(one["value"]):

@@ -144,10 +144,10 @@ std::pair<std::int32_t, Vec<Dim>> WettedPatches<Dim>::patch_under(const Boundary
 }
 
 /// Takes what lies on another wall, such as the bottom of a block that stands on a bed, from the patches of both walls.
-/// Returns whether there is such a place.
+/// Returns whether a centre has moved.
 template <int Dim>
 bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
-  bool has_taken = false;
+  bool has_moved = false;
   const auto take = [&](std::int32_t k, const Vec<Dim>& x, double measure) {
     const double before = share_[k];
     share_[k] -= measure / patches[k].measure;
@@ -155,7 +155,7 @@ bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<c
     if (share_[k] == 0.0) return;
     const Vec<Dim> centre = centres_[k] + (before / share_[k] - 1.0) * (centres_[k] - x);
     if ((centre - patches[k].centre(boundary)).norm() < radius_of_patches * spacing_) centres_[k] = centre;
-    has_taken = true;
+    has_moved = true;
   };
   const std::vector<std::uint8_t> is_covered = find_covered_walls(boundary);
   for (std::int32_t k = 0; k < std::ssize(patches); ++k) {  // in order: several take from one patch
@@ -170,7 +170,7 @@ bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<c
       take(under, image, piece.measure);
     }
   }
-  return has_taken;
+  return has_moved;
 }
 
 /// The wall of `others` nearest to x or to an image of it; none if they do not matter.
@@ -193,7 +193,10 @@ void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatc
   const int wall = boundary.faces[patch.face].wall;
   const Vec<Dim> centre = patch.centre(boundary);
   centres_[k] = centre;
-  if (boundary.faces[patch.face].is_image) share_[k] = 0.0;  // the face itself stands for it
+  if (boundary.faces[patch.face].is_image) {  // the face itself stands for it
+    share_[k] = 0.0;
+    return;
+  }
   const double size = longest_patch_edge * spacing_;
   std::vector<const Others*> cutting;
   for (const Others& other : others_) {
