@@ -107,8 +107,8 @@ Flow<Dim>::Flow(const CaseSpec& spec, const FlowFormulation<Dim>& formulation, s
   setup.wall_motion->get_velocity(0.0, state.motion, state.wall_velocity);
   equation->rows.set_constant_is_free(setup.is_closed);
   walls.forces.pressure_is_requested = has_force_probe(spec);
-  if (setup.formulation.balanced_ramp != nullptr && (has_force_probe(spec) || setup.wall_motion->has_paths())) {
-    walls.patches = divide_into_patches(spec, walls);
+  if (has_force_probe(spec) || (setup.formulation.balanced_ramp != nullptr && setup.wall_motion->has_paths())) {
+    walls.patches = std::make_shared<PatchesOfWalls<Dim>>(spec, walls);
   }
   walls.forces.are_requested =
       has_force_probe(spec) || std::ranges::any_of(parts, [](const auto& part) { return part->needs_wall_forces(); });

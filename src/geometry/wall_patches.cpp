@@ -15,8 +15,8 @@ constexpr double same_length = 1e-6;
 
 template <int Dim>
 void add_pieces(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, double longest,
-                std::vector<WallPatch<Dim>>& pieces) {
-  double length = (1.0 + same_length) * longest;
+                const FractionAt<Dim>& fraction_at, std::vector<WallPatch<Dim>>& pieces) {
+  double length = (1.0 + same_length) * longest * (fraction_at ? fraction_at(patch.centre(boundary)) : 1.0);
   std::array<int, 2> edge{-1, -1};
   for (int a = 0; a < Dim; ++a) {
     for (int b = a + 1; b < Dim; ++b) {
@@ -36,7 +36,7 @@ void add_pieces(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, doub
     WallPatch<Dim> half = patch;
     half.corners[end] = middle;
     half.measure *= 0.5;
-    add_pieces(half, boundary, longest, pieces);
+    add_pieces(half, boundary, longest, fraction_at, pieces);
   }
 }
 
@@ -71,18 +71,19 @@ void require_few_patches(const Boundary<Dim>& boundary, double longest) {
 template <int Dim>
 std::vector<WallPatch<Dim>> pieces_of(const WallPatch<Dim>& patch, const Boundary<Dim>& boundary, double longest) {
   std::vector<WallPatch<Dim>> pieces;
-  add_pieces(patch, boundary, longest, pieces);
+  add_pieces<Dim>(patch, boundary, longest, {}, pieces);
   return pieces;
 }
 
 template <int Dim>
-std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest) {
+std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest,
+                                              const FractionAt<Dim>& fraction_at) {
   require_few_patches(boundary, longest);
   std::vector<WallPatch<Dim>> patches;
   for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
     WallPatch<Dim> whole{static_cast<int>(f), {}, boundary.faces[f].measure()};
     for (int c = 0; c < Dim; ++c) whole.corners[c][c] = 1.0;
-    add_pieces(whole, boundary, longest, patches);
+    add_pieces(whole, boundary, longest, fraction_at, patches);
   }
   return patches;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "geometry/boundary.h"
@@ -33,11 +34,16 @@ inline constexpr double longest_patch_edge = 1.5;
 /// Upper limit for the number of patches, which then take about 10 GB.
 inline constexpr double max_wall_patches = 1e8;
 
-/// Patches of all faces, halved at their longest edges until none is longer than `longest` [m]. Walls that have moved
-/// have as many patches as the walls as drawn. The patches of a face are consecutive. Throws CaseError for more than
-/// `max_wall_patches` of them, before it allocates memory.
+/// A fraction, at most 1, at each place; empty: 1 everywhere.
 template <int Dim>
-std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest);
+using FractionAt = std::function<double(const Vec<Dim>&)>;
+
+/// Patches of all faces, halved at their longest edges until none is longer than `longest` [m] times `fraction_at` its
+/// centre. Walls that have moved have as many patches as the walls as drawn. The patches of a face are consecutive.
+/// Throws CaseError for more than `max_wall_patches` of them where the fraction is 1, before it allocates memory.
+template <int Dim>
+std::vector<WallPatch<Dim>> make_wall_patches(const Boundary<Dim>& boundary, double longest,
+                                              const FractionAt<Dim>& fraction_at = {});
 
 /// The pieces of one patch, divided in the same way.
 template <int Dim>

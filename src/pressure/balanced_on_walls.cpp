@@ -30,38 +30,40 @@ struct DeepPatches {
   /// Those with more than `least` [Pa] of `q`.
   DeepPatches(const Flow<Dim>& flow, const std::vector<double>& q, double least)
       : boundary(flow.walls.boundary),
-        patches(flow.walls.patches->all),
-        spacing(flow.setup.scale.spacing),
+        patches(flow.walls.patches->all()),
         index(indices_where(q.size(), [&](std::size_t k) { return q[k] > least; })) {
-    for (const std::size_t k : index) centres.push_back(flow.walls.patches->wetted.centres()[k]);
-    grid = CellGrid<Dim>(centres, reach_across_film * spacing);
+    for (const std::size_t k : index) {
+      centres.push_back(flow.walls.patches->wetted().centres()[k]);
+      spacing.push_back(flow.setup.scale.spacing * flow.setup.relative_spacing(centres.back()));
+    }
+    grid = CellGrid<Dim>(centres, reach_across_film * flow.setup.scale.spacing);
   }
 
   const WallFace<Dim>& face(std::size_t n) const { return boundary.faces[patches[index[n]].face]; }
 
   const Boundary<Dim>& boundary;
-  const std::vector<WallPatch<Dim>>& patches;
-  double spacing;  ///< m
+  std::span<const WallPatch<Dim>> patches;
   std::vector<std::size_t> index;
   std::vector<Vec<Dim>> centres;
-  CellGrid<Dim> grid;  ///< of the centres
+  std::vector<double> spacing;  ///< m; of the particles there
+  CellGrid<Dim> grid;           ///< of the centres
 };
 
 /// 0 for patches without water in front of them. Collective.
 template <int Dim>
 std::vector<double> find_water_in_front(const Flow<Dim>& flow, const DeepPatches<Dim>& deep) {
-  const double reach = reach_in_front * deep.spacing;
   Box<Dim> around;
   for (const Vec<Dim>& centre : deep.centres) around.extend(centre);
-  around.widen(reach);
+  around.widen(reach_in_front * flow.setup.scale.spacing);
   std::vector<double> water_in_front(deep.index.size(), 0.0);
   const auto wet_near = [&](const Vec<Dim>& x) {
     if (!around.contains(x)) return;
     deep.grid.for_each_near(x, [&](std::int32_t n) {
       const Vec<Dim> offset = x - deep.centres[n];
+      const double reach = reach_in_front * deep.spacing[n];
       const Vec<Dim>& normal = deep.face(n).normal;
       if (offset.dot(normal) <= 0.0 || offset.squaredNorm() >= reach * reach || water_in_front[n] != 0.0) return;
-      const Vec<Dim> eye = deep.centres[n] + margin_of_eye * deep.spacing * normal;
+      const Vec<Dim> eye = deep.centres[n] + margin_of_eye * deep.spacing[n] * normal;
       if (!is_hidden<Dim>(deep.boundary.screens, deep.boundary.screens_near(eye, reach), eye, x)) {
         water_in_front[n] = 1.0;
       }
@@ -82,7 +84,7 @@ std::vector<double> find_water_in_front(const Flow<Dim>& flow, const DeepPatches
 template <int Dim>
 bool has_film(const DeepPatches<Dim>& deep, std::size_t n) {
   const Vec<Dim>& normal = deep.face(n).normal;
-  const double reach = reach_across_film * deep.spacing;
+  const double reach = reach_across_film * deep.spacing[n];
   bool found = false;
   deep.grid.for_each_near(deep.centres[n], [&](std::int32_t m) {
     const Vec<Dim> offset = deep.centres[m] - deep.centres[n];
@@ -116,13 +118,13 @@ template <int Dim>
 std::vector<double> balanced_on_walls(Flow<Dim>& flow) {
   const BalancedPressure<Dim> balanced(flow);
   if (flow.walls.patches == nullptr || balanced.is_linear()) return {};
-  place_patches(flow.walls, *flow.walls.patches);
+  flow.walls.patches->place(flow.walls.boundary);
   const PatchesOfWalls<Dim>& patches = *flow.walls.patches;
-  std::vector<double> q(patches.all.size());
+  std::vector<double> q(patches.all().size());
   for_each(q.size(), [&](std::size_t k) {
-    const Vec<Dim>& normal = flow.walls.boundary.faces[patches.all[k].face].normal;
-    const bool is_wet = patches.wetted.share(static_cast<std::int32_t>(k)) > 0.0;
-    q[k] = is_wet ? balanced.on_wall(patches.wetted.centres()[k], normal) : 0.0;
+    const Vec<Dim>& normal = flow.walls.boundary.faces[patches.all()[k].face].normal;
+    const bool is_wet = patches.wetted().share(static_cast<std::int32_t>(k)) > 0.0;
+    q[k] = is_wet ? balanced.on_wall(patches.wetted().centres()[k], normal) : 0.0;
   });
   keep_wet_walls(flow, balanced.below_level(least_depth * flow.setup.scale.spacing), q);
   return q;
@@ -133,7 +135,7 @@ std::vector<bool> walls_with_balanced(const Flow<Dim>& flow) {
   const std::vector<double>& balanced = flow.walls.forces.balanced;
   std::vector<bool> walls(flow.walls.boundary.walls.size(), false);
   for (std::size_t k = 0; k < balanced.size(); ++k) {
-    if (balanced[k] > 0.0) walls[flow.walls.boundary.faces[flow.walls.patches->all[k].face].wall] = true;
+    if (balanced[k] > 0.0) walls[flow.walls.boundary.faces[flow.walls.patches->all()[k].face].wall] = true;
   }
   return walls;
 }

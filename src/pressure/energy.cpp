@@ -95,12 +95,12 @@ double excess_work_of_balanced(const Flow<Dim>& flow, std::span<const Vec<Dim>> 
   double work = -wall_work(flow, from, q, dt, [&](int wall) { return has_path[wall]; });
   if (!flow.setup.ranks.is_root()) return work;
   for (std::size_t k = 0; k < balanced.size(); ++k) {
-    const WallPatch<Dim>& patch = flow.walls.patches->all[k];
+    const WallPatch<Dim>& patch = flow.walls.patches->all()[k];
     const WallFace<Dim>& face = boundary.faces[patch.face];
     if (balanced[k] == 0.0 || !has_path[face.wall]) continue;
-    const std::int32_t row = flow.walls.patches->row[k];
+    const std::int32_t row = flow.walls.patches->row(k);
     const Vec<Dim> mean = 0.5 * (entry_of<Dim>(from, row) + entry_of<Dim>(flow.state.wall_velocity, row));
-    const double area = patch.measure * flow.walls.patches->wetted.share(static_cast<std::int32_t>(k));
+    const double area = patch.measure * flow.walls.patches->wetted().share(static_cast<std::int32_t>(k));
     work += dt * balanced[k] * area * face.normal.dot(mean);
   }
   return work;

@@ -28,6 +28,9 @@
 
 namespace tailwater {
 
+template <int Dim>
+class PatchesOfWalls;
+
 /// Totals of all pockets of enclosed air. In 2D per metre of width.
 struct PocketTotals {
   double pressure = 0.0;  ///< Pa; pressure of the largest pocket, above the atmosphere's
@@ -69,6 +72,7 @@ struct ProbeContext {
   PeriodicDomain<Dim> domain = {};
   double dt = 0.0;                               ///< s; duration of the last step; 0 at the start
   const WallForces<Dim>* wall_forces = nullptr;  ///< in this step; null unless a probe needs them
+  PatchesOfWalls<Dim>* patches = nullptr;        ///< of the forces; the probe places them
   /// In this step; null where no wall moves or is curved. The same on all ranks.
   const WallInertia<Dim>* wall_inertia = nullptr;
   std::span<const BodyState<Dim>> bodies = {};  ///< floating bodies

@@ -25,21 +25,22 @@ class NearbyParts {
  public:
   void clear() { cells_.clear(); }
 
-  /// `taken` has the fraction of each patch, `mover` a number of each patch, equal for patches that move alike. Both
-  /// must be the same until `clear`.
+  /// `least` [m] is the least reach of a place, at most that of the patches. `taken` has the fraction of each patch,
+  /// `mover` a number of each patch, equal for patches that move alike. Both must be the same until `clear`.
   template <class Mover>
-  NearbyPart at(const Vec<Dim>& x, const WettedPatches<Dim>& wetted, std::span<const double> taken, Mover&& mover) {
+  NearbyPart at(const Vec<Dim>& x, const WettedPatches<Dim>& wetted, double least, std::span<const double> taken,
+                Mover&& mover) {
     constexpr double edges_per_reach = 2.0;
     const double edge = wetted.reach() / edges_per_reach;
     const Cell<Dim> cell = cell_of<Dim>(x, edge);
     const auto [known, is_new] = cells_.try_emplace(cell_key<Dim>(cell));
-    if (is_new) known->second = in_cell(cell, edge, wetted, taken, mover);
+    if (is_new) known->second = in_cell(cell, edge, wetted, least, taken, mover);
     return known->second;
   }
 
  private:
   template <class Mover>
-  static NearbyPart in_cell(const Cell<Dim>& cell, double edge, const WettedPatches<Dim>& wetted,
+  static NearbyPart in_cell(const Cell<Dim>& cell, double edge, const WettedPatches<Dim>& wetted, double least,
                             std::span<const double> taken, const Mover& mover) {
     Box<Dim> box;
     for (const double side : {0.0, 1.0}) {
@@ -54,7 +55,7 @@ class NearbyParts {
     bool is_near_all_places = false;
     wetted.visit_near(box, [&](std::int32_t k, const Vec<Dim>& x) {
       if (box.exteriorDistance(x) >= wetted.reach()) return;
-      is_near_all_places = is_near_all_places || (x - centre).norm() + half_diagonal < wetted.reach();
+      is_near_all_places = is_near_all_places || (x - centre).norm() + half_diagonal < least;
       const bool moves_alike = part.patch < 0 || mover(k) == mover(part.patch);
       has_other = has_other || taken[k] < 1.0 || !moves_alike;
       if (taken[k] > 0.0) part = {NearbyPart::Kind::all, k};

@@ -28,18 +28,17 @@ class PatchShares {
   };
 
   /// The sums over all patches near a particle at x, and over the `taken` fractions of them, with weights by size and
-  /// distance. The particle's own patches are those whose side it is on: behind the plane for a wall particle, in front
-  /// of it for water. The pressure's force counts for all patches except those that face the nearest own patch. So no
-  /// force is transferred across a gap or through a thin body. Friction counts for the own patches. Lists the taken
-  /// patches if `lists` is true.
-  std::pair<Sharing<Dim>, Sharing<Dim>> find(const WettedPatches<Dim>& wetted, const Vec<Dim>& x, bool is_water,
-                                             std::span<const double> taken, bool lists) {
+  /// distance, within `reach` [m]. The particle's own patches are those whose side it is on: behind the plane for a
+  /// wall particle, in front of it for water. The pressure's force counts for all patches except those that face the
+  /// nearest own patch. So no force is transferred across a gap or through a thin body. Friction counts for the own
+  /// patches. Lists the taken patches if `lists` is true.
+  std::pair<Sharing<Dim>, Sharing<Dim>> find(const WettedPatches<Dim>& wetted, const Vec<Dim>& x, double reach,
+                                             bool is_water, std::span<const double> taken, bool lists) {
     list_.clear();
     others_.clear();
     Sums own;
     double largest = 0.0;
     Vec<Dim> own_normal = Vec<Dim>::Zero();
-    const double reach = wetted.reach();
     wetted.visit_near(x, [&](const auto& part, const Vec<Dim>& offset) {
       const double squared = offset.squaredNorm();
       if (squared >= reach * reach) return;

@@ -25,45 +25,25 @@
 #include "probes/patch_shares.h"
 #include "probes/places.h"
 #include "probes/wall_pressure.h"
-#include "refinement/spacing_field.h"
-#include "sampling/wall_particles.h"
-#include "walls/wetted_patches.h"
+#include "walls/patches.h"
 
 namespace tailwater {
 namespace {
 
-/// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer (wall_particles.h).
-constexpr double patch_margin = 1.0;
-
-/// m; the largest spacing at the walls of a probe.
-template <int Dim>
-double spacing_at_walls(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  const double dx = spec.particles.spacing;
-  const SpacingField<Dim> field(spec, boundary);
-  if (field.is_uniform()) return dx;
-  const std::vector<WallPatch<Dim>> patches = make_wall_patches(boundary, longest_patch_edge * dx);
-  const std::vector<double> chosen = chosen_shares<Dim>(probe, spec, boundary, patches);
-  return dx * largest_over(patches.size(), field.finest(), [&](std::size_t k) {
-           return chosen[k] > 0.0 ? field.at(patches[k].centre(boundary)) : 0.0;
-         });
-}
-
 template <int Dim>
 class WallForceProbe {
  public:
+  /// `boundary` is as drawn.
   WallForceProbe(const ProbeTable& probe, const CaseSpec& spec, const Boundary<Dim>& boundary)
-      : spacing_(spacing_at_walls(probe, spec, boundary)),
-        patches_(make_wall_patches(boundary, longest_patch_edge * spacing_)),
-        chosen_{chosen_shares<Dim>(probe, spec, boundary, patches_)},
-        takes_all_(std::ranges::all_of(chosen_.taken, [](double share) { return share == 1.0; })),
-        about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
+      : about_(probe.moment_about.empty() ? Vec<Dim>(Vec<Dim>::Zero())
                                           : to_vec<Dim>(probe.moment_about, label(probe), "moment_about")),
         age_(age_of_forces(spec)),
-        reach_((1.5 * dummy_layers(spec) + patch_margin) * spacing_),
         paths_(boundary.walls.size()),
         body_of_(boundary.walls.size(), -1),
-        wetted_(spec, boundary, spacing_, reach_),
         mover_(boundary.walls.size(), -1) {
+    const std::vector<WallPatch<Dim>> patches = divide_into_patches<Dim>(spec, boundary);
+    chosen_.taken = chosen_shares<Dim>(probe, spec, boundary, patches);
+    takes_all_ = std::ranges::all_of(chosen_.taken, [](double share) { return share == 1.0; });
     for (std::size_t wall = 0; wall < paths_.size(); ++wall) {
       if (!boundary.walls[wall].moves()) continue;
       if (const Drive& drive = spec.walls[wall].drive; drive.by == Drive::By::body) {
@@ -74,8 +54,8 @@ class WallForceProbe {
       mover_[wall] = static_cast<int>(wall);
       paths_[wall].emplace(spec, spec.walls[wall], wall_label(boundary, static_cast<int>(wall)));
     }
-    for (std::size_t k = 0; k < patches_.size(); ++k) {
-      has_power_ = has_power_ || (chosen_.taken[k] > 0.0 && moves(boundary.faces[patches_[k].face].wall));
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      has_power_ = has_power_ || (chosen_.taken[k] > 0.0 && moves(boundary.faces[patches[k].face].wall));
     }
   }
 
@@ -84,13 +64,14 @@ class WallForceProbe {
 
   /// Collective.
   WallLoads<Dim> read(const ProbeContext<Dim>& context) {
-    TAILWATER_ASSERT(context.wall_forces != nullptr, "the flow finds the forces on its walls");
-    place_patches(context);
+    TAILWATER_ASSERT(context.wall_forces != nullptr && context.patches != nullptr, "the flow finds them for probes");
+    TAILWATER_ASSERT(context.patches->all().size() == chosen_.taken.size(), "both divide the walls as drawn");
+    follow_patches(context);
     const std::vector<AffineMap<Dim>> velocity = find_velocities(context);
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       const WallLoads<Dim> whole = loads_at(context, i);
       if (whole.force().isZero(0.0) || takes_all_and_rests()) return whole;
-      if (!takes_all_ && !is_near(chosen_.around, context.particles.position[i])) return WallLoads<Dim>();
+      if (!takes_all_ && !is_near(context, chosen_.around, context.particles.position[i])) return WallLoads<Dim>();
       return part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
@@ -109,15 +90,19 @@ class WallForceProbe {
   bool moves(std::size_t wall) const { return paths_[wall].has_value() || body_of_[wall] >= 0; }
   bool takes_all_and_rests() const { return takes_all_ && !has_power_; }
 
-  void place_patches(const ProbeContext<Dim>& context) {
+  void follow_patches(const ProbeContext<Dim>& context) {
     const bool needs_patches = context.air_pressure != nullptr || !context.wall_forces->beside_walls.empty() ||
                                !context.wall_forces->balanced.empty();
-    bool rest = true;
-    for (std::size_t wall = 0; wall < paths_.size(); ++wall) rest = rest && !moves(wall);
-    if ((takes_all_and_rests() && !needs_patches) || (rest && !wetted_.centres().empty())) return;
-    wetted_.place(context.boundary, patches_);
-    chosen_ = select(std::move(chosen_.taken));
+    if (takes_all_and_rests() && !needs_patches) return;
+    context.patches->place(context.boundary);
+    if (moves_ == context.patches->moves()) return;
+    moves_ = context.patches->moves();
+    chosen_ = select(context, std::move(chosen_.taken));
     hulls_.clear();
+  }
+
+  static int wall_of(const ProbeContext<Dim>& context, std::size_t patch) {
+    return context.boundary.faces[context.patches->all()[patch].face].wall;
   }
 
   /// The pressure force on a hull can differ from the force of its pairs. Beside another wall the difference has its
@@ -127,13 +112,13 @@ class WallForceProbe {
     const auto& all = context.wall_forces->beside_walls;
     for (const ForceBesideWall<Dim>& one : all) {
       const auto is_of_hull = [&](int wall) { return std::ranges::find(one.walls, wall) != one.walls.end(); };
-      const bool has_hull = takes_all_of(context.boundary, is_of_hull);
-      const bool has_wall = takes_all_of(context.boundary, [&](int wall) { return wall == one.beside; });
+      const bool has_hull = takes_all_of(context, is_of_hull);
+      const bool has_wall = takes_all_of(context, [&](int wall) { return wall == one.beside; });
       const bool is_beside_hull = std::ranges::any_of(all, [&](const ForceBesideWall<Dim>& other) {
         return std::ranges::find(other.walls, one.beside) != other.walls.end();
       });  // which has a force of its own here
       if (has_hull ? has_wall && !is_beside_hull : !has_wall || is_beside_hull) continue;
-      Selection& hull = hull_of(context.boundary, one.walls);
+      Selection& hull = hull_of(context, one.walls);
       const WallLoads<Dim> known =
           pressure_of_pairs(context, velocity, hull) + loads_of_balanced(context, velocity, hull);
       const double sign = has_hull ? 1.0 : -1.0;
@@ -160,22 +145,22 @@ class WallForceProbe {
 
   /// Whether the probe is for all of the walls for which is_part(wall).
   template <class IsPart>
-  bool takes_all_of(const Boundary<Dim>& boundary, IsPart&& is_part) const {
-    for (std::size_t k = 0; k < patches_.size(); ++k) {
-      if (chosen_.taken[k] < 1.0 && is_part(boundary.faces[patches_[k].face].wall)) return false;
+  bool takes_all_of(const ProbeContext<Dim>& context, IsPart&& is_part) const {
+    for (std::size_t k = 0; k < chosen_.taken.size(); ++k) {
+      if (chosen_.taken[k] < 1.0 && is_part(wall_of(context, k))) return false;
     }
     return true;
   }
 
   /// All patches of the walls of a hull.
-  Selection& hull_of(const Boundary<Dim>& boundary, const std::vector<int>& walls) {
+  Selection& hull_of(const ProbeContext<Dim>& context, const std::vector<int>& walls) {
     const auto [known, is_new] = hulls_.try_emplace(walls.front());
     if (!is_new) return known->second;
-    std::vector<double> taken(patches_.size());
-    for (std::size_t k = 0; k < patches_.size(); ++k) {
-      taken[k] = std::ranges::find(walls, boundary.faces[patches_[k].face].wall) != walls.end() ? 1.0 : 0.0;
+    std::vector<double> taken(chosen_.taken.size());
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      taken[k] = std::ranges::find(walls, wall_of(context, k)) != walls.end() ? 1.0 : 0.0;
     }
-    known->second = select(std::move(taken));
+    known->second = select(context, std::move(taken));
     return known->second;
   }
 
@@ -185,7 +170,8 @@ class WallForceProbe {
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
       WallLoads<Dim> whole = loads_at(context, i);
       whole.friction.setZero();
-      const bool is_part_of_it = !whole.pressure.isZero(0.0) && is_near(hull.around, context.particles.position[i]);
+      const bool is_part_of_it =
+          !whole.pressure.isZero(0.0) && is_near(context, hull.around, context.particles.position[i]);
       return is_part_of_it ? part_of(whole, context, i, velocity, hull) : WallLoads<Dim>();
     });
     loads.gather(context.ranks);
@@ -197,13 +183,14 @@ class WallForceProbe {
                                    const Selection& selection) const {
     WallLoads<Dim> loads;
     const std::vector<double>& balanced = context.wall_forces->balanced;
-    TAILWATER_ASSERT(balanced.empty() || balanced.size() == patches_.size(), "the flow has the patches of the probe");
+    const WettedPatches<Dim>& wetted = context.patches->wetted();
     for (std::size_t k = 0; k < balanced.size(); ++k) {
-      const double area = selection.taken[k] * wetted_.share(static_cast<std::int32_t>(k)) * patches_[k].measure;
+      const WallPatch<Dim>& patch = context.patches->all()[k];
+      const double area = selection.taken[k] * wetted.share(static_cast<std::int32_t>(k)) * patch.measure;
       if (area == 0.0 || balanced[k] == 0.0) continue;
-      const WallFace<Dim>& face = context.boundary.faces[patches_[k].face];
+      const WallFace<Dim>& face = context.boundary.faces[patch.face];
       const Vec<Dim> force = -balanced[k] * area * face.normal;
-      Vec<Dim> x = wetted_.centres()[k];
+      Vec<Dim> x = wetted.centres()[k];
       loads.pressure += force;
       if (moves(face.wall)) {
         const Vec<Dim> wall_velocity = velocity[face.wall](x);
@@ -243,8 +230,9 @@ class WallForceProbe {
     WallLoads<Dim> loads;
     if (!context.air_pressure) return loads;
     std::vector<double> taken = chosen_.taken;
-    for (std::size_t k = 0; k < taken.size(); ++k) taken[k] *= wetted_.share(static_cast<std::int32_t>(k));
-    for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, patches_, taken)) {
+    const WettedPatches<Dim>& wetted = context.patches->wetted();
+    for (std::size_t k = 0; k < taken.size(); ++k) taken[k] *= wetted.share(static_cast<std::int32_t>(k));
+    for (const AirPush<Dim>& push : pushes_of_air<Dim>(context, context.patches->all(), taken)) {
       loads.pressure += push.force;
       loads.moment += moment(push.centre, push.force);
       loads.power -= push.force.dot(velocity[push.wall](push.centre));
@@ -267,7 +255,7 @@ class WallForceProbe {
   }
 
   Vec<Dim> foot(const ProbeContext<Dim>& context, const Vec<Dim>& x) const {
-    const NearestWall<Dim> wall = context.boundary.nearest(x, reach_);
+    const NearestWall<Dim> wall = context.boundary.nearest(x, context.patches->wetted().reach());
     return wall.face < 0 ? x : wall.point;
   }
 
@@ -277,9 +265,11 @@ class WallForceProbe {
                          const std::vector<AffineMap<Dim>>& velocity, Selection& selection) {
     using Kind = NearbyPart::Kind;
     const Vec<Dim>& x = context.particles.position[i];
-    const auto wall_of = [&](std::int32_t k) { return context.boundary.faces[patches_[k].face].wall; };
+    const WettedPatches<Dim>& wetted = context.patches->wetted();
+    const auto wall_of = [&](std::int32_t k) { return WallForceProbe::wall_of(context, k); };
     const auto mover_of = [&](std::int32_t k) { return mover_[wall_of(k)]; };
-    const NearbyPart nearby = selection.nearby.at(x, wetted_, selection.taken, mover_of);
+    const double finest = context.spacing_field == nullptr ? 1.0 : context.spacing_field->finest();
+    const NearbyPart nearby = selection.nearby.at(x, wetted, finest * wetted.reach(), selection.taken, mover_of);
     const bool takes_all = &selection == &chosen_ && takes_all_;
     WallLoads<Dim> loads;
     if (nearby.kind == Kind::none && !takes_all) return loads;
@@ -297,7 +287,8 @@ class WallForceProbe {
       loads.friction = whole.friction;
       add(wall_of(nearby.patch), whole.pressure, whole.friction);
     } else {
-      const auto [all, chosen] = shares_.find(wetted_, x, context.particles.is_fluid(i), selection.taken, has_power_);
+      const auto [all, chosen] = shares_.find(wetted, x, context.relative_spacing(x) * wetted.reach(),
+                                              context.particles.is_fluid(i), selection.taken, has_power_);
       if (all.of_pressure.weight == 0.0) return takes_all ? whole : loads;
       const Vec<Dim> pressure = all.of_pressure.across_inverse(whole.pressure);
       const Vec<Dim> friction = all.of_friction.along_inverse(whole.friction);
@@ -315,35 +306,34 @@ class WallForceProbe {
     return loads;
   }
 
-  bool is_near(const Box<Dim>& around, const Vec<Dim>& x) const {
+  static bool is_near(const ProbeContext<Dim>& context, const Box<Dim>& around, const Vec<Dim>& x) {
     bool is_near = false;
-    wetted_.visit_images_of(x, [&](const Vec<Dim>& image) { is_near = is_near || around.contains(image); });
+    context.patches->wetted().visit_images_of(
+        x, [&](const Vec<Dim>& image) { is_near = is_near || around.contains(image); });
     return is_near;
   }
 
-  Selection select(std::vector<double> taken) const {
+  static Selection select(const ProbeContext<Dim>& context, std::vector<double> taken) {
+    const WettedPatches<Dim>& wetted = context.patches->wetted();
     Selection selection{std::move(taken)};
     for (std::size_t k = 0; k < selection.taken.size(); ++k) {
-      if (selection.taken[k] > 0.0) selection.around.extend(wetted_.centres()[k]);
+      if (selection.taken[k] > 0.0) selection.around.extend(wetted.centres()[k]);
     }
-    selection.around.widen(reach_);
+    selection.around.widen(wetted.reach());
     return selection;
   }
 
-  double spacing_;  ///< m; dx at the chosen walls
-  std::vector<WallPatch<Dim>> patches_;
   Selection chosen_;
-  bool takes_all_;
+  bool takes_all_ = false;
   Vec<Dim> about_;
   double age_;                                       ///< of forces (age_of_forces)
-  double reach_;                                     ///< m; R
   std::vector<std::optional<WallPath<Dim>>> paths_;  ///< of the walls that move as prescribed
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
-  WettedPatches<Dim> wetted_;
-  std::vector<int> mover_;          ///< of each wall: a number, equal for walls that move alike; -1: it rests
-  std::map<int, Selection> hulls_;  ///< by the first wall of a hull, its patches where they are now
-  PatchShares<Dim> shares_;         ///< of the particle that is being read
+  std::optional<std::size_t> moves_;  ///< of the walls, where the patches were selected
+  std::vector<int> mover_;            ///< of each wall: a number, equal for walls that move alike; -1: it rests
+  std::map<int, Selection> hulls_;    ///< by the first wall of a hull, its patches where they are now
+  PatchShares<Dim> shares_;           ///< of the particle that is being read
 };
 
 /// Throws CaseError where the forces between particles are not equal and opposite.

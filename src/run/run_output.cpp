@@ -210,7 +210,6 @@ void RunOutput<Dim>::write_fields(const Flow<Dim>& flow) {
 template <int Dim>
 void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& measures, double dt) {
   if (!probes_.is_due(flow.state.time)) return;
-  const std::vector<int> felt_through = find_felt_through(flow.walls, flow.state.particles);
   const InertiaOfWalls<Dim> inertia(flow);
   probes_.record({.particles = flow.state.particles,
                   .grid = flow.neighbourhood->grid(),
@@ -229,10 +228,11 @@ void RunOutput<Dim>::record_probes(const Flow<Dim>& flow, const FlowMeasures& me
                              .section_volumes = flow.template part<SectionCounters<Dim>>().volumes(),
                              .air = pocket_totals(air_of(flow))},
                   .ranks = ranks_,
-                  .felt_through = felt_through,
+                  .felt_through = find_felt_through(flow.walls, flow.state.particles),
                   .domain = flow.setup.domain,
                   .dt = dt,
                   .wall_forces = &flow.walls.forces,
+                  .patches = flow.walls.patches.get(),
                   .wall_inertia = inertia.get(),
                   .bodies = flow.state.motion.bodies.each,
                   .air_pressure = air_of(flow).pressure_field(flow.walls.boundary),

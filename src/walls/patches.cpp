@@ -1,12 +1,12 @@
 #include "walls/patches.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <span>
 
 #include "base/for_each.h"
+#include "geometry/from_spec.h"
 #include "neighbours/cell_grid.h"
+#include "refinement/spacing_field.h"
 
 namespace tailwater {
 namespace {
@@ -14,44 +14,87 @@ namespace {
 /// dx; the first row is 0.5 behind its wall, and a patch has edges of up to `longest_patch_edge`.
 constexpr double reach_of_rows = 2.0;
 
-/// dx; half of the depth in another wall down to which a patch is known to be behind it.
-constexpr double depth_of_covers = 6.0;
+/// dx; no wall particle is farther than this from a patch, beside the 1.5 dx for each layer
+/// (sampling/wall_particles.h).
+constexpr double margin_of_reach = 1.0;
 
-}  // namespace
+/// Empty without zones of refinement.
+template <int Dim>
+FractionAt<Dim> spacing_as_drawn(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  const SpacingField<Dim> field(spec, boundary);
+  if (field.is_uniform()) return {};
+  return [field](const Vec<Dim>& x) { return field.at_drawn(x); };
+}
 
 template <int Dim>
-std::shared_ptr<PatchesOfWalls<Dim>> divide_into_patches(const CaseSpec& spec, const Walls<Dim>& walls) {
-  const double spacing = spec.particles.spacing;
-  const auto patches = std::make_shared<PatchesOfWalls<Dim>>(
-      PatchesOfWalls<Dim>{.all = make_wall_patches(walls.boundary, longest_patch_edge * spacing),
-                          .row = {},
-                          .wetted = {spec, walls.boundary, spacing, depth_of_covers * spacing}});
-  patches->wetted.place(walls.boundary, patches->all);
-  patches->row.assign(patches->all.size(), -1);
+std::vector<double> spacing_at_patches(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                       std::span<const WallPatch<Dim>> patches) {
+  const FractionAt<Dim> spacing_at = spacing_as_drawn(spec, boundary);
+  std::vector<double> spacing(patches.size(), 1.0);
+  if (!spacing_at) return spacing;
+  for_each(spacing.size(), [&](std::size_t k) { spacing[k] = spacing_at(patches[k].centre(boundary)); });
+  return spacing;
+}
+
+template <int Dim>
+std::vector<std::int32_t> nearest_rows(const Walls<Dim>& walls, std::span<const WallPatch<Dim>> patches,
+                                       double spacing) {
+  std::vector<std::int32_t> nearest(patches.size(), -1);
   const std::span<const Vec<Dim>> rows = std::span(walls.particles.position).first(walls.moving);
   const CellGrid<Dim> grid(rows, reach_of_rows * spacing);
-  for_each(rows.empty() ? 0 : patches->all.size(), [&](std::size_t k) {
-    const int wall = walls.boundary.faces[patches->all[k].face].wall;
+  for_each(rows.empty() ? 0 : patches.size(), [&](std::size_t k) {
+    const int wall = walls.boundary.faces[patches[k].face].wall;
     if (!walls.boundary.walls[wall].moves()) return;
-    const Vec<Dim> centre = patches->all[k].centre(walls.boundary);
+    const Vec<Dim> centre = patches[k].centre(walls.boundary);
     double least = std::numeric_limits<double>::infinity();
     grid.for_each_near(centre, [&](std::int32_t row) {
       const double squared = (rows[row] - centre).squaredNorm();
       if (walls.particles.wall[row] != wall || squared >= least) return;
       least = squared;
-      patches->row[k] = row;
+      nearest[k] = row;
     });
   });
-  return patches;
+  return nearest;
 }
 
 template <int Dim>
-void place_patches(const Walls<Dim>& walls, PatchesOfWalls<Dim>& patches) {
-  const bool moves = std::ranges::any_of(walls.boundary.walls, &WallProperties::moves);
-  if (moves) patches.wetted.place(walls.boundary, patches.all);
+std::vector<Vec<Dim>> corners_that_move(const Boundary<Dim>& boundary) {
+  std::vector<Vec<Dim>> corners;
+  for (const WallFace<Dim>& face : boundary.faces) {
+    if (boundary.walls[face.wall].moves()) corners.insert(corners.end(), face.corners.begin(), face.corners.end());
+  }
+  return corners;
 }
 
+}  // namespace
+
+template <int Dim>
+std::vector<WallPatch<Dim>> divide_into_patches(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  return make_wall_patches<Dim>(boundary, longest_patch_edge * spec.particles.spacing,
+                                spacing_as_drawn(spec, boundary));
+}
+
+template <int Dim>
+PatchesOfWalls<Dim>::PatchesOfWalls(const CaseSpec& spec, const Walls<Dim>& walls)
+    : all_(divide_into_patches(spec, walls.boundary)),
+      wetted_(spec, walls.boundary, spacing_at_patches<Dim>(spec, walls.boundary, all_),
+              (1.5 * dummy_layers(spec) + margin_of_reach) * spec.particles.spacing),
+      row_(nearest_rows<Dim>(walls, all_, spec.particles.spacing)),
+      moving_corners_(corners_that_move(walls.boundary)) {
+  wetted_.place(walls.boundary, all_);
+}
+
+template <int Dim>
+void PatchesOfWalls<Dim>::place(const Boundary<Dim>& boundary) {
+  std::vector<Vec<Dim>> corners = corners_that_move(boundary);
+  if (corners == moving_corners_) return;
+  moving_corners_ = std::move(corners);
+  ++moves_;
+  wetted_.place(boundary, all_);
+}
+
+template class PatchesOfWalls<2>;
+template class PatchesOfWalls<3>;
 TAILWATER_IN_2D_AND_3D(divide_into_patches);
-TAILWATER_IN_2D_AND_3D(place_patches);
 
 }  // namespace tailwater

@@ -1,8 +1,8 @@
-// Patches of all walls of a flow, for forces that are integrals over walls.
+// Patches of all walls of a flow, for forces that are integrals over walls. Their edges are at most
+// `longest_patch_edge` of the spacing of the particles there, with walls and zones of refinement as drawn.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "geometry/wall_patches.h"
@@ -11,18 +11,32 @@
 
 namespace tailwater {
 
+/// `boundary` is as drawn.
 template <int Dim>
-struct PatchesOfWalls {
-  std::vector<WallPatch<Dim>> all;  ///< of all faces
-  std::vector<std::int32_t> row;    ///< of each patch on a wall that moves, the nearest row of the table; else -1
-  WettedPatches<Dim> wetted;        ///< at the present places of the walls
+std::vector<WallPatch<Dim>> divide_into_patches(const CaseSpec& spec, const Boundary<Dim>& boundary);
+
+template <int Dim>
+class PatchesOfWalls {
+ public:
+  /// `walls` are as drawn.
+  PatchesOfWalls(const CaseSpec& spec, const Walls<Dim>& walls);
+
+  /// Sets `wetted` to the places of the walls, if these have moved since the last call.
+  void place(const Boundary<Dim>& boundary);
+
+  std::span<const WallPatch<Dim>> all() const { return all_; }
+  const WettedPatches<Dim>& wetted() const { return wetted_; }
+  /// The row of the table of walls nearest to a patch on a wall that moves; -1 for others.
+  std::int32_t row(std::size_t patch) const { return row_[patch]; }
+  /// The number of times that the walls have moved.
+  std::size_t moves() const { return moves_; }
+
+ private:
+  std::vector<WallPatch<Dim>> all_;
+  WettedPatches<Dim> wetted_;
+  std::vector<std::int32_t> row_;
+  std::vector<Vec<Dim>> moving_corners_;  ///< of the faces of walls that move, where they were placed
+  std::size_t moves_ = 0;
 };
-
-template <int Dim>
-std::shared_ptr<PatchesOfWalls<Dim>> divide_into_patches(const CaseSpec& spec, const Walls<Dim>& walls);
-
-/// Sets `wetted` to the present places of walls that move.
-template <int Dim>
-void place_patches(const Walls<Dim>& walls, PatchesOfWalls<Dim>& patches);
 
 }  // namespace tailwater

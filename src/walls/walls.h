@@ -18,7 +18,7 @@ struct Pairs;
 template <int Dim>
 struct Surroundings;
 template <int Dim>
-struct PatchesOfWalls;
+class PatchesOfWalls;
 
 /// The walls of a case at their present positions. The table begins with the rows of walls that move, on all ranks.
 /// Then come the rows of walls at rest that this rank keeps, and the halo rows (shared_rows.h). The first two groups

@@ -28,8 +28,13 @@ constexpr double no_share = 1e-9;
 }  // namespace
 
 template <int Dim>
-WettedPatches<Dim>::WettedPatches(const CaseSpec& spec, const Boundary<Dim>& boundary, double spacing, double reach)
-    : domain_(boundary.domain), spacing_(spacing), reach_(reach), is_hull_(boundary.walls.size(), 0) {
+WettedPatches<Dim>::WettedPatches(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                  std::vector<double> relative_spacing, double reach)
+    : domain_(boundary.domain),
+      spacing_(spec.particles.spacing),
+      relative_spacing_(std::move(relative_spacing)),
+      reach_(reach),
+      is_hull_(boundary.walls.size(), 0) {
   Others rest{-1, std::vector<std::uint8_t>(boundary.walls.size(), 0)};
   for (std::size_t w = 0; w < spec.walls.size(); ++w) {
     if (spec.walls[w].drive.by == Drive::By::body || boundary.walls[w].is_plate) continue;
@@ -162,7 +167,8 @@ bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<c
     if (share_[k] == 0.0 || is_covered[boundary.faces[patches[k].face].wall] == 0) continue;
     const std::vector<std::int32_t> facing = patches_facing(boundary, patches, k);
     if (facing.empty()) continue;
-    for (const WallPatch<Dim>& piece : pieces_of(patches[k], boundary, edge_of_wet_pieces * spacing_)) {
+    for (const WallPatch<Dim>& piece :
+         pieces_of(patches[k], boundary, edge_of_wet_pieces * relative_spacing_[k] * spacing_)) {
       const Vec<Dim> place = piece.centre(boundary);
       const auto [under, image] = patch_under(boundary, patches, facing, place);
       if (under < 0) continue;
@@ -197,7 +203,8 @@ void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatc
     share_[k] = 0.0;
     return;
   }
-  const double size = longest_patch_edge * spacing_;
+  const double spacing = relative_spacing_[k] * spacing_;
+  const double size = longest_patch_edge * spacing;
   std::vector<const Others*> cutting;
   for (const Others& other : others_) {
     const bool is_alone = other.hull < 0 ? is_hull_[wall] == 0 : other.hull == wall;
@@ -219,7 +226,7 @@ void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatc
   if (behind == 0 || behind == Dim + 1) return;
   double wet = 0.0;
   Vec<Dim> sum = Vec<Dim>::Zero();
-  for (const WallPatch<Dim>& piece : pieces_of(patch, boundary, edge_of_wet_pieces * spacing_)) {
+  for (const WallPatch<Dim>& piece : pieces_of(patch, boundary, edge_of_wet_pieces * spacing)) {
     const Vec<Dim> x = piece.centre(boundary);
     if (is_behind(x)) continue;
     wet += piece.measure;

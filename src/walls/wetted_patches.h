@@ -19,9 +19,11 @@ namespace tailwater {
 template <int Dim>
 class WettedPatches {
  public:
-  /// `spacing` [m] is the largest edge of patches over `longest_patch_edge`, and `reach` [m] that of the grid. Patches
-  /// twice as far behind other walls may count as wet.
-  WettedPatches(const CaseSpec& spec, const Boundary<Dim>& boundary, double spacing, double reach);
+  /// `relative_spacing` is the spacing of particles at each patch, over that of the case; no edge is longer than
+  /// `longest_patch_edge` of it. `reach` [m] is that of the grid. Patches twice as far behind other walls may count as
+  /// wet.
+  WettedPatches(const CaseSpec& spec, const Boundary<Dim>& boundary, std::vector<double> relative_spacing,
+                double reach);
 
   /// Determines the parts at the present places of the faces. A moving hull may have left the domain at a periodic end.
   void place(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches);
@@ -93,7 +95,8 @@ class WettedPatches {
   bool take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches);
 
   PeriodicDomain<Dim> domain_;
-  double spacing_;
+  double spacing_;                        ///< m; of the case
+  std::vector<double> relative_spacing_;  ///< by patch
   double reach_;
   std::vector<std::uint8_t> is_hull_;  ///< by wall
   std::vector<Others> others_;         ///< empty without hulls

@@ -11,6 +11,7 @@
 #include "probes/probe_set.h"
 #include "probes/tank.h"
 #include "support/dimensions.h"
+#include "walls/patches.h"
 
 namespace tailwater {
 namespace {
@@ -166,6 +167,10 @@ void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   own.totals = totals;
   own.ranks = ranks;
   own.wall_forces = &own_forces;
+  Walls<Dim> walls;
+  walls.boundary = tank.boundary;
+  PatchesOfWalls<Dim> patches(tank.spec, walls);
+  own.patches = &patches;
   const WallInertia<Dim> inertia{tank.blocked, tank.acceleration, {}};
   own.wall_inertia = &inertia;
   probes.record(own);
@@ -177,6 +182,7 @@ void expect_same_readings(const Deal<Dim>& deal, bool with_ghosts) {
   ProbeContext<Dim> on_one = whole;
   on_one.totals = totals;
   on_one.wall_forces = &all_forces;
+  on_one.patches = &patches;
   on_one.wall_inertia = &inertia;
   single.record(on_one);
   for (const ProbeTable& probe : tank.spec.probes) {

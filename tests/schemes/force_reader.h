@@ -30,6 +30,7 @@ class Reader {
     ProbeContext<Dim> context = context_of(flow_);
     context.dt = dt;
     context.wall_forces = &flow_.walls.forces;
+    context.patches = flow_.walls.patches.get();
     context.bodies = flow_.state.motion.bodies.each;
     context.air_pressure = air_of(flow_).pressure_field(flow_.walls.boundary);
     return reading_.take(context).at(0);
