@@ -925,9 +925,11 @@ struct StudyTable {
              "open ends");
     v.number("artificial_viscosity", self.artificial_viscosity, "", Range::at_least(0.0),
              "c_a of the papers' artificial viscosity, nu_a = c_a |u| dx (F3)");
-    v.number("noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
-             "Viscosity that acts only on differences between neighbours that a linear velocity field does not "
-             "explain, as a multiple of dx times the speed of the time-step rule");
+    v.number(
+        "noise_viscosity", self.noise_viscosity, "", Range::between(0.0, 1.0),
+        "Viscosity that acts only on differences between neighbours that a linear velocity field does not "
+        "explain, as a multiple of dx times a speed: that of the water or, if larger, that of a fall over the head "
+        "of the pressure that does not balance the weight");
     v.number("shifting", self.shifting, "", Range::at_least(0.0),
              "Strength of the particle shifting along the concentration gradient; 0: none");
     v.number("density_relaxation", self.density_relaxation, "", Range::between(0.0, 1.0),

@@ -50,7 +50,7 @@ bool may_fill_walls(const Flow<Dim>& flow) {
 template <int Dim>
 bool may_have_still_surface(const Flow<Dim>& flow) {
   return flow.setup.formulation.balanced_ramp != nullptr && flow.setup.has_air() && flow.pores == nullptr &&
-         flow.surroundings.support_terms.is_empty() && !flow.setup.gravity_across().isZero(0.0);
+         !flow.setup.gravity_across().isZero(0.0);
 }
 
 /// rho_b [kg/m^3] in water that fills its walls.
@@ -59,8 +59,9 @@ double density_in_full_walls(const Flow<Dim>& flow) {
   return may_fill_walls(flow) ? flow.state.last_step.fullness * extreme_densities(flow.setup).first : 0.0;
 }
 
-/// m along gravity; the lowest place of the surface, at the start of the range of numbers if there is none. The place
-/// of a particle counts as far above it as it is inside water, which changes smoothly with its neighbours. Collective.
+/// m along gravity; the lowest place of the surface, less the half spacing of the case that particles beside air are
+/// below it; at the start of the range of numbers if there is none. The place of a particle counts as far above it as
+/// it is inside water, which changes smoothly with its neighbours. Collective.
 template <int Dim>
 double lowest_beside_air(const Flow<Dim>& flow, const Vec<Dim>& down) {
   constexpr double none = std::numeric_limits<double>::lowest();
@@ -68,7 +69,9 @@ double lowest_beside_air(const Flow<Dim>& flow, const Vec<Dim>& down) {
     const double inside = flow.surroundings.interior[i];
     if (flow.role[i] != Role::water || inside >= 1.0) return none;
     const double rows_above = std::pow(inside / (1.0 - inside), 2);
-    return down.dot(flow.state.particles.position[i]) - rows_above * flow.setup.scale.spacing;
+    const double relative = flow.pairs().relative_spacing_of(i);
+    const double rows = relative * rows_above - (1.0 - relative) * rows_beside_air;
+    return down.dot(flow.state.particles.position[i]) - rows * flow.setup.scale.spacing;
   }));
 }
 
@@ -251,6 +254,13 @@ double noise_viscosity(const Flow<Dim>& flow, double speed) {
   return flow.setup.formulation.noise_viscosity * flow.setup.scale.spacing * std::max(speed, of_noise);
 }
 
+template <int Dim>
+double largest_noise_viscosity(const Flow<Dim>& flow, double speed) {
+  if (flow.setup.graded == nullptr) return noise_viscosity(flow, speed);
+  const double reference_speed = time_step_rule(flow).reference_speed;
+  return flow.setup.formulation.noise_viscosity * flow.setup.scale.spacing * std::max(speed, reference_speed);
+}
+
 template class BalancedPressure<2>;
 template class BalancedPressure<3>;
 TAILWATER_IN_2D_AND_3D(find_fullness);
@@ -259,5 +269,6 @@ TAILWATER_IN_2D_AND_3D(balanced_pressure);
 TAILWATER_IN_2D_AND_3D(find_pressure_gradient);
 TAILWATER_IN_2D_AND_3D(time_step_rule);
 TAILWATER_IN_2D_AND_3D(noise_viscosity);
+TAILWATER_IN_2D_AND_3D(largest_noise_viscosity);
 
 }  // namespace tailwater

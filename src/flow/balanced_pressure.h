@@ -81,9 +81,13 @@ void find_pressure_gradient(const Flow<Dim>& flow, const std::vector<double>& pr
 template <int Dim>
 TimeStepRule time_step_rule(const Flow<Dim>& flow);
 
-/// Viscosity [m^2/s] of the noise dissipation at the case's spacing, by the largest speed [m/s]. Noise comes from the
-/// errors of pairs, so the reference speed is that of a head of the largest p - q.
+/// Viscosity [m^2/s] of the noise dissipation at the case's spacing, by the largest speed [m/s], outside the borders of
+/// zones. Noise comes from the errors of pairs there, so the reference speed is that of a head of the largest p - q.
 template <int Dim>
 double noise_viscosity(const Flow<Dim>& flow, double speed);
+
+/// The largest one: with zones that in their borders, which has the reference speed of the case.
+template <int Dim>
+double largest_noise_viscosity(const Flow<Dim>& flow, double speed);
 
 }  // namespace tailwater

@@ -95,8 +95,9 @@ double step_of_water(const Flow<Dim>& flow, const StepLimits& limits) {
   const Setup<Dim>& setup = flow.setup;
   const double speed = std::max(largest_speed(flow), limits.speed);
   const TimeStepRule rule = time_step_rule(flow);
+  const double of_noise = largest_noise_viscosity(flow, speed);
   const double viscosity =
-      setup.liquid.viscosity.at_speed(speed) + setup.finest_spacing() * noise_viscosity(flow, speed) + limits.viscosity;
+      setup.liquid.viscosity.at_speed(speed) + setup.finest_spacing() * of_noise + limits.viscosity;
   const double limiting = setup.graded == nullptr ? speed : std::max(largest_speed_over_spacing(flow), limits.speed);
   const double dt = rule.largest(limiting, viscosity);
   // The rule counts no speed above its `fastest`, so two particles approach each other at no more than twice that.

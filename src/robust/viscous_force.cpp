@@ -53,6 +53,31 @@ std::vector<float> noise_factors_beside_hulls(const Flow<Dim>& flow) {
   return factor;
 }
 
+/// Noise viscosity, and the factor of each particle; no factors stand for 1.
+struct NoiseDamping {
+  double viscosity = 0.0;  ///< m^2/s
+  std::vector<float> factor = {};
+};
+
+/// The noise in a border of a zone comes from supports that vary, not from errors in proportion to p - q. There the
+/// noise viscosity is that of the whole pressure.
+template <int Dim>
+NoiseDamping damping_of_noise(const Flow<Dim>& flow) {
+  if (flow.setup.formulation.noise_viscosity == 0.0) return {};
+  const double speed = largest_speed(flow);
+  NoiseDamping damping{noise_viscosity(flow, speed), noise_factors_beside_hulls(flow)};
+  const double in_borders = largest_noise_viscosity(flow, speed);
+  if (flow.surroundings.support_terms.is_empty() || in_borders == damping.viscosity) return damping;
+  const auto outside = static_cast<float>(damping.viscosity / in_borders);
+  damping.viscosity = in_borders;
+  damping.factor.resize(flow.state.particles.size(), 1.0F);
+  for_each(flow.state.particles.owned, [&](std::size_t i) {
+    if (!flow.surroundings.support_terms.is_near_border(i)) damping.factor[i] *= outside;
+  });
+  flow.halo().exchange(damping.factor);
+  return damping;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -61,19 +86,18 @@ void RobustDiscretisation<Dim>::add_viscous_force(const Flow<Dim>& flow, std::sp
   const Setup<Dim>& setup = flow.setup;
   const Particles<Dim>& particles = flow.state.particles;
   std::vector<double> viscosity(particles.size(), 0.0);
-  const bool damps_noise = setup.formulation.noise_viscosity > 0.0;
-  const double noise_viscosity = damps_noise ? tailwater::noise_viscosity(flow, largest_speed(flow)) : 0.0;
+  const NoiseDamping noise = damping_of_noise(flow);
   std::vector<float> density;  // of particles, if there are several liquids
   if (setup.has_implicit_viscosity) {
-    if (!damps_noise || std::ranges::count(setup.liquids.is_thin, 1) == 0) return;
+    if (noise.viscosity == 0.0 || std::ranges::count(setup.liquids.is_thin, 1) == 0) return;
     density = densities_of_thin_liquids(flow);
   } else {
     effective_viscosity<Dim>(setup.liquid.viscosity, particles.velocity, viscosity);
   }
   for (const auto& part : flow.parts) part->add_viscosity(flow, viscosity);
   add_newtonian_viscosity<Dim>(flow.pairs(), particles, setup.scale.spacing, flow.surroundings.pair_vectors, viscosity,
-                               noise_viscosity, particles.velocity, velocity_gradient, acceleration, density,
-                               damps_noise ? noise_factors_beside_hulls(flow) : std::vector<float>());
+                               noise.viscosity, particles.velocity, velocity_gradient, acceleration, density,
+                               noise.factor);
 }
 
 #define TAILWATER_INSTANTIATE(Dim)                                                                        \

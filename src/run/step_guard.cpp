@@ -93,7 +93,7 @@ void StepGuard<Dim>::require_sound_step(double dt) {
   }
   const double speed = largest_speed(flow_);
   const TimeStepRule rule = time_step_rule(flow_);
-  const double viscosity = setup.liquid.viscosity.at_speed(speed) + noise_viscosity(flow_, speed);
+  const double viscosity = setup.liquid.viscosity.at_speed(speed) + largest_noise_viscosity(flow_, speed);
   const bool is_viscous = rule.largest(speed, viscosity) < rule.largest(speed, 0.0);
   const Particles<Dim>& particles = flow_.state.particles;
   std::optional<std::size_t> culprit = fastest_particle(particles);

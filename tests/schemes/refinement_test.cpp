@@ -317,9 +317,9 @@ TEST(RefinementTest, WaterComesToRestBesideABorder) {
   Flow<2> flow = make_flow<2>(spec);
   tailwater::start(flow);
   const double volume = totals_of(flow).volume;
-  advance_steps(flow, 200);  // the lattice of the start settles, most of all where volumes change
+  advance_steps(flow, 300);  // the lattice of the start settles, most of all where volumes change
   const double energy = totals_of(flow).energy;
-  advance_steps(flow, 200);
+  advance_steps(flow, 300);
   EXPECT_NEAR(totals_of(flow).volume, volume, 1e-12 * volume);
   // Without the terms of support_terms.h the water rolls: its energy rises between these steps by a half.
   EXPECT_LT(totals_of(flow).energy, 0.5 * energy);
