@@ -22,6 +22,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 KATEX = pathlib.Path("/usr/share/javascript/katex")
 MATH = re.compile(r"^```math\n(.*?)^```$", re.DOTALL | re.MULTILINE)  # as GitHub has blocks of formulas
 LINK = re.compile(r"(?<=\]\()([^)\s#]+)(?=[)#])")
+COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
+CODE = re.compile(r"`[^`\n]+`")
+PICTURE = re.compile(r"(?<=\n\n)!\[([^\]]+)\]\(([^)]+)\)(?=\n\n[^*]|\n*$)")  # alone, and without a caption below it
 
 
 def pages():
@@ -35,10 +38,32 @@ def title(page):
                 page.stem)
 
 
+def indented(text):
+    """With twice the indentation: the site nests lists by four spaces, GitHub by two."""
+    lines, fence = [], None
+    for line in text.split("\n"):
+        bare = line.lstrip(" ")
+        lines.append(" " * (len(line) - len(bare) if fence is None else fence) + line)
+        if bare.startswith("```"):
+            fence = len(line) - len(bare) if fence is None else None
+    return "\n".join(lines)
+
+
+def as_site(text):
+    """A document in the Markdown of the site, where that differs from GitHub's."""
+    text = MATH.sub(r"$$\n\1$$", text)
+    text = COMMENT.sub("", text)
+    text = CODE.sub(lambda code: code[0].replace("\\|", "|"), text)  # in a cell of a table
+    text = PICTURE.sub(lambda picture: "<figure><img alt={0} src={1}><figcaption>{2}</figcaption></figure>".format(
+        *(json.dumps(html.escape(part, quote=True), ensure_ascii=False) for part in picture.groups()),
+        html.escape(picture[1])), text)
+    return indented(text)
+
+
 def stage(folder):
     """Lays the documents out in `folder` as they are in the tree, with the files that they link to."""
     for page in pages():
-        text = MATH.sub(r"$$\n\1$$", (ROOT / page).read_text(encoding="utf-8"))
+        text = (ROOT / page).read_text(encoding="utf-8")
         for link in set(LINK.findall(text)):
             target = ((ROOT / page).parent / link).resolve()
             if "://" in link or not target.is_relative_to(ROOT):
@@ -53,10 +78,11 @@ def stage(folder):
                 shutil.copyfile(target, copy)
         copy = folder / page
         copy.parent.mkdir(parents=True, exist_ok=True)
-        copy.write_text(text, encoding="utf-8")
+        copy.write_text(as_site(text), encoding="utf-8")
     shutil.copytree(KATEX, folder / "katex", ignore=shutil.ignore_patterns("*.mjs", "contrib"))
     shutil.copyfile(KATEX / "contrib" / "auto-render.js", folder / "katex" / "auto-render.js")
-    shutil.copyfile(ROOT / "site" / "formulas.js", folder / "formulas.js")
+    for name in ("formulas.js", "site.css"):
+        shutil.copyfile(ROOT / "site" / name, folder / name)
 
 
 def entries(pattern, newest_first=False):
@@ -84,16 +110,28 @@ def configuration(source, target):
     return config | {"docs_dir": str(source), "site_dir": str(target), "nav": fill(config["nav"])}
 
 
+VERBATIM = {"code", "pre", "script", "style", "title"}
+
+
 class Links(html.parser.HTMLParser):
-    """Links of a page, the files it loads, and the places on it."""
+    """Links of a page, the files it loads, the places on it, and its lines with a formula that was not recognised."""
 
     def __init__(self, text):
         super().__init__()
-        self.links, self.loads, self.places = [], [], set()
+        self.links, self.loads, self.places, self.raw_formulas = [], [], set(), []
+        self.verbatim = 0  # how many elements around the text show it as it is
         self.feed(text)
+
+    def handle_endtag(self, tag):
+        self.verbatim -= tag in VERBATIM
+
+    def handle_data(self, data):
+        if self.verbatim == 0:
+            self.raw_formulas += [line.strip() for line in data.split("\n") if line.count("$") > 1]
 
     def handle_starttag(self, tag, attributes):
         values = dict(attributes)
+        self.verbatim += tag in VERBATIM
         self.places |= {values[key] for key in ("id", "name") if values.get(key)}
         if tag == "a" and values.get("href"):
             self.links.append(values["href"])
@@ -103,9 +141,8 @@ class Links(html.parser.HTMLParser):
             self.loads.append(values["href"])
 
 
-def dead_links(site):
-    """[(page, link)] that lead nowhere or out of the machine."""
-    parsed = {path: Links(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
+def dead_links(site, parsed):
+    """[(page, link)] that lead nowhere or out of the machine, of {page: Links}."""
     dead = []
     for page, found in parsed.items():
         for link in found.links + found.loads:
@@ -158,15 +195,19 @@ def main(arguments):
         built = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--config-file", config], check=False)
     if built.returncode != 0:
         return 1
-    dead, lost = dead_links(site), names_not_found(site)
+    parsed = {path: Links(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
+    raw = [(page.relative_to(site), line) for page, found in parsed.items() for line in found.raw_formulas]
+    dead, lost = dead_links(site, parsed), names_not_found(site)
+    for page, line in raw:
+        print(f"site.py: {page}: a formula of this line is not recognised: {line}")
     for page, link in dead:
         print(f"site.py: {page}: {link} leads nowhere")
     for name in lost:
         print(f"site.py: the search does not find {name}")
-    if not dead and not lost:
+    if not dead and not lost and not raw:
         print(f"site.py: {len(list(site.rglob('*.html')))} pages, no dead link, the search finds {len(names_of_reference())} "
               f"names: {site / 'index.html'}")
-    return 1 if dead or lost else 0
+    return 1 if dead or lost or raw else 0
 
 
 if __name__ == "__main__":
