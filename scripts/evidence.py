@@ -27,9 +27,9 @@ SOURCE, KEPT = ROOT / "docs" / "validation.json", ROOT / "python" / "tailwater" 
 TABLE = re.compile(r"<!-- evidence: (?!end -->)(?P<what>.+?) -->\n.*?<!-- evidence: end -->", re.DOTALL)
 FIGURE = re.compile(r"<!-- figure: (?!end -->)(?P<key>.+?) -->(?P<text>.*?)<!-- figure: end -->", re.DOTALL)
 PEERS = {"work": work_table, "beside": beside_table}  # tables of other codes
-HEAD = ("quantity", "compared with", "ours", "target", "result", "finest particle spacing", "integrator", "walls",
+HEAD = ("quantity", "compared with", "computed", "target", "result", "finest particle spacing", "integrator", "walls",
         "CPU s", "paper", "target since")
-SHORT = ("quantity", "ours", "target", "result", HEAD[5])  # columns of a short table
+SHORT = ("quantity", "computed", "target", "result", HEAD[5])  # columns of a short table
 
 
 def documents():

@@ -177,7 +177,7 @@ class Pages(unittest.TestCase):
         """Its list is written by hand: kinds of targets, each with the number of those missed."""
         readme = (ROOT / "README.md").read_text(encoding="utf-8")
         listed = [line for line in readme.partition("The misses:")[2].partition("<!--")[0].splitlines() if line.startswith("- ")]
-        counts = [int(count) for line in listed for count in re.findall(r"(?:^- |; )(\d+): ", line)]
+        counts = [int(count) for line in listed for count in re.findall(r"(?:^- |, )(\d+) (?:in|for) ", line)]
         self.assertEqual(sum(counts), load_evidence()["counts"]["missed"])
 
     def setUp(self):

@@ -6,7 +6,7 @@ from pathlib import Path
 from .metric import bar, result_of, shown
 
 SCATTER = Path(__file__).resolve().with_name("scatter.toml")
-HEAD = ("case", "reading", "ours", "allowed by the data", "within", "source of the scatter")
+HEAD = ("case", "reading", "computed", "allowed by the data", "within", "source of the scatter")
 
 
 def read_scatter(path=SCATTER):
@@ -35,7 +35,7 @@ def readings_table(studies, scatter):
     within = sum(each[3] for each in readings)
     verdicts = [metric["verdict"] for _, metric, _, _ in readings if metric["verdict"] != "shown"]
     lines = [f"{within} of {len(readings)} readings ({100 * within / len(readings):.0f} %) are within the scatter of the data; "
-             f"90 % was aimed at. {verdicts.count('met')} of the {len(verdicts)} that have a target meet it.", "", f"| {' | '.join(HEAD)} |", f"|{' --- |' * len(HEAD)}"]
+             f"the target is 90 %. {verdicts.count('met')} of the {len(verdicts)} that have a target meet it.", "", f"| {' | '.join(HEAD)} |", f"|{' --- |' * len(HEAD)}"]
     for title, metric, entry, is_within in readings:
         unit = f" {metric['unit']}" if metric["unit"] else ""
         cells = (title.rpartition(": ")[2], metric["what"], shown(metric) + unit, bar(entry.get("low"), entry.get("high")),
