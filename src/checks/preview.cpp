@@ -31,6 +31,7 @@ constexpr const char* dummy_colour = "#b9b2a7";
 constexpr const char* probe_colour = "#c0392b";
 constexpr const char* opening_colour = "#1e8449";
 constexpr const char* refinement_colour = "#8e44ad";
+constexpr const char* region_colour = "#7d6608";
 
 double text_width(std::string_view text) { return letter_width * font_size * static_cast<double>(text.size()); }
 
@@ -80,6 +81,9 @@ std::vector<Marker> markers_of(const CaseSpec& spec) {
   for (const VentTable& vent : spec.vents) markers.push_back({vent.name, {project(vent.at)}, false, opening_colour});
   for (const PocketTable& pocket : spec.pockets) {
     markers.push_back({pocket.name, {project(pocket.at)}, false, opening_colour});
+  }
+  for (const MooringTable& line : spec.moorings) {
+    markers.push_back({line.name, {project(line.at), project(line.anchor)}, false, wall_colour});
   }
   return markers;
 }
@@ -287,6 +291,29 @@ void draw_refinement(Svg& svg, const CaseSpec& spec, const Boundary<Dim>& bounda
   }
 }
 
+/// Porous layers (without meshes) and damping zones, as far as they are in the picture, with their names.
+void draw_regions(Svg& svg, const CaseSpec& spec, const View& view) {
+  const auto draw = [&](const std::string& name, const std::vector<Vec<2>>& corners) {
+    std::vector<Vec<2>> inside;
+    for (const Vec<2>& x : corners) inside.push_back(view(x.cwiseMax(view.low).cwiseMin(view.high)));
+    svg.outline(inside, region_colour, region_colour);
+    Extent extent;
+    for (const Vec<2>& x : inside) extent.include(x);
+    svg.text(0.5 * (extent.low[0] + extent.high[0]), extent.low[1] + font_size, "middle", name);
+  };
+  const auto corners_of = [](const Coordinates& min, const Coordinates& max) -> std::vector<Vec<2>> {
+    const Vec<2> low = project(min), high = project(max);
+    return {low, {high[0], low[1]}, high, {low[0], high[1]}};
+  };
+  for (const PorousTable& layer : spec.porous) {
+    std::vector<Vec<2>> corners;
+    for (const Coordinates& x : layer.points) corners.push_back(project(x));
+    if (layer.shape == RegionShape::box) corners = corners_of(layer.min, layer.max);
+    if (!corners.empty()) draw(layer.name, corners);
+  }
+  for (const DampingTable& zone : spec.damping) draw(zone.name, corners_of(zone.min, zone.max));
+}
+
 /// A marker with its name in the given row above the plot, and a line down to it.
 void draw_marker(Svg& svg, const Marker& marker, int row, const View& view) {
   const double baseline = view.top - 10.0 - row * line_height;
@@ -345,6 +372,7 @@ std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   draw_fluid(svg, spec, fluid, view, diameter);
   draw_walls(svg, boundary, view);
   draw_refinement(svg, spec, boundary, view);
+  draw_regions(svg, spec, view);
   draw_ducts(svg, ducts, view);
   draw_open_ends(svg, ends, view);
   draw_axes(svg, view);

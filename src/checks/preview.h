@@ -11,10 +11,10 @@
 
 namespace tailwater {
 
-/// An SVG document: walls with the particles behind them, the fluid, probes with their names, axes in metres, title,
-/// spacing and counts. In 3D it is the projection on x and z. Above 40 000 fluid (or wall) particles it shows the
-/// outlines of the blocks (or the wall alone) instead, and above 20 000 faces no faces. `ducts` are
-/// those of the case (find_ducts). `bad_places` are circled.
+/// An SVG document: walls with the particles behind them, the fluid, zones, porous layers, mooring lines and probes
+/// with their names, axes in metres, title, spacing and counts. In 3D it is the projection on x and z. Above 40 000
+/// fluid (or wall) particles it shows the outlines of the blocks (or the wall alone) instead, and above 20 000 faces no
+/// faces. `ducts` are those of the case (find_ducts). `bad_places` are circled.
 template <int Dim>
 std::string preview_svg(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid,
                         const WallParticles<Dim>& walls, std::span<const Duct<Dim>> ducts,

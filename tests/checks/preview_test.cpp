@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -43,6 +44,34 @@ TEST(Preview, ShowsParticlesWallsProbesAndCounts) {
   EXPECT_NE(svg.find("Tank &lt;at&gt; rest &amp; quiet"), std::string::npos);
   EXPECT_NE(svg.find("spacing 0.1 m, 40 fluid and 84 wall particles"), std::string::npos);
   EXPECT_NE(svg.find(">H1</text>"), std::string::npos);
+}
+
+TEST(Preview, ShowsLayersZonesAndMooringLines) {
+  CaseSpec spec = tank();
+  const std::size_t without = occurrences(preview<2>(spec), "<polygon");
+  PorousTable box, polygon;
+  box.name = "core";
+  box.min = {0.2, 0.0};
+  box.max = {0.4, 9.0};  // beyond the picture
+  polygon.name = "armour";
+  polygon.shape = RegionShape::polygon;
+  polygon.points = {{0.4, 0.0}, {0.6, 0.0}, {0.4, 0.3}};
+  spec.porous = {box, polygon};
+  DampingTable damping;
+  damping.name = "damping1";
+  damping.min = {0.7, 0.0};
+  damping.max = {1.0, 0.4};
+  spec.damping = {damping};
+  MooringTable line;
+  line.name = "mooring1";
+  line.at = {0.5, 0.3};
+  line.anchor = {-0.5, 0.0};
+  spec.moorings = {line};
+  const std::string svg = preview<2>(spec);
+  EXPECT_EQ(occurrences(svg, "<polygon"), without + 3);
+  for (const char* name : {"core", "armour", "damping1", "mooring1"}) {
+    EXPECT_NE(svg.find(fmt::format(">{}</text>", name)), std::string::npos) << name;
+  }
 }
 
 TEST(Preview, DrawsOutlinesWhenThereAreTooManyParticles) {
