@@ -34,12 +34,13 @@ NOT_SHOWN = ("Lengths", "Numbers", "All keys", "Every key", "seconds")
 HEAD = """\
 # Gallery
 
-For new users who choose a template. The page shows every template of `tailwater new` without changes. `tailwater new
-NAME my.toml` writes one; then
+For new users who choose a template. The page shows every template of `tailwater new`; a section names a run with
+another spacing. These commands write, check and run one:
 
+    tailwater new dam-break my.toml
     tailwater check my.toml && tailwater run my.toml --out my_run --pictures 6
 
-checks and runs it. Colours show the speed unless the scale names another quantity. CPU times are for one core of a busy
+Colours show the speed unless the scale names another quantity. CPU times are for one core of a busy
 machine (`scripts/gallery.py`): {processor}.
 """
 

@@ -2,7 +2,7 @@
 """Zones of finer particles beside runs with one spacing: the figures of cases/refinement and docs/theory/refinement.md.
 
   still   rms speed of still water over sqrt(g depth) in 1e-3, in spans of 2.5 s, with zones in several places
-  waves   standing waves: amplitude lost per period, and what the last two of ten periods have of that of the first two; the
+  waves   standing waves: amplitude lost per period, and the last two periods over the first two; the
           amplitude is the root of that of the potential energy at twice the frequency
   dam     dam break on a wall: impulses to 1.4 s (Pa s), noise (rms deviation from the median over 20 ms, from 0.6 to 1.4 s)
           and plateau (median from 0.8 to 1.2 s) over rho g H, at 0.16 m
@@ -80,7 +80,7 @@ def still(runs):
 
 
 def amplitudes(steps, omega):
-    """Of the wave in each period, in any unit."""
+    """Amplitudes of the wave in each period, in any unit."""
     period = 2 * np.pi / omega
     for number in range(round(steps["time_s"][-1] / period)):
         inside = (steps["time_s"] >= number * period) & (steps["time_s"] < (number + 1) * period)
