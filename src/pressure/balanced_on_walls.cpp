@@ -18,11 +18,18 @@ constexpr double reach_in_front = 1.5;
 /// dx; between the centres of patches of two walls with a film of water between them, which holds no particle.
 constexpr double reach_across_film = 2.0;
 
+/// dx; from the centre of a patch in a sharp corner, where no particle may be near, to a wet patch of the same wall.
+constexpr double reach_out_of_corner = 2.0;
+
 /// dx; from the centre of a patch into the space in front, so that its own wall does not hide the water there.
 constexpr double margin_of_eye = 0.1;
 
 /// dx; less deep below the level q is small, and waves leave patches dry.
 constexpr double least_depth = 1.0;
+
+/// Patches of which less is wet do not decide whether a wall is dry: where walls lie on each other, the borders of
+/// their patches differ, and parts of covered patches are left.
+constexpr double least_wet_share = 0.5;
 
 /// Patches below the level of q that are not covered by other walls.
 template <int Dim>
@@ -94,6 +101,18 @@ bool has_film(const DeepPatches<Dim>& deep, std::size_t n) {
   return found;
 }
 
+/// Whether a patch of the same wall near this one has water in front.
+template <int Dim>
+bool is_beside_wet(const DeepPatches<Dim>& deep, const std::vector<double>& water_in_front, std::size_t n) {
+  const double reach = reach_out_of_corner * deep.spacing[n];
+  bool found = false;
+  deep.grid.for_each_near(deep.centres[n], [&](std::int32_t m) {
+    const bool is_near = (deep.centres[m] - deep.centres[n]).squaredNorm() < reach * reach;
+    found = found || (is_near && water_in_front[m] != 0.0 && deep.face(m).wall == deep.face(n).wall);
+  });
+  return found;
+}
+
 /// Sets q to 0 on walls with dry patches among those with more than `least` [Pa] of it. Bodies are wet
 /// (flow/balanced_pressure.h). Collective.
 template <int Dim>
@@ -102,7 +121,9 @@ void keep_wet_walls(const Flow<Dim>& flow, double least, std::vector<double>& q)
   const std::vector<double> water_in_front = find_water_in_front(flow, deep);
   std::vector<std::uint8_t> is_dry(deep.boundary.walls.size(), 0);
   for (std::size_t n = 0; n < deep.index.size(); ++n) {
-    if (water_in_front[n] == 0.0 && !has_film(deep, n)) is_dry[deep.face(n).wall] = 1;
+    if (flow.walls.patches->wetted().share(static_cast<std::int32_t>(deep.index[n])) < least_wet_share) continue;
+    const bool is_wet = water_in_front[n] != 0.0 || has_film(deep, n) || is_beside_wet(deep, water_in_front, n);
+    if (!is_wet) is_dry[deep.face(n).wall] = 1;
   }
   for (const auto& moving : flow.setup.wall_motion->moving()) {
     if (moving.body >= 0) is_dry[moving.wall] = 0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/mesh_surface.h"
+#include "geometry/some_walls.h"
 #include "sampling/cut_cells.h"
 
 namespace tailwater {
@@ -41,6 +42,7 @@ class Cutter {
       cuts_.push_back(adapts_to_wall(block.spec, block.table, face));
     });
     plain_.file_faces(reach_);
+    find_hulls(block.spec);
   }
 
   /// Fraction of a box that is in the block and in front of all walls, which count as flat over each part of the box.
@@ -97,12 +99,38 @@ class Cutter {
     visit(is_on_it ? normal : Vec<Dim>((x - point) / height), height);
   }
 
-  /// Calls visit(normal, height) for the nearest wall that is not a mesh, and for each mesh. A point behind a mesh may
-  /// be nearer to another wall, in front of it.
+  /// A closed wall that water surrounds, without meshes.
+  struct Hull {
+    std::vector<std::uint8_t> walls;  ///< by wall, whether it is this one
+    Box<Dim> box = {};                ///< around its faces
+  };
+
+  void find_hulls(const CaseSpec& spec) {
+    for (std::size_t w = 0; w < spec.walls.size(); ++w) {
+      if (!is_hull(spec.walls[w])) continue;
+      Hull hull{std::vector<std::uint8_t>(plain_.walls.size(), 0)};
+      hull.walls[w] = 1;
+      for (const WallFace<Dim>& face : plain_.faces) {
+        if (face.wall == static_cast<int>(w)) hull.box.extend(face.box());
+      }
+      if (!hull.box.isEmpty()) hulls_.push_back(std::move(hull));
+    }
+  }
+
+  /// Calls visit(normal, height) for the nearest wall that is not a mesh, and for each mesh and each hull that x is
+  /// behind. A point behind these may be nearer to another wall, in front of it: inside a block, above the bed.
   template <class Visit>
   void visit_walls(const Vec<Dim>& x, Visit&& visit) const {
-    if (const NearestWall<Dim> wall = plain_.nearest(x, reach_); wall.face >= 0 && cuts_[wall.face]) {
+    const auto tell_of = [&](const NearestWall<Dim>& wall) {
+      if (wall.face < 0 || !cuts_[wall.face]) return;
       tell(x, wall.point, wall.signed_distance, plain_.faces[wall.face].normal, visit);
+    };
+    const NearestWall<Dim> nearest = plain_.nearest(x, reach_);
+    tell_of(nearest);
+    for (const Hull& hull : hulls_) {
+      if (!hull.box.contains(x)) continue;
+      const NearestWall<Dim> wall = nearest_among<Dim>(plain_, hull.walls, x, reach_);
+      if (wall.face != nearest.face && wall.signed_distance < 0.0) tell_of(wall);
     }
     if constexpr (Dim == 3) {
       for (const WallMesh& mesh : boundary_.meshes) {
@@ -127,6 +155,7 @@ class Cutter {
   double reach_;            ///< m
   Boundary<Dim> plain_;     ///< without meshes and plates
   std::vector<bool> cuts_;  ///< for each face of `plain_`
+  std::vector<Hull> hulls_;
 };
 
 }  // namespace tailwater

@@ -153,14 +153,19 @@ std::pair<std::int32_t, Vec<Dim>> WettedPatches<Dim>::patch_under(const Boundary
 template <int Dim>
 bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
   bool has_moved = false;
+  /// Takes up to `measure` around x from patch k, and returns the rest.
   const auto take = [&](std::int32_t k, const Vec<Dim>& x, double measure) {
     const double before = share_[k];
     share_[k] -= measure / patches[k].measure;
-    if (share_[k] < no_share) share_[k] = 0.0;
-    if (share_[k] == 0.0) return;
+    if (share_[k] < no_share) {
+      const double excess = std::max(0.0, -share_[k] - no_share) * patches[k].measure;
+      share_[k] = 0.0;
+      return excess;
+    }
     const Vec<Dim> centre = centres_[k] + (before / share_[k] - 1.0) * (centres_[k] - x);
     if ((centre - patches[k].centre(boundary)).norm() < radius_of_patches * spacing_) centres_[k] = centre;
     has_moved = true;
+    return 0.0;
   };
   const std::vector<std::uint8_t> is_covered = find_covered_walls(boundary);
   for (std::int32_t k = 0; k < std::ssize(patches); ++k) {  // in order: several take from one patch
@@ -170,10 +175,13 @@ bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<c
     for (const WallPatch<Dim>& piece :
          pieces_of(patches[k], boundary, edge_of_wet_pieces * relative_spacing_[k] * spacing_)) {
       const Vec<Dim> place = piece.centre(boundary);
-      const auto [under, image] = patch_under(boundary, patches, facing, place);
-      if (under < 0) continue;
-      take(k, place, piece.measure);
-      take(under, image, piece.measure);
+      double rest = piece.measure;
+      while (rest > 0.0) {
+        const auto [under, image] = patch_under(boundary, patches, facing, place);
+        if (under < 0) break;
+        rest = take(under, image, rest);
+      }
+      if (rest < piece.measure) take(k, place, piece.measure);
     }
   }
   return has_moved;
