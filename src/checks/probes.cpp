@@ -187,13 +187,14 @@ void check_hulls_at_zones(const CaseSpec& spec, const Boundary<Dim>& drawn, Find
       const bool has_hull =
           probe.walls.empty() || std::ranges::find(probe.walls, drawn.walls[w].name) != probe.walls.end();
       if (!is_on_part(probe) || !has_hull) continue;
-      findings.push_back(
-          Finding::warning("force-beside-zone",
-                           {"{}: beside a zone of refinement the force on {} is the sum over pairs of particles, "
-                            "without the pressure in the gap to {}",
-                            label(probe), wall_label(drawn, hull), wall_label(drawn, beside)},
-                           {"end the zones {:.4g} before the hull, or measure with type = \"wall-pressure-mean\"",
-                            Amount{reach_of_shares * spec.particles.spacing, "m"}}));
+      findings.push_back(Finding::warning(
+          "force-beside-zone",
+          {"{}: beside a zone of refinement the force on {} is the sum over pairs of particles, "
+           "without the pressure in the gap to {}",
+           label(probe), wall_label(drawn, hull), wall_label(drawn, beside)},
+          {"end the zones {:.4g} before the hull, or measure with type = \"wall-pressure-mean\", if the gap "
+           "holds two rows of particles",
+           Amount{reach_of_shares * spec.particles.spacing, "m"}}));
     }
   }
 }
