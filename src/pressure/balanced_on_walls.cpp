@@ -101,14 +101,16 @@ bool has_film(const DeepPatches<Dim>& deep, std::size_t n) {
   return found;
 }
 
-/// Whether a patch of the same wall near this one has water in front.
+/// Whether a patch of the same side of the same wall near this one has water in front.
 template <int Dim>
 bool is_beside_wet(const DeepPatches<Dim>& deep, const std::vector<double>& water_in_front, std::size_t n) {
   const double reach = reach_out_of_corner * deep.spacing[n];
   bool found = false;
   deep.grid.for_each_near(deep.centres[n], [&](std::int32_t m) {
     const bool is_near = (deep.centres[m] - deep.centres[n]).squaredNorm() < reach * reach;
-    found = found || (is_near && water_in_front[m] != 0.0 && deep.face(m).wall == deep.face(n).wall);
+    const bool is_of_side =
+        deep.face(m).wall == deep.face(n).wall && deep.face(m).normal.dot(deep.face(n).normal) > 0.0;
+    found = found || (is_near && is_of_side && water_in_front[m] != 0.0);
   });
   return found;
 }

@@ -98,6 +98,22 @@ TEST(BalancedPressure, PressesOnWallsInAZone) {
   }
 }
 
+// The back of a plate without water there is dry, although its front at the same place is wet.
+TEST(BalancedPressure, PressesOnOneSideOfAPlate) {
+  CaseSpec spec = empty_case(dx);
+  spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {1.6, 0.0}, {1.6, 0.6}}), polyline({{0.8, 0.0}, {0.8, 0.6}})};
+  spec.walls[1].name = "plate";
+  spec.walls[1].shape = WallShape::plate;
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.8, depth})};
+  spec.probes = {force_probe({0.0, 0.0}, {"plate"})};
+  Flow<2> flow = make_flow<2>(spec);
+  const Reader<2> on_plate(spec, flow);
+  double dt = 0.0;
+  for (int n = 0; n < 10; ++n) dt = step(flow).dt;
+  ASSERT_EQ(flow.state.last_step.balanced_share, 1.0);
+  EXPECT_NEAR(on_plate.force(dt)[0], 0.5 * 1000.0 * g * depth * depth, 0.01 * 0.5 * 1000.0 * g * depth * depth);
+}
+
 /// Mean forces over the steps from 0.3 to 0.4 s on the walls of a tank 1.6 m long, 10 rows deep, and of a block with
 /// these corners that stands on its bed, where x > `low` is in a zone.
 std::array<Vec<2>, 2> forces_with_zone(const std::vector<Coordinates>& corners, double low) {
