@@ -24,6 +24,7 @@ MATH = re.compile(r"^```math\n(.*?)^```$", re.DOTALL | re.MULTILINE)  # as GitHu
 LINK = re.compile(r"(?<=\]\()([^)\s#]+)(?=[)#])")
 COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 CODE = re.compile(r"`[^`\n]+`")
+ITEM = re.compile(r"([-*]|\d+\.) ")
 PICTURE = re.compile(r"(?<=\n\n)!\[([^\]]+)\]\(([^)]+)\)(?=\n\n[^*]|\n*$)")  # alone, and without a caption below it
 
 
@@ -39,13 +40,16 @@ def title(page):
 
 
 def indented(text):
-    """With twice the indentation: the site nests lists by four spaces, GitHub by two."""
-    lines, fence = [], None
+    """With twice the indentation in lists: the site nests them by four spaces, GitHub by two."""
+    lines, fence, is_in_list = [], None, False
     for line in text.split("\n"):
         bare = line.lstrip(" ")
-        lines.append(" " * (len(line) - len(bare) if fence is None else fence) + line)
+        indent = len(line) - len(bare)
+        if fence is None and bare and (indent == 0 or ITEM.match(bare)):
+            is_in_list = ITEM.match(bare) is not None
+        lines.append((" " * (indent if fence is None else fence) if is_in_list else "") + line)
         if bare.startswith("```"):
-            fence = len(line) - len(bare) if fence is None else None
+            fence = indent if fence is None else None
     return "\n".join(lines)
 
 
