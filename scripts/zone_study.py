@@ -22,7 +22,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "python"))
-from tailwater import tables  # noqa: E402
+from tailwater.tables import read_table  # noqa: E402
 
 G = 9.81  # m/s^2
 CASES = ROOT / "cases"
@@ -44,10 +44,6 @@ class Runs:
 
 def summary_of(folder):
     return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-
-
-def columns(folder, name):
-    return tables.read_table(folder / name)
 
 
 def say(*words):
@@ -72,7 +68,7 @@ def still(runs):
             "polygon": zone('shape="polygon", points=[[-0.4, -1.0], [0.0, -1.0], [1.0, 1.0], [0.6, 1.0]]'),
             "none": NO_ZONE, "middle, implicit": ["scheme.integrator=implicit"],
             "bed, implicit": [*bed, "scheme.integrator=implicit"]}.items():
-        steps = columns(runs.folder(f"still {name}", CASES / "refinement" / "still_water.toml", settings), "steps.csv")
+        steps = read_table(runs.folder(f"still {name}", CASES / "refinement" / "still_water.toml", settings) / "steps.csv")
         speed = np.sqrt(2 * steps["kinetic_J"] / (1000 * 0.8 * 0.4) / (G * 0.4))
         time = steps["time_s"]
         spans = [np.sqrt(np.mean(speed[(time > t) & (time <= t + 2.5)]**2)) for t in np.arange(0.0, 12.5, 2.5)]
@@ -91,7 +87,7 @@ def amplitudes(steps, omega):
 
 def waves(runs):
     def tell(name, case, k, settings):
-        steps = columns(runs.folder(f"waves {name}", case, settings), "steps.csv")
+        steps = read_table(runs.folder(f"waves {name}", case, settings) / "steps.csv")
         found = list(amplitudes(steps, np.sqrt(G * k * np.tanh(k * 0.5))))
         lost = -np.polyfit(np.arange(len(found)), np.log(found), 1)[0]
         say(f"waves, {name}: {100 * lost:.2f} % lost per period, {sum(found[-2:]) / sum(found[:2]):.3f} left")
@@ -117,7 +113,7 @@ def dam(runs):
         folder = runs.folder(f"dam {name}", CASES / "refinement" / "dam_break.toml", settings)
         impulses = []
         for probe in ("P160", "P120", "P060"):
-            table = columns(folder, f"probes/{probe}.csv")
+            table = read_table(folder / f"probes/{probe}.csv")
             time, pressure = table["time_s"], table["pressure_Pa"]
             until = time <= 1.4
             impulses.append(np.sum(0.5 * (pressure[until][1:] + pressure[until][:-1]) * np.diff(time[until])))
@@ -135,14 +131,14 @@ def dam(runs):
 
 def gate(runs):
     for name, settings in {"0.04 m": NO_ZONE, "zone of 0.02 m": [], "0.02 m": [*NO_ZONE, "particles.spacing=0.02"]}.items():
-        behind = columns(runs.folder(f"gate {name}", CASES / "refinement" / "gate.toml", settings), "probes/behind.csv")
+        behind = read_table(runs.folder(f"gate {name}", CASES / "refinement" / "gate.toml", settings) / "probes/behind.csv")
         say(f"gate, {name}:", " ".join(f"{np.interp(t, behind['time_s'], behind['connected_m']):.4f}" for t in (0.3, 0.4, 0.5)))
 
 
 def towed(runs):
     for name, settings in {"B/5": NO_ZONE, "zone of B/10": [], "B/10": [*NO_ZONE, "particles.spacing=B/10"]}.items():
         folder = runs.folder(f"towed {name.replace('/', '')}", CASES / "refinement" / "towed_block.toml", settings)
-        force = columns(folder, "probes/force.csv")
+        force = read_table(folder / "probes/force.csv")
         mean = [np.mean(force[key][force["time_s"] >= 0.2]) for key in ("force_x_N_per_m", "force_y_N_per_m")]
         summary = summary_of(folder)
         say(f"towed, {name}: {mean[0]:.1f} along, {mean[1]:.1f} across, largest rise of the energy "
@@ -173,7 +169,7 @@ def block(runs):
     case = runs.options.out / "block.toml"
     case.write_text(BLOCK, encoding="utf-8")
     for name, settings in {"0.02 m": NO_ZONE, "zone of 0.01 m": [], "0.01 m": [*NO_ZONE, "particles.spacing=0.01"]}.items():
-        table = columns(runs.folder(f"block {name}", case, settings), "probes/block.csv")
+        table = read_table(runs.folder(f"block {name}", case, settings) / "probes/block.csv")
         lift = table["force_y_N_per_m"] / (1000 * G * 0.2 * 0.16)
         say(f"block, {name}: {' '.join(f'{value:.3f}' for value in lift[:10])}; {lift[10:].min():.3f} to {lift[10:].max():.3f}")
 

@@ -118,6 +118,13 @@ double largest_unbalanced_share(const Flow<Dim>& flow, const BalancedPressure<Di
   return largest > 0.0 ? std::min(1.0, rest / largest) : 1.0;
 }
 
+/// m^2/s; where the pairs have this fraction of the pressure.
+template <int Dim>
+double noise_viscosity_with(const Flow<Dim>& flow, double speed, double unbalanced_share) {
+  const double of_noise = time_step_rule(flow).reference_speed * std::sqrt(unbalanced_share);
+  return flow.setup.formulation.noise_viscosity * flow.setup.scale.spacing * std::max(speed, of_noise);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -250,15 +257,12 @@ TimeStepRule time_step_rule(const Flow<Dim>& flow) {
 
 template <int Dim>
 double noise_viscosity(const Flow<Dim>& flow, double speed) {
-  const double of_noise = time_step_rule(flow).reference_speed * std::sqrt(flow.state.last_step.unbalanced_share);
-  return flow.setup.formulation.noise_viscosity * flow.setup.scale.spacing * std::max(speed, of_noise);
+  return noise_viscosity_with(flow, speed, flow.state.last_step.unbalanced_share);
 }
 
 template <int Dim>
 double largest_noise_viscosity(const Flow<Dim>& flow, double speed) {
-  if (flow.setup.graded == nullptr) return noise_viscosity(flow, speed);
-  const double reference_speed = time_step_rule(flow).reference_speed;
-  return flow.setup.formulation.noise_viscosity * flow.setup.scale.spacing * std::max(speed, reference_speed);
+  return flow.setup.graded == nullptr ? noise_viscosity(flow, speed) : noise_viscosity_with(flow, speed, 1.0);
 }
 
 template class BalancedPressure<2>;

@@ -15,11 +15,9 @@ namespace {
 /// dx; water in front of a patch is not farther from its centre than this.
 constexpr double reach_in_front = 1.5;
 
-/// dx; between the centres of patches of two walls with a film of water between them, which holds no particle.
-constexpr double reach_across_film = 2.0;
-
-/// dx; from the centre of a patch in a sharp corner, where no particle may be near, to a wet patch of the same wall.
-constexpr double reach_out_of_corner = 2.0;
+/// dx; from the centre of a patch that has no particle near it to that of another one which shows that it is wet: in a
+/// film of water between two walls, or in a sharp corner of one.
+constexpr double reach_of_wet = 2.0;
 
 /// dx; from the centre of a patch into the space in front, so that its own wall does not hide the water there.
 constexpr double margin_of_eye = 0.1;
@@ -43,7 +41,7 @@ struct DeepPatches {
       centres.push_back(flow.walls.patches->wetted().centres()[k]);
       spacing.push_back(flow.setup.scale.spacing * flow.setup.relative_spacing(centres.back()));
     }
-    grid = CellGrid<Dim>(centres, reach_across_film * flow.setup.scale.spacing);
+    grid = CellGrid<Dim>(centres, reach_of_wet * flow.setup.scale.spacing);
   }
 
   const WallFace<Dim>& face(std::size_t n) const { return boundary.faces[patches[index[n]].face]; }
@@ -87,30 +85,19 @@ std::vector<double> find_water_in_front(const Flow<Dim>& flow, const DeepPatches
   return water_in_front;
 }
 
-/// Whether another wall faces this patch across a film.
+/// Whether a patch without water in front is wet all the same: another wall faces it across a film, or a patch near it,
+/// on the same side of the same wall, has water in front.
 template <int Dim>
-bool has_film(const DeepPatches<Dim>& deep, std::size_t n) {
-  const Vec<Dim>& normal = deep.face(n).normal;
-  const double reach = reach_across_film * deep.spacing[n];
+bool is_wet_without_particle(const DeepPatches<Dim>& deep, const std::vector<double>& water_in_front, std::size_t n) {
+  const WallFace<Dim>& face = deep.face(n);
+  const double reach = reach_of_wet * deep.spacing[n];
   bool found = false;
   deep.grid.for_each_near(deep.centres[n], [&](std::int32_t m) {
     const Vec<Dim> offset = deep.centres[m] - deep.centres[n];
-    found = found || (deep.face(m).wall != deep.face(n).wall && deep.face(m).normal.dot(normal) < 0.0 &&
-                      offset.dot(normal) > 0.0 && offset.squaredNorm() < reach * reach);
-  });
-  return found;
-}
-
-/// Whether a patch of the same side of the same wall near this one has water in front.
-template <int Dim>
-bool is_beside_wet(const DeepPatches<Dim>& deep, const std::vector<double>& water_in_front, std::size_t n) {
-  const double reach = reach_out_of_corner * deep.spacing[n];
-  bool found = false;
-  deep.grid.for_each_near(deep.centres[n], [&](std::int32_t m) {
-    const bool is_near = (deep.centres[m] - deep.centres[n]).squaredNorm() < reach * reach;
-    const bool is_of_side =
-        deep.face(m).wall == deep.face(n).wall && deep.face(m).normal.dot(deep.face(n).normal) > 0.0;
-    found = found || (is_near && is_of_side && water_in_front[m] != 0.0);
+    if (found || offset.squaredNorm() >= reach * reach) return;
+    const double alike = deep.face(m).normal.dot(face.normal);
+    found = deep.face(m).wall == face.wall ? alike > 0.0 && water_in_front[m] != 0.0
+                                           : alike < 0.0 && offset.dot(face.normal) > 0.0;
   });
   return found;
 }
@@ -124,7 +111,7 @@ void keep_wet_walls(const Flow<Dim>& flow, double least, std::vector<double>& q)
   std::vector<std::uint8_t> is_dry(deep.boundary.walls.size(), 0);
   for (std::size_t n = 0; n < deep.index.size(); ++n) {
     if (flow.walls.patches->wetted().share(static_cast<std::int32_t>(deep.index[n])) < least_wet_share) continue;
-    const bool is_wet = water_in_front[n] != 0.0 || has_film(deep, n) || is_beside_wet(deep, water_in_front, n);
+    const bool is_wet = water_in_front[n] != 0.0 || is_wet_without_particle(deep, water_in_front, n);
     if (!is_wet) is_dry[deep.face(n).wall] = 1;
   }
   for (const auto& moving : flow.setup.wall_motion->moving()) {

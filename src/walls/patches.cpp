@@ -27,9 +27,14 @@ FractionAt<Dim> spacing_as_drawn(const CaseSpec& spec, const Boundary<Dim>& boun
 }
 
 template <int Dim>
-std::vector<double> spacing_at_patches(const CaseSpec& spec, const Boundary<Dim>& boundary,
+std::vector<WallPatch<Dim>> divide(const CaseSpec& spec, const Boundary<Dim>& boundary,
+                                   const FractionAt<Dim>& spacing_at) {
+  return make_wall_patches<Dim>(boundary, longest_patch_edge * spec.particles.spacing, spacing_at);
+}
+
+template <int Dim>
+std::vector<double> spacing_at_patches(const FractionAt<Dim>& spacing_at, const Boundary<Dim>& boundary,
                                        std::span<const WallPatch<Dim>> patches) {
-  const FractionAt<Dim> spacing_at = spacing_as_drawn(spec, boundary);
   std::vector<double> spacing(patches.size(), 1.0);
   if (!spacing_at) return spacing;
   for_each(spacing.size(), [&](std::size_t k) { spacing[k] = spacing_at(patches[k].centre(boundary)); });
@@ -70,14 +75,17 @@ std::vector<Vec<Dim>> corners_that_move(const Boundary<Dim>& boundary) {
 
 template <int Dim>
 std::vector<WallPatch<Dim>> divide_into_patches(const CaseSpec& spec, const Boundary<Dim>& boundary) {
-  return make_wall_patches<Dim>(boundary, longest_patch_edge * spec.particles.spacing,
-                                spacing_as_drawn(spec, boundary));
+  return divide(spec, boundary, spacing_as_drawn(spec, boundary));
 }
 
 template <int Dim>
 PatchesOfWalls<Dim>::PatchesOfWalls(const CaseSpec& spec, const Walls<Dim>& walls)
-    : all_(divide_into_patches(spec, walls.boundary)),
-      wetted_(spec, walls.boundary, spacing_at_patches<Dim>(spec, walls.boundary, all_),
+    : PatchesOfWalls(spec, walls, spacing_as_drawn(spec, walls.boundary)) {}
+
+template <int Dim>
+PatchesOfWalls<Dim>::PatchesOfWalls(const CaseSpec& spec, const Walls<Dim>& walls, const FractionAt<Dim>& spacing_at)
+    : all_(divide(spec, walls.boundary, spacing_at)),
+      wetted_(spec, walls.boundary, spacing_at_patches<Dim>(spacing_at, walls.boundary, all_),
               (1.5 * dummy_layers(spec) + margin_of_reach) * spec.particles.spacing),
       row_(nearest_rows<Dim>(walls, all_, spec.particles.spacing)),
       moving_corners_(corners_that_move(walls.boundary)) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/wall_patches.h"
@@ -32,6 +33,8 @@ class PatchesOfWalls {
   std::size_t moves() const { return moves_; }
 
  private:
+  PatchesOfWalls(const CaseSpec& spec, const Walls<Dim>& walls, const FractionAt<Dim>& spacing_at);
+
   std::vector<WallPatch<Dim>> all_;
   WettedPatches<Dim> wetted_;
   std::vector<std::int32_t> row_;

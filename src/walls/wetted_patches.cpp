@@ -153,7 +153,7 @@ std::pair<std::int32_t, Vec<Dim>> WettedPatches<Dim>::patch_under(const Boundary
 template <int Dim>
 bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
   bool has_moved = false;
-  /// Takes up to `measure` around x from patch k, and returns the rest.
+  // Takes up to `measure` around x from patch k, and returns the rest.
   const auto take = [&](std::int32_t k, const Vec<Dim>& x, double measure) {
     const double before = share_[k];
     share_[k] -= measure / patches[k].measure;
