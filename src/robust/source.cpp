@@ -8,6 +8,8 @@
 //   gamma  fraction of the density error that a step corrects
 //   s_i    factor of the correction: for particles too close, the fraction that the energy balance allows
 //          (`balance_energy`); for particles too far apart, `pull` times `interior`, which is 0 at the surface
+#include <algorithm>
+
 #include "base/for_each.h"
 #include "flow/balanced_pressure.h"
 #include "flow/stages.h"
@@ -23,6 +25,17 @@ namespace {
 /// 0.1 % too dense.
 constexpr double pull = 1.5;
 
+/// Steps in which the correction grows to its full rate in cases with zones of refinement. The volumes of the start do
+/// not fit beside borders and beside the walls of zones that move. Corrected at once, they change forces by a quarter.
+constexpr double steps_to_full_rate = 10.0;
+
+/// Fraction of the rate of the correction.
+template <int Dim>
+double share_of_rate(const Flow<Dim>& flow) {
+  if (flow.setup.graded == nullptr) return 1.0;
+  return std::min(1.0, static_cast<double>(flow.state.step) / steps_to_full_rate);
+}
+
 /// Source of the density correction, without the divergence; owned particles, Pa/m^2.
 template <int Dim>
 std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation, double dt) {
@@ -35,7 +48,7 @@ std::vector<double> find_density_source(const Flow<Dim>& flow, double relaxation
   find_wall_overlap<Dim>(flow.pairs(), flow.walls.boundary, setup.scale.spacing, flow.state.particles, overlap);
   const double lift = flow.state.last_step.density_share;
   const double courant = time_step_rule(flow).limiting_speed(largest_speed(flow)) * dt / setup.scale.spacing;
-  const double share = relaxation * courant;
+  const double share = relaxation * share_of_rate(flow) * courant;
   for_each(owned, [&](std::size_t i) {
     const double error = concentration[i] - 1.0;
     const double answered = (error < 0.0 ? pull * flow.surroundings.interior[i] : lift) * error + overlap[i];

@@ -85,16 +85,39 @@ TEST(BalancedPressure, PressesOnWallsInAZone) {
   spec.refinement = {zone};
   spec.probes = {force_probe({0.0, 0.0}, {"block"}), force_probe({0.0, 0.0}, {"tank"}), force_probe({0.0, 0.0})};
   Flow<2> flow = make_flow<2>(spec);
+  start(flow);
   std::vector<Reader<2>> readers;
   for (std::size_t which = 0; which < spec.probes.size(); ++which) readers.emplace_back(spec, flow, which);
   const double lift = 1000.0 * g * (high - low).prod();
   for (int n = 0; n < 150; ++n) {
     const double dt = step(flow).dt;
-    if (n >= 10) {
-      EXPECT_NEAR(readers[0].force(dt)[1], lift, 0.01 * lift) << n;
-    }
+    EXPECT_NEAR(readers[0].force(dt)[1], lift, (n < 10 ? 0.04 : 0.01) * lift) << n;
     const Vec<2> whole = readers[2].force(dt);
     EXPECT_LT((readers[0].force(dt) + readers[1].force(dt) - whole).norm(), 1e-9 * whole.norm()) << n;
+  }
+}
+
+// The density source answered the volumes that do not fit at the start of a case with zones at once. In a zone that
+// moves, all water beside walls is too dense by 1 %, and the lift was 1.22 times too large in the first two steps.
+TEST(BalancedPressure, PressesOnABlockThatStartsWithItsZone) {
+  constexpr Vec<2> low{0.5, 0.12}, high{0.7, 0.28};
+  CaseSpec spec = tank_case<2>(dx, 1.2, depth);
+  spec.walls.push_back(testing_cases::box_wall({low[0], low[1]}, {high[0], high[1]}, {}, FluidSide::outside));
+  spec.walls[1].name = "block";
+  spec.walls[1].displacement = {"0.3*t^2", "0"};
+  RefinementTable zone;
+  zone.shape = ZoneShape::walls;
+  zone.walls = {"block"};
+  zone.distance = 5.0 * dx;
+  spec.refinement = {zone};
+  spec.probes = {force_probe({0.0, 0.0}, {"block"})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const Reader<2> on_block(spec, flow);
+  const double lift = 1000.0 * g * (high - low).prod();
+  for (int n = 0; n < 30; ++n) {
+    const double dt = step(flow).dt;
+    EXPECT_NEAR(on_block.force(dt)[1], lift, 0.03 * lift) << n;
   }
 }
 
