@@ -43,6 +43,9 @@ class Cutter {
     });
     plain_.file_faces(reach_);
     find_hulls(block.spec);
+    is_open_mesh_.assign(boundary_.walls.size(), 0);
+    for (const WallMesh& mesh : boundary_.meshes)
+      is_open_mesh_[mesh.wall] = is_hull(block.spec.walls[mesh.wall]) ? 0 : 1;
   }
 
   /// Fraction of a box that is in the block and in front of all walls, which count as flat over each part of the box.
@@ -118,7 +121,8 @@ class Cutter {
   }
 
   /// Calls visit(normal, height) for the nearest wall that is not a mesh, and for each mesh and each hull that x is
-  /// behind. A point behind these may be nearer to another wall, in front of it: inside a block, above the bed.
+  /// behind. A point behind these may be nearer to another wall, in front of it: inside a block, above the bed. Where
+  /// the rims of open meshes meet, as at the edges of a basin, only all of these together tell whether x is behind.
   template <class Visit>
   void visit_walls(const Vec<Dim>& x, Visit&& visit) const {
     const auto tell_of = [&](const NearestWall<Dim>& wall) {
@@ -133,13 +137,19 @@ class Cutter {
       if (wall.face != nearest.face && wall.signed_distance < 0.0) tell_of(wall);
     }
     if constexpr (Dim == 3) {
+      bool is_beside_rim = false;
       for (const WallMesh& mesh : boundary_.meshes) {
         const Vec<3> moved = boundary_.displacement_of(mesh);
         const SurfacePlace place = mesh.surface->nearest(x - moved, reach_);
+        is_beside_rim = is_beside_rim || (place.triangle >= 0 && place.is_on_rim);
         if (place.triangle < 0 || place.is_on_rim) continue;
         tell(x, place.point + moved, place.signed_distance, boundary_.faces[mesh.first_face + place.triangle].normal,
              visit);
       }
+      if (!is_beside_rim) return;
+      const NearestWall<3> wall = nearest_among<3>(boundary_, is_open_mesh_, x, reach_);
+      if (wall.face < 0 || wall.signed_distance >= 0.0) return;
+      tell(x, wall.point, wall.signed_distance, boundary_.faces[wall.face].normal, visit);
     }
   }
 
@@ -156,6 +166,7 @@ class Cutter {
   Boundary<Dim> plain_;     ///< without meshes and plates
   std::vector<bool> cuts_;  ///< for each face of `plain_`
   std::vector<Hull> hulls_;
+  std::vector<std::uint8_t> is_open_mesh_;  ///< by wall
 };
 
 }  // namespace tailwater

@@ -122,6 +122,51 @@ TEST(Fill, StaysAboveATerrainWhateverTheSpacing) {
   }
 }
 
+// Beyond an edge of a basin of separate meshes a place is behind none of them by itself, and it is in front of a dam
+// that crosses the basin.
+TEST(Fill, EndsAtTheEdgesOfABasinOfMeshesBesideADam) {
+  const MeshFolder folder;
+  CaseSpec spec = empty_case(0.02, 3);
+  const auto add = [&](const std::vector<Vec<3>>& points, const std::vector<std::array<int, 4>>& quads,
+                       FluidSide side) {
+    TriangleMesh mesh;
+    mesh.points = points;
+    for (const auto& [a, b, c, d] : quads) add_quad(mesh, a, b, c, d);
+    const std::string name = fmt::format("wall{}.stl", spec.walls.size());
+    spec.walls.push_back(MeshFolder::wall_of_file(folder.write(name, ascii_stl(mesh)), side));
+  };
+  constexpr double length = 0.8, width = 0.4, height = 0.3, level = 0.2, beyond = 0.03, toe = 0.35;
+  const auto sheet = [&](const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& d) {
+    add({a, b, c, d}, {{0, 1, 2, 3}}, FluidSide::front);
+  };
+  sheet({0.0, 0.0, 0.0}, {length, 0.0, 0.0}, {length, width, 0.0}, {0.0, width, 0.0});
+  sheet({0.0, 0.0, 0.0}, {0.0, 0.0, height}, {length, 0.0, height}, {length, 0.0, 0.0});
+  sheet({0.0, width, 0.0}, {length, width, 0.0}, {length, width, height}, {0.0, width, height});
+  sheet({0.0, 0.0, 0.0}, {0.0, width, 0.0}, {0.0, width, height}, {0.0, 0.0, height});
+  sheet({length, 0.0, 0.0}, {length, 0.0, height}, {length, width, height}, {length, width, 0.0});
+  std::vector<Vec<3>> dam;  // its face leans by 45 degrees
+  for (const double y : {-beyond, width + beyond}) {
+    for (const auto& [x, z] : {std::pair{toe - beyond, -beyond}, {0.65, -beyond}, {0.65, 0.25}, {toe + 0.25, 0.25}}) {
+      dam.emplace_back(x, y, z);
+    }
+  }
+  add(dam, {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}, FluidSide::outside);
+  FluidTable fill;
+  fill.shape = BlockShape::fill;
+  fill.seed = {0.1, 0.2, 0.1};
+  fill.level = level;
+  spec.fluid = {fill};
+  const FluidParticles<3> fluid = make_fluid_particles(spec, make_boundary<3>(spec));
+  double volume = 0.0;
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+    const Vec<3>& x = fluid.position[i];
+    EXPECT_GT(std::min({x[0], x[1], x[2], width - x[1], level - x[2]}), 0.0) << x.transpose();
+    volume += fluid.volume[i];
+  }
+  const double exact = width * level * (toe + 0.5 * level);
+  EXPECT_NEAR(volume, exact, 0.003 * exact);
+}
+
 TEST(Fill, OverASlopeHasTheVolumeOfTheWater) {
   CaseSpec spec = empty_case(0.025, 2);
   WallTable tank;
