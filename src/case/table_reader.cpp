@@ -26,17 +26,6 @@ bool is_too_small(double value, const Range& range) {
 
 constexpr const char* unseen = "has a control character or an end of a line; use printable characters on one line";
 
-/// For a key in the wrong table: the tables that contain it.
-std::string home_of(std::string_view key) {
-  std::vector<std::string> homes;
-  for (const TableInfo& table : case_tables()) {
-    for (const KeyInfo& info : table.keys) {
-      if (info.key == key) homes.push_back(table.heading());
-    }
-  }
-  return homes.empty() ? "" : fmt::format("it belongs to {}; ", fmt::join(homes, " or "));
-}
-
 /// Whether the expression of a level has the name of the discharge, which is also that of one of the numbers.
 bool has_ambiguous_discharge(const std::string& text, NamedNumbers numbers) {
   if (numbers.erase(std::string(level_names[1])) == 0) return false;
@@ -49,6 +38,16 @@ bool has_ambiguous_discharge(const std::string& text, NamedNumbers numbers) {
 }
 
 }  // namespace
+
+std::string home_of(std::string_view key) {
+  std::vector<std::string> homes;
+  for (const TableInfo& table : case_tables()) {
+    for (const KeyInfo& info : table.keys) {
+      if (info.key == key) homes.push_back(table.heading());
+    }
+  }
+  return homes.empty() ? "" : fmt::format("it belongs to {}; ", fmt::join(homes, " or "));
+}
 
 std::optional<double> number_in(const toml::node& node) {
   if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());

@@ -23,6 +23,9 @@ namespace tailwater {
 /// " in m", or empty for a number without unit.
 std::string in_unit(std::string_view unit);
 
+/// For a key in the wrong place: "it belongs to " the tables that contain it and "; ", or nothing.
+std::string home_of(std::string_view key);
+
 /// The number in a node, if it is one. A large whole number is rounded, because toml++ has no double for it.
 std::optional<double> number_in(const toml::node& node);
 

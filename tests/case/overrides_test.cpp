@@ -69,7 +69,7 @@ TEST(Overrides, ThatAreWrongAreNamed) {
       {"scheme.courant", {"write --set table.key=value"}},
       {"=1", {"a name is missing"}},
       {"scheme.=1", {"a name is missing"}},
-      {"courant=0.1", {"courant = 0.1: unknown table"}},
+      {"courant=0.1", {"courant = 0.1: unknown table; it belongs to [scheme]"}},
       {"parameters.Hh=0.1", {"no parameter \"Hh\"", "did you mean \"H\"?"}},
   };
   for (const auto& [override_text, parts] : table) {
