@@ -7,135 +7,12 @@
 #include <utility>
 
 #include "geometry/rotation.h"
+#include "geometry/some_walls.h"
 #include "sampling/lone_body.h"
-#include "sampling/wall_layers.h"
+#include "sampling/wall_bodies.h"
 
 namespace tailwater {
 namespace {
-
-/// dx; search radius for the wall of a wall particle, which is nearer to its wall.
-constexpr double reach_to_wall = 8.0;
-/// Fraction of half a cell. A plate that cuts off less than this does not divide the cell.
-constexpr double min_part = 0.05;
-
-/// Appends `part` to `all`. Earlier parts have taken `on_wall` of the numbers for particles on the wall, and `behind`
-/// of those for particles behind it.
-template <int Dim>
-void append(WallParticles<Dim>& all, WallParticles<Dim> part, std::int64_t on_wall, std::int64_t behind) {
-  for (std::int64_t& number : part.number) {
-    number += number < part.numbers_on_wall ? on_wall : all.numbers_on_wall + behind - part.numbers_on_wall;
-  }
-  if (all.size() == 0) {
-    part.numbers = all.numbers;
-    part.numbers_on_wall = all.numbers_on_wall;
-    all = std::move(part);
-    return;
-  }
-  const auto put = [](auto& into, const auto& entries) { into.insert(into.end(), entries.begin(), entries.end()); };
-  all.apply_to_fields(
-      [&](auto&... into) { part.apply_to_fields([&](const auto&... entries) { (put(into, entries), ...); }); });
-}
-
-/// The particles of several parts, with numbers one after the other.
-template <int Dim>
-WallParticles<Dim> joined(std::vector<WallParticles<Dim>> parts) {
-  WallParticles<Dim> all;
-  for (const WallParticles<Dim>& part : parts) {
-    all.numbers += part.numbers;
-    all.numbers_on_wall += part.numbers_on_wall;
-  }
-  std::int64_t on_wall = 0;
-  std::int64_t behind = 0;
-  for (WallParticles<Dim>& part : parts) {
-    const std::int64_t more_on_wall = part.numbers_on_wall;
-    const std::int64_t more_behind = part.numbers - part.numbers_on_wall;
-    append(all, std::move(part), on_wall, behind);
-    on_wall += more_on_wall;
-    behind += more_behind;
-  }
-  all.apply_to_fields([](auto&... field) { (field.shrink_to_fit(), ...); });
-  return all;
-}
-
-// The functions that sample a body in each dimension.
-WallParticles<2> sample(const LoneBody<2>& body, const WallLayers& layers, const Lattice<2>& /*lattice*/) {
-  return sample_chains(body.boundary, layers);
-}
-WallParticles<3> sample(const LoneBody<3>& body, const WallLayers& layers, const Lattice<3>& lattice) {
-  WallParticleCollector<3> collector(body.boundary, layers);
-  sample_boxes(body.boundary, layers, collector);
-  sample_meshes(body.boundary, body.meshes, layers, lattice, collector);
-  return std::move(collector).particles();
-}
-
-/// Samples each body as if it were alone, because bodies separate.
-template <int Dim>
-WallParticles<Dim> sample_bodies(const Boundary<Dim>& boundary, const WallLayers& layers, const Lattice<Dim>& lattice) {
-  std::set<int> bodies;
-  for (const WallProperties& wall : boundary.walls) bodies.insert(wall.body);
-  std::vector<WallParticles<Dim>> parts;
-  for (const int body : bodies)
-    parts.push_back(sample(body_alone(boundary, body, reach_to_wall * layers.spacing),
-                           layers.of_wall(body != resting_body), lattice));
-  for (WallParticles<Dim>& side : sample_plates<Dim>(boundary, layers, lattice)) parts.push_back(std::move(side));
-  if constexpr (Dim == 2) {
-    // Plates and free ends have no particles on the wall itself.
-    if (!layers.starts_on_wall) {
-      for (WallParticles<2>& beyond : sample_beyond_ends(boundary, layers)) parts.push_back(std::move(beyond));
-    }
-  }
-  return joined(std::move(parts));
-}
-
-/// Appends a part of the particle `row` of `whole`.
-template <int Dim>
-void append_part(WallParticles<Dim>& parts, const WallParticles<Dim>& whole, std::size_t row, const Vec<Dim>& position,
-                 double share, std::int64_t number) {
-  parts.apply_to_fields(
-      [&](auto&... into) { whole.apply_to_fields([&](const auto&... from) { (into.push_back(from[row]), ...); }); });
-  parts.position.back() = position;
-  parts.share.back() = share;
-  parts.number.back() = number;
-}
-
-/// The screen of a plate that is nearer to `x` than `distance` and extends behind the wall of `x`; null without one.
-template <int Dim>
-const Screen<Dim>* plate_through(const Boundary<Dim>& boundary, const Vec<Dim>& x, double distance) {
-  for (const int s : boundary.screens_near(x, distance)) {
-    const Screen<Dim>& screen = boundary.screens[s];
-    if (screen.is_plate && !screen.is_beyond && screen.distance(x) < distance) return &screen;
-  }
-  return nullptr;
-}
-
-/// Divides the particles of walls whose cells are cut by a plate that ends on the wall. Each part acts on the water of
-/// its side. A whole particle would fill too much of the support on one side of the plate's foot and too little on the
-/// other, and still water would circulate.
-template <int Dim>
-void cut_by_plates(const Boundary<Dim>& boundary, double spacing, WallParticles<Dim>& particles) {
-  if (boundary.plates.empty()) return;
-  WallParticles<Dim> cut;
-  cut.numbers = 2 * particles.numbers;
-  cut.numbers_on_wall = 2 * particles.numbers_on_wall;
-  for (std::size_t row = 0; row < particles.size(); ++row) {
-    const Vec<Dim>& x = particles.position[row];
-    const double half = 0.5 * spacing * std::pow(particles.share[row], 1.0 / (Dim - 1));
-    const bool is_of_plate = boundary.walls[particles.wall[row]].is_plate;
-    const Screen<Dim>* plate = is_of_plate ? nullptr : plate_through(boundary, x, (1.0 - min_part) * half);
-    if (plate == nullptr) {
-      append_part(cut, particles, row, x, particles.share[row], 2 * particles.number[row]);
-      continue;
-    }
-    const double height = plate->height(x);
-    for (const int part : {0, 1}) {
-      const double side = part == 0 ? half : -half;
-      const Vec<Dim> middle = x + 0.5 * (side - height) * plate->normal;
-      const double share = particles.share[row] * 0.5 * (1.0 + height / side);
-      append_part(cut, particles, row, middle, share, 2 * particles.number[row] + part);
-    }
-  }
-  particles = std::move(cut);
-}
 
 /// The normal of a wall, and directions along it.
 template <int Dim>
@@ -223,25 +100,46 @@ Boundary<Dim> plain_walls(const Boundary<Dim>& boundary) {
   return plain;
 }
 
-/// The rows of dummies of one spacing behind plain walls. Parts of coarser particles get the normals of these rows,
-/// because beside edges of walls the normals of coarser rows differ. Every rank makes all rows.
+/// The rows of dummies of one spacing behind plain walls. Every rank makes all rows.
 template <int Dim>
 class RowsOfSpacing {
  public:
-  RowsOfSpacing(const Boundary<Dim>& plain, double spacing, int layers)
+  RowsOfSpacing(const Boundary<Dim>& boundary, const Boundary<Dim>& plain, double spacing, int layers)
       : rows_(sample_bodies<Dim>(plain, WallLayers{spacing, layers, false, {}}, Lattice<Dim>{})),
-        places_(0.5 * spacing) {
+        places_(0.5 * spacing),
+        half_spacing_(0.5 * spacing) {
+    cut_by_plates(boundary, spacing, rows_);
     for (const Vec<Dim>& x : rows_.position) places_.add(x);
   }
 
-  /// Gives the last of `parts` the normals of the nearest particle of the same wall, if one is near.
-  void give_normals(WallParticles<Dim>& parts) const {
-    const Vec<Dim>& x = parts.position.back();
+  const WallParticles<Dim>& rows() const { return rows_; }
+
+  /// The row nearest to a place, of this wall and not beyond its end, if one is near; else -1.
+  int nearest_to(const Vec<Dim>& x, int wall) const {
     int nearest = -1;
     places_.visit_near(x, [&](int row) {
-      if (rows_.wall[row] != parts.wall.back() || rows_.is_beyond_end[row] != 0) return;
+      if (rows_.wall[row] != wall || rows_.is_beyond_end[row] != 0) return;
       if (nearest < 0 || (rows_.position[row] - x).norm() < (rows_.position[nearest] - x).norm()) nearest = row;
     });
+    return nearest;
+  }
+
+  /// Whether a row of this wall, nearer to a place than half a spacing, fulfils a condition.
+  template <class Condition>
+  bool is_any_near(const Vec<Dim>& x, int wall, Condition&& holds) const {
+    bool found = false;
+    places_.visit_near(x, [&](int row) {
+      const Vec<Dim>& place = rows_.position[row];
+      found = found || (rows_.wall[row] == wall && rows_.is_beyond_end[row] == 0 &&
+                        (place - x).norm() < half_spacing_ && holds(place));
+    });
+    return found;
+  }
+
+  /// Gives the last of `parts` the normals of the nearest row, if one is near. Beside edges of walls the normals of
+  /// coarser rows differ.
+  void give_normals(WallParticles<Dim>& parts) const {
+    const int nearest = nearest_to(parts.position.back(), parts.wall.back());
     if (nearest < 0) return;
     parts.normal.back() = rows_.normal[nearest];
     parts.blocked.back() = rows_.blocked[nearest];
@@ -251,7 +149,45 @@ class RowsOfSpacing {
  private:
   WallParticles<Dim> rows_;
   PointGrid<Dim> places_;
+  double half_spacing_;  ///< m
 };
+
+/// Where the spacing is the same all around, the rows of that spacing take the place of those of the case: in a sharp
+/// corner, parts of coarse particles are in front of the wall.
+template <int Dim>
+struct EvenSpacing {
+  const SpacingField<Dim>& field;
+  const Boundary<Dim>& boundary;
+  double spacing;  ///< m; of the case
+  int layers;
+
+  bool is_around(const Vec<Dim>& x) const {
+    return field.carrier() < 0 && field.nearest_border(x).distance > layers * spacing;
+  }
+
+  /// The level of the rows that take the place of a row of the case at x, of this wall; 0: none do.
+  int level_of(const Vec<Dim>& x, int wall) const {
+    if (boundary.walls[wall].is_plate || !is_around(x)) return 0;
+    return level_at(field, boundary, boundary.nearest(x, reach_to_wall * spacing), x);
+  }
+};
+
+/// Appends the rows of a level that take the place of rows of the case.
+template <int Dim>
+void append_rows(const EvenSpacing<Dim>& even, int level, const RowsOfSpacing<Dim>& of_case,
+                 const RowsOfSpacing<Dim>& of_level, const SpaceShare& share, WallParticles<Dim>& all) {
+  const WallParticles<Dim>& rows = of_level.rows();
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const Vec<Dim>& x = rows.position[row];
+    const int wall = rows.wall[row];
+    if (rows.is_beyond_end[row] != 0 || !(even.boundary.walls[wall].moves() || share.holds(x))) continue;
+    const int coarse = of_case.nearest_to(x, wall);
+    if (even.level_of(coarse < 0 ? x : of_case.rows().position[coarse], wall) != level) continue;
+    if (of_case.is_any_near(x, wall, [&](const Vec<Dim>& near) { return even.level_of(near, wall) == 0; })) continue;
+    append_part(all, rows, row, x, rows.share[row] / power<Dim>(1 << level), rows.number[row] + all.numbers);
+  }
+  all.numbers += rows.numbers;
+}
 
 /// Appends particles of a level on the finer lattice in the cells of that level.
 template <int Dim>
@@ -301,11 +237,18 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
   const std::int64_t parts_of_row = std::llround(power<Dim>(1.0 / field.finest()));
   const std::vector<bool> on_lattice = walls_on_lattice(boundary);
   const LevelsOfCells<Dim> levels{field, boundary, spacing, lattice};
+  const EvenSpacing<Dim> even{field, boundary, spacing, layers};
   const Boundary<Dim> plain = plain_walls(boundary);
-  std::vector<RowsOfSpacing<Dim>> finer;
-  for (int level = 1; level <= std::lround(-std::log2(field.finest())); ++level) {
-    finer.emplace_back(plain, spacing / (1 << level), layers);
-  }
+  const int finest = static_cast<int>(std::lround(-std::log2(field.finest())));
+  std::vector<RowsOfSpacing<Dim>> rows;  // by level
+  for (int level = 0; level <= finest; ++level) rows.emplace_back(boundary, plain, spacing / (1 << level), layers);
+  std::vector<std::uint8_t> is_own(boundary.walls.size(), 0);
+  const auto is_in_front = [&](int wall, const Vec<Dim>& x) {
+    is_own[wall] = 1;
+    const NearestWall<Dim> own = nearest_among<Dim>(boundary, is_own, x, spacing);
+    is_own[wall] = 0;
+    return own.face >= 0 && own.signed_distance > 0.0;
+  };
   WallParticles<Dim> divided;
   divided.numbers = particles.numbers * parts_of_row;
   divided.numbers_on_wall = particles.numbers_on_wall * parts_of_row;
@@ -313,15 +256,15 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
     const Vec<Dim>& x = particles.position[row];
     const bool is_on_lattice = on_lattice[particles.wall[row]];
     if (is_on_lattice && levels.at(x) > 0) continue;  // sampled below
+    const bool has_sides = boundary.walls[particles.wall[row]].is_plate || particles.is_beyond_end[row] != 0;
+    if (!is_on_lattice && !has_sides && even.level_of(x, particles.wall[row]) > 0) continue;  // appended below
     const NearestWall<Dim> wall = boundary.nearest(x, reach_to_wall * spacing);
     const int level = is_on_lattice ? 0 : level_at(field, boundary, wall, x);
     const int per_edge = 1 << level;
-    const bool has_sides = boundary.walls[particles.wall[row]].is_plate || particles.is_beyond_end[row] != 0;
     const Mat<Dim> axes = axes_at_wall(boundary, wall);
     const double edge = spacing / per_edge;
     // Where the spacing is the same all around, no water reaches parts behind the layers of this spacing.
-    const bool may_leave_out = field.carrier() < 0 && particles.is_beyond_end[row] == 0 && wall.face >= 0 &&
-                               field.nearest_border(x).distance > 2.0 * layers * spacing;
+    const bool may_leave_out = particles.is_beyond_end[row] == 0 && wall.face >= 0 && even.is_around(x);
     for (int part = 0; part < static_cast<int>(power<Dim>(per_edge)); ++part) {
       Vec<Dim> steps;
       for (int axis = 0, rest = part; axis < Dim; ++axis, rest /= per_edge) {
@@ -329,16 +272,16 @@ void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& 
       }
       const Vec<Dim> place = x + axes * steps;
       if (may_leave_out && boundary.nearest(place, layers * edge).face < 0) continue;
+      if (level > 0 && !has_sides && is_in_front(particles.wall[row], place)) continue;  // of a sharp corner
       append_part(divided, particles, row, place, particles.share[row] / power<Dim>(per_edge),
                   particles.number[row] * parts_of_row + part);
-      if (level > 0 && !has_sides) finer[level - 1].give_normals(divided);
+      if (level > 0 && !has_sides) rows[level].give_normals(divided);
     }
   }
-  if (std::ranges::find(on_lattice, true) != on_lattice.end()) {
-    const WallLayers of_case{spacing, layers, false, share};
-    for (int level = 1; level <= std::lround(-std::log2(field.finest())); ++level) {
-      append_level(levels, level, of_case, divided);
-    }
+  const bool are_some_on_lattice = std::ranges::find(on_lattice, true) != on_lattice.end();
+  for (int level = 1; level <= finest; ++level) {
+    append_rows(even, level, rows[0], rows[level], share, divided);
+    if (are_some_on_lattice) append_level(levels, level, WallLayers{spacing, layers, false, share}, divided);
   }
   particles = std::move(divided);
 }

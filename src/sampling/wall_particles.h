@@ -25,9 +25,9 @@ WallParticles<Dim> make_dummy_particles(const Boundary<Dim>& boundary, double sp
 
 /// Divides the particles of make_dummy_particles in zones of refinement, each into 2^Dim along and across its wall,
 /// until their volumes are nearest to that of the local spacing at the wall, or of the finest one on walls at rest if
-/// zones move. Away from borders of zones at rest only `layers` rows of them remain. On flat walls the rows are the
-/// same as those of that spacing, and beside edges they have the normals of those. Meshes are sampled again on finer
-/// lattices, whose cells divide those of the case.
+/// zones move. On flat walls the rows are the same as those of that spacing, and beside edges they have the normals of
+/// those. Parts in front of their wall are left out. Away from borders of zones at rest, the `layers` rows of the local
+/// spacing take their place. Meshes are sampled again on finer lattices, whose cells divide those of the case.
 template <int Dim>
 void divide_wall_particles(const SpacingField<Dim>& field, const Boundary<Dim>& boundary, double spacing, int layers,
                            const SpaceShare& share, const Lattice<Dim>& lattice, WallParticles<Dim>& particles);

@@ -183,6 +183,15 @@ TEST(BalancedPressure, PressesOnASillInAZone) {
   EXPECT_NEAR(tank[1], -1000.0 * g * depth, 0.005 * 1000.0 * g * depth);
 }
 
+// Parts of coarse wall particles stood in front of a toe of 1:2. Beside them the water looked like a surface, so
+// nothing was balanced, and the sill had 7 % too much force.
+TEST(BalancedPressure, PressesOnAFlatSillInAZone) {
+  const auto [tank, sill] = forces_with_zone({{0.4, 0.0}, {1.2, 0.0}, {0.9, 0.15}, {0.7, 0.15}}, 0.0);
+  const double on_sill = 1000.0 * g * (0.8 * depth - 0.5 * 0.15);
+  EXPECT_NEAR(sill[1], -on_sill, 0.02 * on_sill);
+  EXPECT_NEAR(tank[1], -1000.0 * g * 0.8 * depth, 0.02 * 1000.0 * g * 0.8 * depth);
+}
+
 // A wall that moves along a period has an image in the next one, which counted too: the bed lacked the weight of the
 // water that the block displaces, and a block beside the bed had twice its lift.
 TEST(BalancedPressure, CountsAWallThatMovesAlongAPeriodOnce) {
