@@ -15,6 +15,7 @@ namespace {
 constexpr double farthest_share = 1.5;       // of the layers' depth; sharp mitres are cut off at this distance
 constexpr double min_distance_to_tip = 0.3;  // dx, for the particles in the tip of a crest
 constexpr double sharp_turn_cosine = 0.866;  // a corner that turns by more than 30 degrees gets a particle of its own
+constexpr double min_sine_of_corner = 0.25;  // below, two faces go on as one
 constexpr double folded_back_cosine = -0.9;  // faces that turn by more than 154 degrees have no useful mitre
 
 /// The joint of a face to the next one, or to an image of it.
@@ -31,6 +32,35 @@ struct Joints {
   std::vector<Joint> next, previous;
   std::vector<int> chain;  ///< index of the connected chain of each face
 };
+
+constexpr double widest_gap = 0.5;   // dx, of a corner that leaves no opening (geometry/rim_ends.h)
+constexpr double longest_end = 1.0;  // dx, of a wall beyond a wall that it crosses, with too few particles behind it
+
+/// The body, where walls that nearly meet, or go on a little beyond the place where they cross, meet in a corner.
+/// Otherwise the walls would have rows of their own, and none in the corner behind them, where water would escape.
+Boundary<2> with_closed_corners(Boundary<2> body, double spacing, double tolerance) {
+  std::vector<WallFace<2>>& faces = body.faces;
+  const auto is_joined = [&](std::size_t f, int corner) {
+    return std::ranges::any_of(faces, [&](const WallFace<2>& other) {
+      return &other != &faces[f] && (other.corners[1 - corner] - faces[f].corners[corner]).norm() <= tolerance;
+    });
+  };
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = 0; j < faces.size(); ++j) {
+      Vec<2>& end = faces[i].corners[1];
+      Vec<2>& start = faces[j].corners[0];
+      if (i == j || (end - start).norm() > longest_end * spacing || is_joined(i, 1) || is_joined(j, 0)) continue;
+      const Vec<2> along = end - faces[i].corners[0];
+      const double closing = along.dot(faces[j].normal);
+      if (std::abs(closing) < min_sine_of_corner * along.norm()) continue;
+      const Vec<2> corner = end - faces[j].height(end) / closing * along;
+      const bool is_crossed = (closest_point(faces[i], corner) - corner).norm() <= tolerance &&
+                              (closest_point(faces[j], corner) - corner).norm() <= tolerance;
+      if (is_crossed || (end - start).norm() <= widest_gap * spacing) end = start = corner;
+    }
+  }
+  return body;
+}
 
 /// Joins each face to the one that bounds the same sector of fluid at its corner 1. If several faces meet there, it is
 /// the one across the smallest angle of fluid.
@@ -233,8 +263,9 @@ WallPlace<2> place_behind(const std::vector<WallFace<2>>& chain, const Vec<2>& x
 
 }  // namespace
 
-WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers) {
+WallParticles<2> sample_chains(const Boundary<2>& drawn, const WallLayers& layers) {
   const double tolerance = corner_tolerance * layers.spacing;
+  const Boundary<2> body = with_closed_corners(drawn, layers.spacing, tolerance);
   const double farthest = farthest_share * layers.count * layers.spacing;
   const double free_end = layers.starts_on_wall ? 0.0 : 0.5;
   const Joints joints = join_faces(body, tolerance);

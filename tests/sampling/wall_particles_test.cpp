@@ -146,6 +146,24 @@ TEST(Dummies, DoNotDependOnHowTheWallIsWritten) {
 }
 
 // A block of 1.0 x 0.8 m in the water: its interior is filled with rings, which shrink at its convex corners.
+// Drawn by hand, walls end a little before or beyond each other. Rows of their own left the corner behind them empty,
+// and still water escaped there.
+TEST(Dummies, FillTheCornerOfWallsThatNearlyMeet) {
+  constexpr double dx = 0.05;
+  const auto dummies = [&](double beyond, double below) {
+    CaseSpec spec = empty_case(dx);
+    spec.walls = {polyline({{0.0, 0.6}, {0.0, -below}}), polyline({{-beyond, 0.0}, {1.0, 0.0}, {1.0, 0.6}})};
+    return make_dummy_particles<2>(make_boundary<2>(spec), dx, 3).position;
+  };
+  const std::vector<Vec<2>> closed = dummies(0.0, 0.0);
+  for (const auto& [beyond, below] :
+       {std::pair{0.01, 0.0}, {0.5, 0.0}, {0.9, 0.0}, {0.3, 0.3}, {0.0, 0.2}, {-0.3, 0.0}}) {
+    const std::vector<Vec<2>> rows = dummies(beyond * dx, below * dx);
+    ASSERT_EQ(rows.size(), closed.size()) << beyond << ' ' << below;
+    for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_LT((rows[i] - closed[i]).norm(), 1e-9 * dx) << beyond;
+  }
+}
+
 TEST(Dummies, ShrinkAtConvexCorners) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {box_wall({0, 0}, {1.0, 0.8}, {}, FluidSide::outside)};
