@@ -2,6 +2,7 @@
 
 #include "air/pocket_pressure.h"
 #include "bodies/force_sums.h"
+#include "pressure/wet_patches.h"
 
 namespace tailwater {
 namespace {
@@ -59,11 +60,21 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::error_of_pairs(const BalancedPressu
   add_pressure_of_pairs<Dim>(flow_, bodies_.body_of_wall, q, sums);
   thrust.assign(bodies_.bodies.size(), 0.0);
   const Boundary<Dim>& boundary = flow_.walls.boundary;
+  std::vector<const WallPatch<Dim>*> patches;
+  std::vector<PatchInReach<Dim>> in_reach;
   for (const WallPatch<Dim>& patch : bodies_.patches) {
-    const WallFace<Dim>& face = boundary.faces[patch.face];
-    const int body = bodies_.body_of_wall[face.wall];
     const Vec<Dim> x = patch.centre(boundary);
-    const Vec<Dim> against = balanced.on_wall(x, face.normal) * patch.measure * face.normal;
+    if (balanced.at(x) <= 0.0) continue;
+    patches.push_back(&patch);
+    in_reach.push_back({.face = patch.face, .centre = x});
+  }
+  const WetPatches<Dim> wet(flow_, in_reach);
+  for (std::size_t n = 0; n < patches.size(); ++n) {
+    if (wet.wetness(n) == Wetness::dry) continue;
+    const WallFace<Dim>& face = boundary.faces[patches[n]->face];
+    const int body = bodies_.body_of_wall[face.wall];
+    const Vec<Dim>& x = in_reach[n].centre;
+    const Vec<Dim> against = balanced.on_wall(x, face.normal) * patches[n]->measure * face.normal;
     thrust[body] += against.norm();
     if (flow_.setup.ranks.is_root()) sums.add(body, x, against);
   }

@@ -298,7 +298,26 @@ NearestWall<Dim> nearest_among(const Boundary<Dim>& boundary, std::span<const st
   return search_all<Dim>(boundary, {boundary, x, search_distance, is_part}).nearest();
 }
 
+template <int Dim>
+bool is_crossed(const Boundary<Dim>& boundary, std::span<const std::uint8_t> is_part, const Vec<Dim>& from,
+                const Vec<Dim>& to, double tolerance) {
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : boundary.meshes) {
+      if (is_part[mesh.wall] == 0) continue;
+      const Vec<3> moved = boundary.displacement_of(mesh);
+      if (mesh.surface->first_crossed(from - moved, to - moved, tolerance) >= 0) return true;
+    }
+  }
+  bool found = false;
+  boundary.visit_plain_faces([&](int f) {
+    const WallFace<Dim>& face = boundary.faces[f];
+    found = found || (is_part[face.wall] != 0 && crosses(face, from, to, tolerance));
+  });
+  return found;
+}
+
 TAILWATER_IN_2D_AND_3D(nearest_among);
+TAILWATER_IN_2D_AND_3D(is_crossed);
 
 template struct Boundary<2>;
 template struct Boundary<3>;

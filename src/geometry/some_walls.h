@@ -15,6 +15,11 @@ template <int Dim>
 NearestWall<Dim> nearest_among(const Boundary<Dim>& boundary, std::span<const std::uint8_t> is_part, const Vec<Dim>& x,
                                double search_distance);
 
+/// Whether the path from one point to another passes through one of these walls (crosses in geometry/face.h).
+template <int Dim>
+bool is_crossed(const Boundary<Dim>& boundary, std::span<const std::uint8_t> is_part, const Vec<Dim>& from,
+                const Vec<Dim>& to, double tolerance);
+
 /// Whether water surrounds a closed wall of the case.
 inline bool is_hull(const WallTable& wall) {
   const bool is_closed =

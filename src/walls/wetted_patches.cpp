@@ -7,7 +7,6 @@
 
 #include "base/for_each.h"
 #include "geometry/facing.h"
-#include "geometry/some_walls.h"
 
 namespace tailwater {
 namespace {
@@ -19,8 +18,18 @@ constexpr double edge_of_wet_pieces = 0.25;
 /// faces it.
 constexpr double reach_of_cover = 0.05;
 
+/// dx; edge of the pieces of a patch that a wall cuts which is no hull.
+constexpr double edge_of_cut_pieces = 0.125;
+
+/// dx; from a place of a wall into the space in front of it, so that it is beside the face of a wall that ends there,
+/// and so that its own wall hides nothing.
+constexpr double margin_on_wall = 0.01;
+constexpr double margin_of_eye = 0.1;
+
 /// dx; no place of a patch is farther from its centre.
 constexpr double radius_of_patches = 0.9;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Fraction of a patch that is less than the rounding of its pieces.
 constexpr double no_share = 1e-9;
@@ -46,11 +55,64 @@ WettedPatches<Dim>::WettedPatches(const CaseSpec& spec, const Boundary<Dim>& bou
     others_.push_back({static_cast<int>(w), std::vector<std::uint8_t>(boundary.walls.size(), 0)});
     others_.back().walls[w] = 1;
   }
+  open_others_.resize(boundary.walls.size());
+  std::vector<std::uint8_t> are_open = rest.walls;
+  for (std::size_t w = 0; w < are_open.size(); ++w)
+    are_open[w] = are_open[w] != 0 && !boundary.walls[w].moves() ? 1 : 0;
+  for (std::size_t w = 0; w < are_open.size(); ++w) {
+    if (are_open[w] == 0) continue;
+    open_others_[w] = are_open;
+    open_others_[w][w] = 0;
+  }
   if (!others_.empty()) others_.push_back(std::move(rest));
+}
+
+/// Finds what is behind a wall at rest that is no hull, for patches of such walls.
+template <int Dim>
+void WettedPatches<Dim>::find_behind_open(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
+  is_behind_open_.assign(patches.size(), 0);
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const WallFace<Dim>& face = boundary.faces[patches[k].face];
+    const std::vector<std::uint8_t>& others = open_others_[face.wall];
+    if (face.is_image || std::ranges::find(others, 1) == others.end()) continue;
+    const double spacing = relative_spacing_[k] * spacing_;
+    const auto height = [&](const Vec<Dim>& x) {
+      const Vec<Dim> raised = x + margin_on_wall * spacing * face.normal;  // a wall that ends here has a side there
+      const NearestWall<Dim> wall = nearest_among<Dim>(boundary, others, raised, infinite);
+      return wall.face < 0 ? infinite : wall.signed_distance;
+    };
+    int behind = height(patches[k].centre(boundary)) < 0.0 ? 1 : 0;  // of the centre and the corners
+    for (int c = 0; c < Dim; ++c) behind += height(patches[k].corner(boundary, c)) < 0.0 ? 1 : 0;
+    if (behind == Dim + 1) is_behind_open_[k] = 1;
+    if (behind == 0 || behind == Dim + 1) continue;
+    double least = infinite;
+    Vec<Dim> farthest_behind;
+    OpenPart front{Vec<Dim>::Zero(), 0.0};
+    for (const WallPatch<Dim>& piece : pieces_of(patches[k], boundary, edge_of_cut_pieces * spacing)) {
+      const Vec<Dim> x = piece.centre(boundary);
+      const double height_of_piece = height(x);
+      if (height_of_piece < least) {
+        least = height_of_piece;
+        farthest_behind = x;
+      }
+      const double edge = std::pow(piece.measure, 1.0 / (Dim - 1));
+      const double share = std::clamp(0.5 + height_of_piece / edge, 0.0, 1.0) * piece.measure / patches[k].measure;
+      front.share += share;
+      if (share > 0.0) front.centre += share / front.share * (x - front.centre);
+    }
+    if (front.share < no_share) {
+      is_behind_open_[k] = 1;
+      continue;
+    }
+    const Vec<Dim> forward = margin_of_eye * spacing * face.normal;
+    const bool is_cut = !sees(boundary, face.wall, front.centre + forward, farthest_behind + forward);
+    if (is_cut && front.share < 1.0 - no_share) beside_open_[k] = front;
+  }
 }
 
 template <int Dim>
 void WettedPatches<Dim>::place(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
+  if (is_behind_open_.empty()) find_behind_open(boundary, patches);
   for (Others& other : others_) {
     other.around = {};
     for (const WallFace<Dim>& face : boundary.faces) {
@@ -209,6 +271,11 @@ void WettedPatches<Dim>::find_part(const Boundary<Dim>& boundary, const WallPatc
   centres_[k] = centre;
   if (boundary.faces[patch.face].is_image) {  // the face itself stands for it
     share_[k] = 0.0;
+    return;
+  }
+  if (const auto cut = beside_open_.find(k); cut != beside_open_.end()) {
+    share_[k] = cut->second.share;
+    centres_[k] = cut->second.centre;
     return;
   }
   const double spacing = relative_spacing_[k] * spacing_;

@@ -1,9 +1,11 @@
 // Parts of patches of walls that border on water. A hull is a closed wall that water surrounds. It may stand on another
 // wall or in it, as a pile does in a bed. The part of its surface there then has no water, nor has the bed below the
-// hull or inside it.
+// hull or inside it. Other walls may go on behind each other, as a bed beyond the sides of a tank. There only the water
+// tells which of them it reaches, because a thin dam may consist of two such walls back to back.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "base/box.h"
 #include "case/spec.h"
 #include "geometry/images.h"
+#include "geometry/some_walls.h"
 #include "geometry/wall_patches.h"
 #include "neighbours/cell_grid.h"
 
@@ -32,6 +35,12 @@ class WettedPatches {
   const std::vector<Vec<Dim>>& centres() const { return centres_; }
   /// Fraction of a patch that is in front of all other walls.
   double share(std::int32_t patch) const { return share_[patch]; }
+  /// Whether the patch is behind another wall, neither of them a hull, and borders on water only if it sees some.
+  bool may_be_hidden(std::int32_t patch) const { return is_behind_open_[patch] != 0; }
+  /// Whether no other such wall is between two places.
+  bool sees(const Boundary<Dim>& boundary, int wall, const Vec<Dim>& from, const Vec<Dim>& to) const {
+    return !is_crossed<Dim>(boundary, open_others_[wall], from, to, 1e-3 * spacing_);
+  }
   /// Calls visit(image) for x, and for its images in other periods that are within reach of patches.
   template <class Visit>
   void visit_images_of(const Vec<Dim>& x, Visit&& visit) const {
@@ -85,6 +94,7 @@ class WettedPatches {
 
   NearestWall<Dim> nearest(const Boundary<Dim>& boundary, const Others& others, const Vec<Dim>& x) const;
 
+  void find_behind_open(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches);
   void find_part(const Boundary<Dim>& boundary, const WallPatch<Dim>& patch, std::size_t k);
   bool lies_on(int wall, int other) const;
   std::vector<std::uint8_t> find_covered_walls(const Boundary<Dim>& boundary) const;
@@ -100,6 +110,15 @@ class WettedPatches {
   double reach_;
   std::vector<std::uint8_t> is_hull_;  ///< by wall
   std::vector<Others> others_;         ///< empty without hulls
+  /// For each wall at rest that is no hull, the others of its kind, by wall; empty for other walls.
+  std::vector<std::vector<std::uint8_t>> open_others_;
+  std::vector<std::uint8_t> is_behind_open_;  ///< by patch
+  /// The part of a patch that another such wall leaves, where it cuts one.
+  struct OpenPart {
+    Vec<Dim> centre;
+    double share;
+  };
+  std::map<std::size_t, OpenPart> beside_open_;  ///< by patch
   std::vector<Vec<Dim>> centres_;
   std::vector<double> share_;
   CellGrid<Dim> grid_;          ///< the centres by place

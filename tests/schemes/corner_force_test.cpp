@@ -278,7 +278,9 @@ TEST(NarrowGap, BothWallsHaveTheirForce) {
 }
 
 /// Ten rows of water at rest between two side walls, below a mesh that leans over it by 60 degrees and goes on beyond
-/// the tank: 2.0 % of the force on the mesh belongs to the bed beside it. All walls together carry the weight.
+/// the tank. All walls together carry the weight. Since 1 December 2026 the force is the integral of the balanced
+/// pressure, because the part of the mesh beyond the tank is known; the bound was 0.6 % with the pairs, which 2.0 % of
+/// the force on the mesh gave to the bed.
 TEST(LeaningMesh, HasTheForceOfWaterAtRest) {
   const double dx = 0.04;
   const double level = 0.4;
@@ -308,7 +310,7 @@ TEST(LeaningMesh, HasTheForceOfWaterAtRest) {
   EXPECT_NEAR(means[0][1], 0.0, 0.025 * scale);
   EXPECT_NEAR(means[0][2], across * slope, 0.025 * scale);
   const double weight = spec.physics.density * g * width * level * (toe - 0.5 * slope * level);
-  EXPECT_NEAR(means[1][2], -weight, 6e-3 * weight);  // by pairs, whose errors the water does not feel
+  EXPECT_NEAR(means[1][2], -weight, 1e-2 * weight);
   EXPECT_NEAR(means[1][0], 0.0, 6e-3 * weight);
 }
 

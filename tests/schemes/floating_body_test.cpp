@@ -81,6 +81,30 @@ TEST(FloatingBody, StaysAtItsDraught) {
   }
 }
 
+// The dry floor of an open hull is 4 dx below the level. It had the balanced pressure as if it were wet, by which the
+// hull sank by 0.4 dx.
+TEST(FloatingBody, AnOpenHullStaysAtItsDraught) {
+  constexpr double dx = 0.02, level = 0.4, bottom = 0.2, floor = 0.32;
+  CaseSpec spec = tank_case<2>(dx, 1.2, level);
+  spec.fluid[0] = FluidTable{};
+  spec.fluid[0].shape = BlockShape::fill;
+  spec.fluid[0].seed = {0.1, 0.1};
+  spec.fluid[0].level = level;
+  add_box(spec, {0.4, bottom}, {0.8, 0.6}, 1.0);
+  spec.walls.back().shape = WallShape::polygon;
+  spec.walls.back().points = {{0.4, bottom}, {0.8, bottom}, {0.8, 0.6},  {0.68, 0.6},
+                              {0.68, floor}, {0.52, floor}, {0.52, 0.6}, {0.4, 0.6}};
+  spec.bodies[0].mass = 1000.0 * 0.4 * (level - bottom);
+  spec.bodies[0].free = {"y"};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  const double drawn = bodies_of(flow).bodies[0].drawn.centre[1];
+  while (flow.state.time < 0.5) {
+    step(flow);
+    ASSERT_NEAR(flow.state.motion.bodies.each[0].centre[1], drawn, 0.1 * dx) << "t = " << flow.state.time;
+  }
+}
+
 // A box at its draught in a flume 6 dx wide, which it spans from side wall to side wall. Under its edges the pressure
 // of the water also acts on wall particles of the side walls, with 7 % of the weight of the box.
 TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {

@@ -1,0 +1,116 @@
+#include "pressure/wet_patches.h"
+
+#include <utility>
+
+#include "geometry/images.h"
+#include "walls/patches.h"
+
+namespace tailwater {
+namespace {
+
+/// dx; water in front of a patch is not farther from its centre than this.
+constexpr double reach_in_front = 1.5;
+
+/// dx; from the centre of a patch that has no particle near it to that of another one which shows that it is wet: in a
+/// film of water between two walls, or in a sharp corner of one.
+constexpr double reach_of_wet = 2.0;
+
+/// dx; from the centre of a patch into the space in front, so that its own wall hides nothing.
+constexpr double margin_of_eye = 0.1;
+
+/// Patches whose normals are more alike are on one side of a wall, rather than on both sides of its edge.
+constexpr double min_cosine_of_one_side = 0.5;
+
+}  // namespace
+
+template <int Dim>
+WetPatches<Dim>::WetPatches(const Flow<Dim>& flow, std::vector<PatchInReach<Dim>> patches)
+    : flow_(flow), patches_(std::move(patches)), wetness_(patches_.size(), Wetness::by_water_in_front) {
+  std::vector<Vec<Dim>> centres;
+  for (const PatchInReach<Dim>& patch : patches_) {
+    centres.push_back(patch.centre);
+    spacing_.push_back(flow.setup.scale.spacing * flow.setup.relative_spacing(patch.centre));
+  }
+  grid_ = CellGrid<Dim>(centres, reach_of_wet * flow.setup.scale.spacing);
+  const std::vector<double> water_in_front = find_water_in_front();
+  for (std::size_t n = 0; n < wetness_.size(); ++n) {
+    if (water_in_front[n] != 0.0 || patches_[n].is_left_over) continue;
+    wetness_[n] = is_wet_without_particle(water_in_front, n) ? Wetness::by_patches_near : Wetness::dry;
+  }
+}
+
+template <int Dim>
+Vec<Dim> WetPatches<Dim>::eye(std::size_t n) const {
+  return patches_[n].centre + margin_of_eye * spacing_[n] * face(n).normal;
+}
+
+/// Whether no wall that may hide a place from patch n does.
+template <int Dim>
+bool WetPatches<Dim>::sees(std::size_t n, const Vec<Dim>& to) const {
+  if (!patches_[n].may_be_hidden) return true;
+  return flow_.walls.patches->wetted().sees(flow_.walls.boundary, face(n).wall, eye(n), to);
+}
+
+/// 0 for patches without water in front of them. Collective.
+template <int Dim>
+std::vector<double> WetPatches<Dim>::find_water_in_front() const {
+  const Boundary<Dim>& boundary = flow_.walls.boundary;
+  Box<Dim> around;
+  for (const PatchInReach<Dim>& patch : patches_) around.extend(patch.centre);
+  around.widen(reach_in_front * flow_.setup.scale.spacing);
+  std::vector<double> water_in_front(patches_.size(), 0.0);
+  const auto wet_near = [&](const Vec<Dim>& x) {
+    if (!around.contains(x)) return;
+    grid_.for_each_near(x, [&](std::int32_t n) {
+      const Vec<Dim> offset = x - patches_[n].centre;
+      const double reach = reach_in_front * spacing_[n];
+      if (offset.dot(face(n).normal) <= 0.0 || offset.squaredNorm() >= reach * reach || water_in_front[n] != 0.0) {
+        return;
+      }
+      if (is_hidden<Dim>(boundary.screens, boundary.screens_near(eye(n), reach), eye(n), x) || !sees(n, x)) return;
+      water_in_front[n] = 1.0;
+    });
+  };
+  const Particles<Dim>& particles = flow_.state.particles;
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: several mark one patch
+    if (!particles.is_fluid(i) || flow_.pairs().sees_wall[i] == 0) continue;
+    const Vec<Dim>& x = particles.position[i];
+    wet_near(x);
+    visit_images<Dim>(flow_.setup.domain, Box<Dim>(x), around, [&](const Vec<Dim>& by) { wet_near(x + by); });
+  }
+  flow_.setup.ranks.sum_of_each(water_in_front);
+  return water_in_front;
+}
+
+/// Whether a patch without water in front is wet all the same: another wall faces it across a film, or a patch near it,
+/// on the same side of the same wall, has water in front.
+template <int Dim>
+bool WetPatches<Dim>::is_wet_without_particle(const std::vector<double>& water_in_front, std::size_t n) const {
+  const double reach = reach_of_wet * spacing_[n];
+  bool found = false;
+  grid_.for_each_near(patches_[n].centre, [&](std::int32_t m) {
+    const Vec<Dim> offset = patches_[m].centre - patches_[n].centre;
+    if (found || offset.squaredNorm() >= reach * reach || !sees(n, eye(m))) return;
+    const double alike = face(m).normal.dot(face(n).normal);
+    found = face(m).wall == face(n).wall ? alike > 0.0 && water_in_front[m] != 0.0
+                                         : alike < 0.0 && offset.dot(face(n).normal) > 0.0;
+  });
+  return found;
+}
+
+template <int Dim>
+bool WetPatches<Dim>::is_beside_unknown_border(std::size_t n) const {
+  const double reach = reach_of_wet * spacing_[n];
+  bool found = false;
+  grid_.for_each_near(patches_[n].centre, [&](std::int32_t m) {
+    const bool is_border = wetness_[m] == Wetness::by_patches_near && face(m).wall == face(n).wall;
+    if (found || !is_border || (patches_[m].centre - patches_[n].centre).squaredNorm() >= reach * reach) return;
+    found = face(m).normal.dot(face(n).normal) > min_cosine_of_one_side;
+  });
+  return found;
+}
+
+template class WetPatches<2>;
+template class WetPatches<3>;
+
+}  // namespace tailwater

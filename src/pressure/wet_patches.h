@@ -1,0 +1,53 @@
+// Which patches of walls water reaches, from the places of particles. A film between two walls, and a sharp corner, may
+// have no particle.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "flow/flow.h"
+#include "neighbours/cell_grid.h"
+
+namespace tailwater {
+
+enum class Wetness {
+  dry,
+  by_patches_near,   ///< water is in front of a patch beside it, or another wall faces it across a film
+  by_water_in_front  ///< a particle is near it
+};
+
+/// A patch that may be wet.
+template <int Dim>
+struct PatchInReach {
+  int face;                    ///< index into Boundary::faces
+  Vec<Dim> centre;             ///< m; of the part that no other wall takes
+  bool may_be_hidden = false;  ///< whether it is behind another wall, which hides the water in front of that
+  bool is_left_over = false;   ///< whether other walls take more than half of it: it counts as wet
+};
+
+template <int Dim>
+class WetPatches {
+ public:
+  /// Collective.
+  WetPatches(const Flow<Dim>& flow, std::vector<PatchInReach<Dim>> patches);
+
+  Wetness wetness(std::size_t n) const { return wetness_[n]; }
+  /// Whether a dry patch is beside one that is wet only by the patches near it: the border between them is not known to
+  /// less than a spacing. Where walls meet at an edge, or are behind others, it is.
+  bool is_beside_unknown_border(std::size_t n) const;
+
+ private:
+  const WallFace<Dim>& face(std::size_t n) const { return flow_.walls.boundary.faces[patches_[n].face]; }
+  Vec<Dim> eye(std::size_t n) const;
+  bool sees(std::size_t n, const Vec<Dim>& to) const;
+  std::vector<double> find_water_in_front() const;
+  bool is_wet_without_particle(const std::vector<double>& water_in_front, std::size_t n) const;
+
+  const Flow<Dim>& flow_;
+  std::vector<PatchInReach<Dim>> patches_;
+  std::vector<double> spacing_;  ///< m; of the particles there
+  CellGrid<Dim> grid_;           ///< of the centres
+  std::vector<Wetness> wetness_;
+};
+
+}  // namespace tailwater
