@@ -67,7 +67,7 @@ WettedPatches<Dim>::WettedPatches(const CaseSpec& spec, const Boundary<Dim>& bou
   if (!others_.empty()) others_.push_back(std::move(rest));
 }
 
-/// Finds what is behind a wall at rest that is no hull, for patches of such walls.
+/// Finds the parts behind other walls of patches on walls at rest that are no hulls.
 template <int Dim>
 void WettedPatches<Dim>::find_behind_open(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches) {
   is_behind_open_.assign(patches.size(), 0);

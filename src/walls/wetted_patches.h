@@ -1,7 +1,7 @@
 // Parts of patches of walls that border on water. A hull is a closed wall that water surrounds. It may stand on another
 // wall or in it, as a pile does in a bed. The part of its surface there then has no water, nor has the bed below the
-// hull or inside it. Other walls may go on behind each other, as a bed beyond the sides of a tank. There only the water
-// tells which of them it reaches, because a thin dam may consist of two such walls back to back.
+// hull or inside it. Other walls may go on behind each other, as a bed beyond the sides of a tank. Only the places of
+// particles show which of them has water, because a thin dam may consist of two such walls back to back.
 #pragma once
 
 #include <cstdint>

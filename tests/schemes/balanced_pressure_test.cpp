@@ -211,8 +211,8 @@ std::vector<Vec<2>> forces_on_walls(const std::vector<WallTable>& walls) {
   return forces;
 }
 
-// What goes on behind another wall has no water. Up to 2.5 dx behind it counted as wet, because water in front of the
-// other wall was near: the bed had up to 15 % too much force, the side of the last tank 21 %.
+// The part of a wall behind another one has no water. Up to 2.5 dx behind it counted as wet, because water in front of
+// the other wall was near: the bed had up to 15 % too much force, the side of the last tank 21 %.
 TEST(BalancedPressure, PressesOnWallsThatGoOnBehindOthers) {
   const double on_side = 0.5 * 1000.0 * g * depth * depth;
   const double on_bed = 1000.0 * g * depth;
