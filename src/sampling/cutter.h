@@ -122,7 +122,7 @@ class Cutter {
 
   /// Calls visit(normal, height) for the nearest wall that is not a mesh, and for each mesh and each hull that x is
   /// behind. A point behind these may be nearer to another wall, in front of it: inside a block, above the bed. Where
-  /// the rims of open meshes meet, as at the edges of a basin, x is behind them if it is behind the nearest of all of these.
+  /// the rims of open meshes meet, as at the edges of a basin, x is behind them if it is behind the nearest of these.
   template <class Visit>
   void visit_walls(const Vec<Dim>& x, Visit&& visit) const {
     const auto tell_of = [&](const NearestWall<Dim>& wall) {
