@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -127,22 +126,19 @@ WaterAmount water_outside(const Flow<Dim>& flow) {
 }
 
 template <int Dim>
-Vec<Dim> middle_of_water_outside(const Flow<Dim>& flow) {
+Vec<Dim> place_of_water_outside(const Flow<Dim>& flow) {
   const Box<Dim> box = flow.box();
-  std::array<double, 2 * Dim> ends;  // the lowest coordinates, then the negatives of the highest
-  ends.fill(std::numeric_limits<double>::max());
-  for (std::size_t i = 0; i < flow.state.particles.owned; ++i) {  // in order: each may extend the box
-    if (!is_outside(flow, box, i)) continue;
-    const Vec<Dim>& x = flow.state.particles.position[i];
-    for (int axis = 0; axis < Dim; ++axis) {
-      ends[axis] = std::min(ends[axis], x[axis]);
-      ends[Dim + axis] = std::min(ends[Dim + axis], -x[axis]);
-    }
+  const Particles<Dim>& particles = flow.state.particles;
+  std::int64_t own = std::numeric_limits<std::int64_t>::max();
+  std::vector<double> place(Dim, 0.0);
+  for (std::size_t i = 0; i < particles.owned; ++i) {
+    if (particles.id[i] >= own || !is_outside(flow, box, i)) continue;
+    own = particles.id[i];
+    for (int axis = 0; axis < Dim; ++axis) place[axis] = particles.position[i][axis];
   }
-  flow.setup.ranks.min_of_each(ends);
-  Vec<Dim> middle;
-  for (int axis = 0; axis < Dim; ++axis) middle[axis] = 0.5 * (ends[axis] - ends[Dim + axis]);
-  return middle;
+  if (flow.setup.ranks.least(own) != own) place.assign(Dim, 0.0);
+  flow.setup.ranks.sum_of_each(place);
+  return Vec<Dim>::NullaryExpr([&](int axis) { return place[axis]; });
 }
 
 template <int Dim>
@@ -168,7 +164,7 @@ Json water_balance(const WaterAmount& at_start, const Flow<Dim>& flow) {
 
 TAILWATER_IN_2D_AND_3D(water_in);
 TAILWATER_IN_2D_AND_3D(water_outside);
-TAILWATER_IN_2D_AND_3D(middle_of_water_outside);
+TAILWATER_IN_2D_AND_3D(place_of_water_outside);
 TAILWATER_IN_2D_AND_3D(water_inside);
 TAILWATER_IN_2D_AND_3D(water_balance);
 

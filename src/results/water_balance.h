@@ -24,9 +24,9 @@ WaterAmount water_in(const Flow<Dim>& flow);
 template <int Dim>
 WaterAmount water_outside(const Flow<Dim>& flow);
 
-/// m; the middle of the box around the water outside that is computed. There must be some. Collective.
+/// m; of the first particle, by id, of the water outside that is computed. There must be some. Collective.
 template <int Dim>
-Vec<Dim> middle_of_water_outside(const Flow<Dim>& flow);
+Vec<Dim> place_of_water_outside(const Flow<Dim>& flow);
 
 /// The water that is computed and not outside; collective.
 template <int Dim>
