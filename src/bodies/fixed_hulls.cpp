@@ -87,6 +87,7 @@ template <int Dim>
 void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
   if (std::ranges::any_of(boundary.walls, &WallProperties::moves)) return;
+  are_at_rest_ = flow.setup.graded == nullptr || !flow.setup.graded->field().moves();
   fill_empty_gaps(flow, hull_of_wall_);
   const NarrowGaps<Dim> gaps(flow, hulls(near_patches_), flow.state.time);
   std::vector<bool> faces_wall;
@@ -97,6 +98,16 @@ void FixedHulls<Dim>::begin(Flow<Dim>& flow) {
   };
   std::erase_if(near_patches_, is_alone);
   std::erase_if(all_patches_, is_alone);
+}
+
+template <int Dim>
+NarrowGaps<Dim> FixedHulls<Dim>::find_gaps(const Flow<Dim>& flow, std::span<const WallPatch<Dim>> patches,
+                                           std::optional<NarrowGaps<Dim>>& at_rest) const {
+  if (!are_at_rest_) return NarrowGaps<Dim>(flow, hulls(patches), flow.state.time);
+  if (!at_rest) at_rest.emplace(flow, hulls(patches), flow.state.time);
+  NarrowGaps<Dim> gaps = *at_rest;
+  gaps.find_water();
+  return gaps;
 }
 
 template <int Dim>
@@ -113,7 +124,7 @@ void FixedHulls<Dim>::write_rows(Flow<Dim>& flow) {
 template <int Dim>
 int FixedHulls<Dim>::pose(Flow<Dim>& flow, std::span<const Vec<Dim>> /*predicted*/, double /*dt*/) {
   if (!has_hulls() || !can_seal_) return 0;
-  NarrowGaps<Dim> gaps(flow, hulls(near_patches_), flow.state.time);
+  NarrowGaps<Dim> gaps = find_gaps(flow, near_patches_, near_at_rest_);
   gaps.find_films({});
   sealed_ = gaps.find_sealed(flow.state.particles.pressure);
   let_through_films(sealed_, flow);
@@ -130,7 +141,7 @@ template <int Dim>
 void FixedHulls<Dim>::report(Flow<Dim>& flow) {
   has_report_ = false;
   if (!has_probes_ || !has_hulls() || !air_of(flow).state.pockets.empty()) return;
-  NarrowGaps<Dim> gaps(flow, hulls(all_patches_), flow.state.time);
+  NarrowGaps<Dim> gaps = find_gaps(flow, all_patches_, all_at_rest_);
   gaps.measure(gaps.find_stagnant());
   for (std::size_t k = 0; k < hulls_.size(); ++k) {
     const int beside = gaps.wall_facing(static_cast<int>(k));

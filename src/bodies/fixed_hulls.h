@@ -4,6 +4,8 @@
 // not changed.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -47,6 +49,9 @@ class FixedHulls final : public Part<Dim> {
             .can_stand = true,
             .reach = reach_of_shares};
   }
+  /// The gaps beside these patches with their present water. Where nothing moves, all but the water is found once.
+  NarrowGaps<Dim> find_gaps(const Flow<Dim>& flow, std::span<const WallPatch<Dim>> patches,
+                            std::optional<NarrowGaps<Dim>>& at_rest) const;
   ForceSums<Dim> new_sums(const Flow<Dim>& flow) const;
   void report(Flow<Dim>& flow);
   void add_to_report(Flow<Dim>& flow, ForceSums<Dim>& sums) const;
@@ -56,6 +61,9 @@ class FixedHulls final : public Part<Dim> {
   std::vector<ContactSurface<Dim>> surfaces_;
   std::vector<WallPatch<Dim>> all_patches_;   ///< of the hulls
   std::vector<WallPatch<Dim>> near_patches_;  ///< near other walls
+  std::optional<NarrowGaps<Dim>> all_at_rest_;
+  std::optional<NarrowGaps<Dim>> near_at_rest_;
+  bool are_at_rest_ = false;  ///< whether no wall and no zone of refinement moves
   bool has_probes_ = false;
   bool can_seal_ = true;     ///< whether a hull touches another wall, or a film can be between them
   SealedWater sealed_;       ///< in this step

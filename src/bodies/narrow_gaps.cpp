@@ -151,6 +151,7 @@ void NarrowGaps<Dim>::find_pieces_beyond() {
 
 template <int Dim>
 void NarrowGaps<Dim>::find_water() {
+  water_.clear();
   const Particles<Dim>& particles = flow_.state.particles;
   for (int hull = 0; hull < hulls_.count; ++hull) {
     if (std::ranges::none_of(pieces_, [&](const Piece& piece) { return piece.hull == hull && piece.film > 0.0; })) {

@@ -41,6 +41,8 @@ class NarrowGaps {
   /// With walls and water at their present positions, at `time` [s].
   NarrowGaps(const Flow<Dim>& flow, const Hulls<Dim>& hulls, double time);
 
+  /// Finds the water of gaps again where only water has moved.
+  void find_water();
   /// Owned water in gaps that are narrower than 0.75 dx, beside fixed hulls 1.5 dx.
   std::vector<std::size_t> find_stagnant() const;
   /// Finds the water that is not stagnant, and the films where there is none. Collective.
@@ -183,7 +185,6 @@ class NarrowGaps {
   std::vector<std::uint8_t> find_flat_contacts() const;
   /// Measure of the part of a patch that is in front of other walls and does not lie on them.
   double wetted_measure(const WallPatch<Dim>& patch, const OtherWall& wall, bool is_flat_there) const;
-  void find_water();
   void number_gaps();
   void find_nearest();
   void look_at_water();
