@@ -58,8 +58,9 @@ ExpressionError unknown_name_error(const std::string& name, std::size_t position
     known.push_back("pi");
     for (const auto& [number, value] : numbers) known.push_back(number);
   }
-  const std::string hint =
-      is_call && name == "if" ? "write a choice as \"a < b ? c : d\"" : unknown_name_hint(name, known);
+  const std::string hint = is_call && name == "if"     ? "write a choice as \"a < b ? c : d\""
+                           : name == time_name.front() ? "this value cannot change with time"
+                                                       : unknown_name_hint(name, known);
   return ExpressionError(
       fmt::format("unknown {} \"{}\" at position {}; {}", is_call ? "function" : "name", name, position + 1, hint),
       is_call ? std::nullopt : std::optional(name));
