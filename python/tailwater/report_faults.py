@@ -7,6 +7,7 @@ import re
 from .case_differences import differing_keys
 from .errors import DataError
 from .input_file import LARGEST_TABLE, read_text
+from .readings import rise_at_end
 from .study import number, quantities_of
 
 __all__ = ["SEVERAL_PROGRAMS", "UNFINISHED", "energy_of", "faults_of", "warnings_of", "water_of"]
@@ -16,6 +17,8 @@ MIN_SPACINGS = 3
 MIN_READINGS = 10  # of a probe in the time over which its result is taken
 UNFINISHED, SEVERAL_PROGRAMS = "unfinished", "its runs were made by programs of different commits"
 START_STEPS = 10  # in which water that is released at once finds its pressure
+AT_END = 0.05  # of the range of the readings; a largest value that the end of the run raises by more is still rising
+RISING, FALLING = (f"the answer was still {word} at the end of the run" for word in ("rising", "falling"))
 MAX_KEYS = 3  # differing keys that a fault names
 # Warnings of the program, found by words of its messages (a test checks that the sources still contain them).
 MESSAGES = {"the energy rose": re.compile(r"energy rose"),
@@ -70,6 +73,13 @@ def start_of(run, answer):
     return [("the answer is a value of the start, when all water is released at once", one["what"])]
 
 
+def end_of(run, answer):
+    """[(kind, details)] of an answer that is a largest or least value, and that still rises or falls at the end."""
+    rise = rise_at_end(run, answer["probe"], answer["quantity"])
+    where = f"the last reading is {100 * abs(rise):.2g} % of the range beyond the others; remedy: a later time.end"
+    return [(RISING if rise > 0 else FALLING, where)] if abs(rise) > AT_END else []
+
+
 def words_of(run, answer) -> str:
     """The words of the summary on the answer, such as "mean of the second half"; "" if there are none."""
     quantities = run.results.get(answer["probe"], {}).get("quantities", [])
@@ -112,7 +122,8 @@ def faults_of_run(run, answer):
         place = f"at t = {reached:.4g} of {end:.4g} s" if reached is not None else f"before t = {end:.4g} s"
         return [(f"a run is {UNFINISHED}", f"{run.status} {place}")]
     water, found = water_of(summary), [
-        *readings_of(run, answer), *change_of(run, answer), *start_of(run, answer)] if answer else []
+        *readings_of(run, answer), *change_of(run, answer), *start_of(run, answer),
+        *end_of(run, answer)] if answer else []
     if water["outside_relative"] > LEAK:
         found.append(("water leaks", f"{100 * water['outside_relative']:.3g} % left the walls"))
     if abs(water["missing_relative"]) > LEAK:
@@ -155,8 +166,9 @@ def short(value):
 
 def faults_of(study_fault, roles, is_study, answer=None) -> list:
     """Reasons why the number is not reliable, one for each kind of fault; empty if no fault was detected. A fault of
-    any run of a study counts, because the interval is computed from all runs. `roles` are (role, Run); `answer` has
-    the probe and the quantity of the number, "" for any."""
+    any run of a study counts, because the interval is computed from all runs. A value that still rises or falls must do
+    so in most runs, because the last reading of one run may be the largest by chance. `roles` are (role, Run); `answer`
+    has the probe and the quantity of the number, "" for any."""
     runs = [run for _, run in roles]
     faults = [study_fault] if study_fault else []
     kinds = {}
@@ -164,6 +176,8 @@ def faults_of(study_fault, roles, is_study, answer=None) -> list:
         for kind, detail in faults_of_run(run, answer):
             kinds.setdefault(kind, []).append((run.spacing, detail))
     for kind, where in kinds.items():
+        if kind in (RISING, FALLING) and 2 * len(where) <= len(runs):
+            continue
         detail = next((detail for _, detail in where if detail), "")
         spacings = ", ".join(number(spacing) for spacing in sorted({spacing for spacing, _ in where}))
         faults.append(kind + (f" ({detail})" if detail else "") + (f" at the spacing {spacings} m" if is_study else ""))

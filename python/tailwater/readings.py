@@ -1,0 +1,55 @@
+"""Readings of a probe over the run, for results that depend on the time at which the run ends."""
+
+import numpy as np
+
+from .errors import DataError
+from .tables import read_table, without_unit
+
+__all__ = ["rise_at_end"]
+
+# Columns, without units, of the results that are the largest or least reading; those of a `motion` probe are named as
+# their columns.
+EXTREMES = {"highest water": "highest", "run-up": "connected", "highest drop": "highest", "highest level": "highest",
+            "largest discharge": "discharge", "largest force": "force", "largest pressure": "pressure",
+            "least pressure": "pressure"}
+TYPES = {"pressure-map": {"largest pressure": "largest"}, "profile": {}}  # types of probes with other columns
+END = 0.9  # of the run; a reading after that is one of its end
+
+
+def columns_of(run, probe) -> dict:
+    """The table of a probe by its columns without units, with the magnitude of a `force`; empty without the table."""
+    try:
+        table = read_table(run.path / "probes" / f"{probe}.csv")
+    except DataError:
+        return {}
+    found = {without_unit(name): column for name, column in table.items()}
+    components = [found[f"force_{axis}"] for axis in "xyz" if f"force_{axis}" in found]
+    return {"force": np.sqrt(sum(one**2 for one in components)), **found} if components else found
+
+
+def series_of(run, probe, column):
+    """(times, values) of a column, without readings that are no number; None if there are fewer than two."""
+    columns = columns_of(run, probe)
+    if column not in columns or "time" not in columns:
+        return None
+    time, value = columns["time"], columns[column]
+    is_known = np.isfinite(time) & np.isfinite(value)
+    return (time[is_known], value[is_known]) if is_known.sum() > 1 else None
+
+
+def rise_at_end(run, probe, quantity) -> float:
+    """The excess of the last reading over all readings before the end of the run, relative to the range of the
+    readings. It is negative for a least reading that is still falling. 0 if the last reading is not the largest or
+    least one, and for a result that is neither."""
+    sign = -1 if quantity.startswith("least ") else 1
+    moved = quantity.removeprefix("least ").removeprefix("largest ").replace(" ", "_")
+    kind = run.results.get(probe, {}).get("type", "")
+    column = moved if kind == "motion" else TYPES.get(kind, EXTREMES).get(quantity)
+    series = series_of(run, probe, column) if column else None
+    if series is None:
+        return 0.0
+    time, value = series[0], sign * series[1]
+    before = value[time <= END * time[-1]]
+    if value[-1] < value.max() or not before.size or np.ptp(value) == 0:
+        return 0.0
+    return sign * float(value[-1] - before.max()) / float(np.ptp(value))

@@ -1,0 +1,77 @@
+"""Results that depend on the end of the run, from made-up readings."""
+
+import json
+import shutil
+import unittest
+from pathlib import Path
+
+import numpy as np
+import tailwater as tw
+from small import PackageTest
+from tailwater.readings import EXTREMES, rise_at_end
+from test_report import make_study, summary
+
+TIME = np.linspace(0, 2, 201)
+
+
+def make_readings(folder, results, columns):
+    """A study whose runs have these results of the probe "depth" and these columns of its table."""
+    shutil.rmtree(folder, ignore_errors=True)
+    told = {"results": {"depth": {"type": "depth", "words": "", "quantities": results}},
+            "time_s": {"end": 2, "reached": 2}}
+    make_study(folder, {spacing: told for spacing in (0.1, 0.125, 0.16)})
+    for path in Path(folder).glob("spacings/*"):
+        Path(path, "probes").mkdir()
+        table = np.column_stack([TIME, *columns.values()])
+        rows = "\n".join(",".join(f"{number:.9g}" for number in row) for row in table)
+        Path(path, "probes/depth.csv").write_text(f"time_s,{','.join(columns)}\n{rows}\n", encoding="utf-8")
+
+
+class Extremes(PackageTest):
+    def first_line(self, readings):
+        largest = {"name": "highest water", "value": float(readings.max()), "unit": "m",
+                   "what": f"at {TIME[readings.argmax()]:.4g} s"}
+        make_readings("s", [largest], {"highest_m": readings})
+        return tw.report("s", pictures=0).first_line
+
+    def test_value_that_still_rises_cannot_be_relied_on(self):
+        line = self.first_line(0.2 + 0.1 * TIME**2)
+        self.assertIn("relied on: the answer was still rising at the end of the run (the last reading is 19 % of the "
+                      "range beyond the others; remedy: a later time.end) at the spacing 0.1, 0.125, 0.16 m", line)
+
+    def test_completed_peak_and_steady_readings_can_be_relied_on(self):
+        noise = 0.001 * np.random.default_rng(1).normal(size=TIME.size)
+        for readings in (0.3 - (TIME - 1.9)**2, 0.3 + noise, 0.3 * (1 - np.exp(-3 * TIME)) + noise):
+            self.assertNotIn("still rising", self.first_line(readings))
+
+    def test_last_reading_that_is_the_largest_in_one_run_only(self):
+        make_readings("s", summary()["results"]["depth"]["quantities"], {"connected_m": 0.3 + 0 * TIME})
+        results = {"depth": {"type": "depth", "words": "", "quantities": [
+            {"name": "highest water", "value": 0.3, "unit": "m", "what": "at 2 s"}]}}
+        for path in Path("s").glob("spacings/*"):
+            told = json.loads(Path(path, "summary.json").read_text(encoding="utf-8"))
+            Path(path, "summary.json").write_text(json.dumps(told | {"results": results}), encoding="utf-8")
+            end = 1 if path.name.endswith("0.125") else -1
+            readings = 0.3 + 0.1 * np.sin(9 * TIME) + np.where(TIME == 2, end, 0)
+            table = "".join(f"{time},{value}\n" for time, value in zip(TIME, readings))
+            Path(path, "probes/depth.csv").write_text("time_s,highest_m\n" + table, encoding="utf-8")
+        self.assertTrue(tw.report("s", pictures=0).is_reliable)
+
+    def test_least_value_that_still_falls(self):
+        make_readings("s", [], {"displacement_x_m": -TIME})
+        run = tw.Run(next(Path("s").glob("spacings/*")))
+        told = json.loads(Path(run.path, "summary.json").read_text(encoding="utf-8"))
+        told["results"]["depth"]["type"] = "motion"
+        Path(run.path, "summary.json").write_text(json.dumps(told), encoding="utf-8")
+        self.assertAlmostEqual(rise_at_end(run, "depth", "least displacement x"), -0.1)
+        self.assertEqual(rise_at_end(run, "depth", "largest displacement x"), 0)
+
+    def test_columns_are_those_of_the_reference(self):
+        page = (Path(__file__).resolve().parents[2] / "docs/reference/probes.md").read_text(encoding="utf-8")
+        for quantity, column in EXTREMES.items():
+            self.assertIn(f"| {quantity} | `{'force_x' if column == 'force' else column}` |",
+                          page.replace("| pressure | `pressure` |", "| least pressure | `pressure` |"))
+
+
+if __name__ == "__main__":
+    unittest.main()
