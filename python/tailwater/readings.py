@@ -1,11 +1,13 @@
 """Readings of a probe over the run, for results that depend on the time at which the run ends."""
 
+import math
+
 import numpy as np
 
 from .errors import DataError
 from .tables import read_table, without_unit
 
-__all__ = ["rise_at_end"]
+__all__ = ["error_of_mean", "rise_at_end"]
 
 # Columns, without units, of the results that are the largest or least reading; those of a `motion` probe are named as
 # their columns.
@@ -13,6 +15,14 @@ EXTREMES = {"highest water": "highest", "run-up": "connected", "highest drop": "
             "largest discharge": "discharge", "largest force": "force", "largest pressure": "pressure",
             "least pressure": "pressure"}
 TYPES = {"pressure-map": {"largest pressure": "largest"}, "profile": {}}  # types of probes with other columns
+# Columns, without units, of the results that are means over the second half of the run. RATES are mean rates of change.
+MEANS = {"depth": {"depth": "connected"}, "level-map": {"level": "mean"}, "pressure": {"pressure": "pressure"},
+         "velocity": {name: name for name in "uvw"}, "force": {f"force {axis}": f"force_{axis}" for axis in "xyz"}}
+RATES = {"discharge": {"discharge": "volume"}, "wall-pressure": {"pressure": "impulse"},
+         "wall-pressure-mean": {"pressure": "impulse"}}
+BLOCKS = 4  # equal parts of the second half
+STUDENT = 3.182  # 97.5 % quantile of Student's t with BLOCKS - 1 degrees of freedom
+MIN_READINGS = 10  # in the second half
 END = 0.9  # of the run; a reading after that is one of its end
 
 
@@ -53,3 +63,22 @@ def rise_at_end(run, probe, quantity) -> float:
     if value[-1] < value.max() or not before.size or np.ptp(value) == 0:
         return 0.0
     return sign * float(value[-1] - before.max()) / float(np.ptp(value))
+
+
+def error_of_mean(run, probe, quantity) -> float:
+    """Half width of the 95 % interval of a mean over the second half of the run, due to the finite time. It follows
+    from the scatter of the means of the quarters of that half. nan for another result, and for too few readings."""
+    kind = run.results.get(probe, {}).get("type", "")
+    rate = RATES.get(kind, {}).get(quantity)
+    column = rate or MEANS.get(kind, {}).get(quantity)
+    series = series_of(run, probe, column) if column else None
+    if series is None:
+        return math.nan
+    time, value = series
+    half = 0.5 * run.summary["time_s"]["reached"]
+    if (time >= half).sum() < MIN_READINGS:
+        return math.nan
+    sums = value if rate else np.append(0.0, np.cumsum(0.5 * (value[1:] + value[:-1]) * np.diff(time)))
+    ends = np.linspace(half, time[-1], BLOCKS + 1)
+    means = np.diff(np.interp(ends, time, sums)) / np.diff(ends)
+    return STUDENT * float(means.std(ddof=1)) / math.sqrt(BLOCKS)

@@ -98,10 +98,11 @@ def answer(content):
     row = content["answer"]
     if not row or row["low"] is None:
         return ""
-    names = ("limit", "low", "high", "value", "order", "discretisation", "chance", "step", "eca_hoekstra")
-    words = ("limit", "95 % from", "to", "finest run", "order", "discretisation", "chance", "half time step", "Eça & Hoekstra ±")
-    return (paragraph("The interval covers the errors of spacing, time step and initial positions. It does not cover what the "
-                      "model leaves out (limits, below).")
+    names = ("limit", "low", "high", "value", "order", "discretisation", "chance", "averaging", "step", "eca_hoekstra")
+    words = ("limit", "95 % from", "to", "finest run", "order", "discretisation", "chance", "averaging time",
+             "half time step", "Eça & Hoekstra ±")
+    return (paragraph("The interval covers the errors of spacing, time step, initial positions and averaging time. It "
+                      "does not cover what the model leaves out (limits, below).")
             + table([*words, "unit"], [[*(row.get(name) for name in names), row["unit"]]]) + paragraph(row["notes"]))
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from . import uncertainty
 from .errors import DataError, InputError, IoError
 from .input_file import read_text
+from .readings import error_of_mean
 from .run import Run
 from .sweep import sweep
 from .whole_file import write_whole_text
@@ -33,7 +34,7 @@ LEAST_RANGE = 1.5  # smallest ratio of the coarsest to the finest spacing
 # the solver a little.
 COST_POWER = 1.3
 COLUMNS = ("probe", "quantity", "unit", "value", "low", "high", "limit", "order", "uncertainty", "discretisation",
-           "chance", "step", "eca_hoekstra", "notes")
+           "chance", "averaging", "step", "eca_hoekstra", "notes")
 
 
 def quantities_of(run) -> dict:
@@ -118,7 +119,8 @@ class Study:
             values = [found[key][0] for found in of_runs]
             starts = {self._base.spacing: [found[key][0] for found in of_starts]} if of_starts else {}
             found = uncertainty.estimate(self.spacings, values, starts=starts,
-                                         step=(self._base.spacing, of_step[key][0]) if of_step else None)
+                                         step=(self._base.spacing, of_step[key][0]) if of_step else None,
+                                         averaging=error_of_mean(self.runs[0], *key))
             told = {name: getattr(found, name) for name in COLUMNS[3:-1]}
             rows.append({"probe": key[0], "quantity": key[1], "unit": unit, **told, "notes": "; ".join(found.notes),
                          "values": values})
@@ -127,9 +129,9 @@ class Study:
     def table(self):
         """A pandas.DataFrame over probe and quantity. `value` is that of the finest run. `limit` is the extrapolated
         value; it lies between `low` and `high` with a probability of 95 %. `order` is the observed order. `uncertainty`
-        is the half width of the interval, with the parts `discretisation` and `chance`. `step` is the change by half of
-        the time step. `eca_hoekstra` is the uncertainty of the value by the method of Eca & Hoekstra. `notes` say which
-        runs narrow the interval."""
+        is the half width of the interval, with the parts `discretisation`, `chance` and `averaging`. `step` is the
+        change by half of the time step. `eca_hoekstra` is the uncertainty of the value by the method of Eca & Hoekstra.
+        `notes` say which runs narrow the interval."""
         import pandas
 
         return pandas.DataFrame([{name: row[name] for name in COLUMNS} for row in self.rows],
@@ -152,7 +154,8 @@ class Study:
             percent = f" (+- {100 * share:.2g} %)" if share < 1 else ""
             lines.append(f"{row['probe']}, {row['quantity']}: {number(row['value'])} {row['unit']}; limit "
                          f"{number(row['limit'])}, within {number(row['low'])} to {number(row['high'])}{percent}")
-            parts = ", ".join(f"{name} {number(row[name], 2)}" for name in ("discretisation", "chance", "step"))
+            names = ("discretisation", "chance", "averaging", "step")
+            parts = ", ".join(f"{name} {number(row[name], 2)}" for name in names)
             lines.append(f"    {parts}; order {number(row['order'], 2)}; Eca & Hoekstra +- {number(row['eca_hoekstra'], 2)}")
             if row["notes"]:
                 lines.append(f"    {row['notes']}")

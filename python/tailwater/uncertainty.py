@@ -224,8 +224,9 @@ class Estimate:
     high: float
     limit: float  # mean of the distribution of the limit
     order: float  # observed order; nan if none
-    discretisation: float  # part of the half width of the interval; adds to `chance` in quadrature
+    discretisation: float  # part of the half width of the interval; adds to `chance` and `averaging` in quadrature
     chance: float  # random part of the half width; nan if there is no run from another start
+    averaging: float  # part of the half width due to a finite averaging time; nan if unknown
     step: float  # change by half of the time step, a part of the discretisation; nan if no run has it
     eca_hoekstra: float  # half width of the uncertainty of `value` by the method of Eca & Hoekstra
     notes: list = field(default_factory=list)
@@ -236,13 +237,15 @@ class Estimate:
         return 0.5 * (self.high - self.low)
 
 
-def notes_on(found, order, is_hidden, step):
+def notes_on(found, order, is_hidden, step, averaging):
     """Advice on a Limit; `is_hidden` if all differences of the values may be random."""
     half = 0.5 * (found.high - found.low)
     if half == 0:
         return ["all spacings give one value"]
     notes = ["no order: the values do not converge"] if math.isnan(order) else []
-    if is_hidden:
+    if averaging > half:
+        notes.append("mostly the averaging time: a later time.end narrows the interval")
+    elif is_hidden:
         notes.append("the values differ by no more than chance: longer means and more starts narrow the interval")
     elif found.chance > found.discretisation:
         notes.append("mostly chance: longer means and more starts narrow the interval")
@@ -256,10 +259,11 @@ def notes_on(found, order, is_hidden, step):
     return notes
 
 
-def estimate(spacings, values, *, starts=None, step=None) -> Estimate:
+def estimate(spacings, values, *, starts=None, step=None, averaging=math.nan) -> Estimate:
     """Estimates the limit of `values` at `spacings`. `starts` is {spacing: all values at that spacing from different
-    initial particle displacements}; `step` is (spacing, value with half of the time step). Throws DataError as
-    `extrapolate`, and for starts or a step at another spacing."""
+    initial particle displacements}; `step` is (spacing, value with half of the time step). `averaging` is the half
+    width due to a finite averaging time, an error that all values share. Throws DataError as `extrapolate`, and for
+    starts or a step at another spacing."""
     starts = {spacing: np.asarray(each, dtype=float) for spacing, each in (starts or {}).items()}
     if others := {*starts, *(step[:1] if step else ())} - set(spacings):
         raise DataError(f"starts or a step at {min(others):g}, a spacing that has no value")
@@ -278,6 +282,9 @@ def estimate(spacings, values, *, starts=None, step=None) -> Estimate:
     h, steps, of_members, counts = zip(*members)
     found = limit_of(h, steps, np.array(of_members), counts, variance, freedom)
     is_hidden = np.ptp(means) < HIDDEN * math.sqrt(variance)
-    return Estimate(float(values[int(np.argmin(spacings))]), found.low, found.high, found.mean, eca_hoekstra.order,
-                    found.discretisation, found.chance, of_step, eca_hoekstra.uncertainty,
-                    notes_on(found, eca_hoekstra.order, is_hidden, of_step))
+    half = 0.5 * (found.high - found.low)
+    wider = math.hypot(half, averaging) - half if averaging > 0 else 0.0
+    return Estimate(float(values[int(np.argmin(spacings))]), found.low - wider, found.high + wider, found.mean,
+                    eca_hoekstra.order, found.discretisation, found.chance, averaging, of_step,
+                    eca_hoekstra.uncertainty,
+                    notes_on(found, eca_hoekstra.order, is_hidden, of_step, averaging))

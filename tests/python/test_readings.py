@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import tailwater as tw
 from small import PackageTest
-from tailwater.readings import EXTREMES, rise_at_end
+from tailwater.readings import EXTREMES, MEANS, RATES, error_of_mean, rise_at_end
 from test_report import make_study, summary
 
 TIME = np.linspace(0, 2, 201)
@@ -25,6 +25,48 @@ def make_readings(folder, results, columns):
         table = np.column_stack([TIME, *columns.values()])
         rows = "\n".join(",".join(f"{number:.9g}" for number in row) for row in table)
         Path(path, "probes/depth.csv").write_text(f"time_s,{','.join(columns)}\n{rows}\n", encoding="utf-8")
+
+
+class Means(PackageTest):
+    def answer(self, readings):
+        second = TIME >= 1
+        mean = float(np.trapz(readings[second], TIME[second]))
+        make_readings("s", [{"name": "depth", "value": mean, "unit": "m", "what": "mean of the second half"}],
+                      {"connected_m": readings})
+        return tw.report("s", pictures=0).content["answer"]
+
+    def test_oscillation_widens_the_interval(self):
+        for period in (0.5, 0.8, 1.3, 1.6):
+            row = self.answer(0.4 + 0.05 * np.sin(2 * np.pi * TIME / period))
+            self.assertTrue(row["low"] < 0.4 < row["high"], row)
+
+    def test_drift_widens_the_interval_to_its_end(self):
+        row = self.answer(0.4 + 0.001 * TIME)
+        self.assertTrue(row["low"] < 0.401 and row["high"] > 0.402)
+
+    def test_fast_oscillation_and_noise_average_out(self):
+        noise = 0.001 * np.random.default_rng(1).normal(size=TIME.size)
+        row = self.answer(0.4 + 0.05 * np.sin(40 * np.pi * TIME) + noise)
+        self.assertTrue(0 < row["averaging"] < 0.001)
+
+    def test_rate_of_change(self):
+        make_readings("s", [], {"volume_m3": 3 * TIME + 0.01 * np.sin(9 * TIME)})
+        run = tw.Run(next(Path("s").glob("spacings/*")))
+        told = json.loads(Path(run.path, "summary.json").read_text(encoding="utf-8"))
+        told["results"]["depth"]["type"] = "discharge"
+        Path(run.path, "summary.json").write_text(json.dumps(told), encoding="utf-8")
+        self.assertAlmostEqual(error_of_mean(run, "depth", "discharge"), 0.08, delta=0.04)
+        self.assertTrue(np.isnan(error_of_mean(run, "depth", "largest discharge")))
+
+    def test_columns_are_those_of_the_reference(self):
+        page = (Path(__file__).resolve().parents[2] / "docs/reference/probes.md").read_text(encoding="utf-8")
+        means = {line.split("|")[1].strip() for line in page.splitlines()
+                 if line.startswith("|") and line.endswith("over the second half of the run |")}
+        self.assertEqual(means, {name for table in (MEANS, RATES) for names in table.values() for name in names})
+        for kind, names in [*MEANS.items(), *RATES.items()]:
+            section = page.partition(f"\n## {kind}\n")[2].partition("\n## ")[0]
+            for name, column in names.items():
+                self.assertIn(f"| {name} | `{column}` |", section)
 
 
 class Extremes(PackageTest):

@@ -93,6 +93,12 @@ class Estimates(unittest.TestCase):
         found = estimate(list(H), list(value), starts={H[2]: [value[2], value[2] + 0.01, value[2] - 0.01, value[2]]})
         self.assertAlmostEqual(found.uncertainty**2, found.discretisation**2 + found.chance**2)
 
+    def test_averaging_time_adds_as_a_square(self):
+        found, wider = (estimate(list(H), list(2 + 3 * H), averaging=part) for part in (math.nan, 0.5))
+        self.assertAlmostEqual(wider.uncertainty**2, found.uncertainty**2 + 0.25)
+        self.assertEqual(wider.limit, found.limit)
+        self.assertEqual(wider.notes, ["mostly the averaging time: a later time.end narrows the interval"])
+
     def test_step_that_hides_an_error_is_seen(self):
         # Errors of space and time that compensate each other: only the value with half of the step shows it.
         value = 2 + 3 * H - 2.9 * H
