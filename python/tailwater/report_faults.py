@@ -168,9 +168,11 @@ def faults_of(study_fault, roles, is_study, answer=None) -> list:
     """Reasons why the number is not reliable, one for each kind of fault; empty if no fault was detected. A fault of
     any run of a study counts, because the interval is computed from all runs. A value that still rises or falls must do
     so in most runs, because the last reading of one run may be the largest by chance. `roles` are (role, Run); `answer`
-    has the probe and the quantity of the number, "" for any."""
+    has the probe and the quantity of the number, "" for any; it is empty for a case without probes."""
     runs = [run for _, run in roles]
     faults = [study_fault] if study_fault else []
+    if not answer:
+        faults.append("the case has no probe, so there is no number; remedy: add a [[probe]] and run it again")
     kinds = {}
     for run in runs:
         for kind, detail in faults_of_run(run, answer):

@@ -307,6 +307,8 @@ def study(case, *, out=None, spacings=None, budget=None, starts: int = STARTS, s
     runner = {"jobs": jobs, "ranks": ranks, "progress": progress}
     if budget is not None and not (isinstance(budget, (int, float)) and budget > 0):
         raise InputError(f"budget = {budget!r}: give seconds of computing time, as a number")
+    if quantities is quantities_of and "probe[0].type" not in case:
+        raise InputError(f"{case.file}: has no probe, so a study has no result; remedy: add a [[probe]]")
     if starts < 0:
         raise InputError(f"starts = {starts}: give 0 or more")
     if spacings is not None:

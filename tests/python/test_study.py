@@ -91,6 +91,17 @@ class Studies(PackageTest):
             with self.assertRaisesRegex(tw.InputError, "seconds"):
                 tw.study(self.case, budget=budget)
 
+    def test_case_without_probes_is_refused_before_the_first_run(self):
+        del self.case["probe"]
+        with self.assertRaisesRegex(tw.InputError, "has no probe, so a study has no result; remedy: add a "):
+            tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16])
+        self.assertFalse(Path("s").exists())
+        tw.study(self.case, out="s", spacings=[0.1, 0.125, 0.16], starts=0, step=False,
+                 quantities=lambda run: {("mine", "spacing"): (run.spacing, "m")})
+        made = tw.report("s", pictures=0)
+        self.assertFalse(made.is_reliable)
+        self.assertRegex(made.first_line, "relied on: the case has no probe, so there is no number; .* no result.$")
+
     def test_the_folder_of_a_run_is_none_for_a_study(self):
         self.case.run("run")
         before = sorted(Path("run").rglob("*"))
