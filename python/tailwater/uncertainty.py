@@ -19,6 +19,7 @@ from .errors import DataError
 __all__ = ["Estimate", "Extrapolation", "estimate", "extrapolate"]
 
 LEAST_ORDER, LARGEST_ORDER = 0.5, 2.0  # range of observed orders that are used for extrapolation
+FAST_ORDER = 3.0  # above it, values converge faster than the errors of `hypotheses`
 SAFE, UNSAFE = 1.25, 3.0  # safety factors on the estimated error
 ORDERS = np.linspace(0.05, 8.0, 160)  # trial orders of the search, before refinement
 # Prior hypotheses of `estimate`, all equally probable. An error is a sum of TERMS powers of the spacing; the lowest
@@ -215,6 +216,18 @@ def limit_of(h, steps, means, counts, variance, freedom) -> Limit:
                  float(weights @ known.scatter[kept]))
 
 
+def bounded_limit(limit, h, value):
+    """The limit, but for steady convergence above FAST_ORDER no farther from the finest value than LARGEST_ORDER
+    extrapolates the change between the two finest spacings. The finest value is the first. The errors of `hypotheses`
+    fit such values by terms that compensate each other and grow beyond the values below the finest spacing."""
+    order = ORDERS[int(np.argmin(misfits(ORDERS, h, value, np.full(h.size, 1 / h.size))))]
+    changes = np.diff(value)
+    if order <= FAST_ORDER or not (np.all(changes > 0) or np.all(changes < 0)):
+        return limit
+    farthest = abs(changes[0]) / ((h[1] / h[0])**LARGEST_ORDER - 1)
+    return float(np.clip(limit, value[0] - farthest, value[0] + farthest))
+
+
 @dataclass(frozen=True)
 class Estimate:
     """A number with an interval that contains its limit with a probability of 95 %."""
@@ -222,7 +235,7 @@ class Estimate:
     value: float  # of the finest spacing
     low: float
     high: float
-    limit: float  # mean of the distribution of the limit
+    limit: float  # mean of the distribution of the limit, bounded if the values converge fast
     order: float  # observed order; nan if none
     discretisation: float  # part of the half width of the interval; adds to `chance` and `averaging` in quadrature
     chance: float  # random part of the half width; nan if there is no run from another start
@@ -282,9 +295,11 @@ def estimate(spacings, values, *, starts=None, step=None, averaging=math.nan) ->
     h, steps, of_members, counts = zip(*members)
     found = limit_of(h, steps, np.array(of_members), counts, variance, freedom)
     is_hidden = np.ptp(means) < HIDDEN * math.sqrt(variance)
+    finest_first = np.argsort(spacings)
+    limit = bounded_limit(found.mean, np.array(spacings, dtype=float)[finest_first], means[finest_first])
     half = 0.5 * (found.high - found.low)
     wider = math.hypot(half, averaging) - half if averaging > 0 else 0.0
-    return Estimate(float(values[int(np.argmin(spacings))]), found.low - wider, found.high + wider, found.mean,
+    return Estimate(float(values[int(np.argmin(spacings))]), found.low - wider, found.high + wider, limit,
                     eca_hoekstra.order, found.discretisation, found.chance, averaging, of_step,
                     eca_hoekstra.uncertainty,
                     notes_on(found, eca_hoekstra.order, is_hidden, of_step, averaging))

@@ -77,6 +77,14 @@ class Estimates(unittest.TestCase):
         self.assertAlmostEqual(found.uncertainty, 0.5 * (found.high - found.low))
         self.assertEqual(found.eca_hoekstra, extrapolate(H, 2 + 3 * H).uncertainty)
 
+    def test_limit_of_fast_convergence_is_bounded_by_the_last_change(self):
+        h = 0.01 * 2 ** np.linspace(0, 1, 7)
+        for order in (4, 5, 6, 8):
+            value = (h / h[-1])**order
+            found = estimate(list(h[::-1]), list(value[::-1]))
+            self.assertLessEqual(abs(found.limit - value[0]), 1.001 * (value[1] - value[0]) / ((h[1] / h[0])**2 - 1))
+            self.assertTrue(found.low <= 0 <= found.high and found.low <= found.limit <= found.high)
+
     def test_units_and_sign_do_not_matter(self):
         value, starts = np.array([1.0, 1.1, 1.15, 1.3]), np.array([1.15, 1.16, 1.13])
         found = estimate(list(H), list(value), starts={H[2]: list(starts)})
