@@ -285,9 +285,8 @@ void RunOutput<Dim>::warn_if_outside(const Flow<Dim>& flow, std::size_t outside)
   warned_outside_ = true;
   warn("water-left-walls",
        "at t = {:.4f} s {} fluid particle(s) are outside the walls, one at ({:.4g}), and cannot return; they are "
-       "computed "
-       "until they are below all walls, and counted in summary.json. Remedy: raise the walls if the water ran over "
-       "them; if it passed below their rim, close the gap there or use a smaller spacing",
+       "computed until they are below all walls, and counted in summary.json. Remedy: raise the walls if the water ran "
+       "over them; if it passed below their rim, close the gap there or use a smaller spacing",
        flow.state.time, outside, fmt::join(place_of_water_outside(flow), ", "));
 }
 
