@@ -92,8 +92,9 @@ class CaseReader {
   void report_unknown_tables() {
     for (const auto& [name, node] : root_) {
       if (std::find(names_.begin(), names_.end(), name.str()) == names_.end()) {
-        context_.problems.wrong("table-unknown", CaseLabel(std::string(name.str())), node,
-                                fmt::format("unknown table; {}{}", home_of(name.str()), unknown_name_hint(name.str(), names_)));
+        context_.problems.wrong(
+            "table-unknown", CaseLabel(std::string(name.str())), node,
+            fmt::format("unknown table; {}{}", home_of(name.str()), unknown_name_hint(name.str(), names_)));
       }
     }
   }

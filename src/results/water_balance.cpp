@@ -131,7 +131,7 @@ Vec<Dim> place_of_water_outside(const Flow<Dim>& flow) {
   const Particles<Dim>& particles = flow.state.particles;
   std::int64_t own = std::numeric_limits<std::int64_t>::max();
   std::vector<double> place(Dim, 0.0);
-  for (std::size_t i = 0; i < particles.owned; ++i) {
+  for (std::size_t i = 0; i < particles.owned; ++i) {  // in order: of several, the first counts
     if (particles.id[i] >= own || !is_outside(flow, box, i)) continue;
     own = particles.id[i];
     for (int axis = 0; axis < Dim; ++axis) place[axis] = particles.position[i][axis];

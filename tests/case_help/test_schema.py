@@ -39,6 +39,7 @@ UNSEEN = {
         "parameter_that_waits_for_a_circle", "spacing_and_parameter_of_each_other", "range_of_an_expression",
         "rotation_of_an_unknown_function", "spacing_of_itself", "unknown_name",
         "unknown_name_is_reported_once_if_dx_uses_it", "velocity_of_an_unknown_name", "velocity_of_z_in_a_plane",
+        "gravity_that_changes",
         "unknown parameter", "discharge that jumps", "discharge without a value", "velocity that overflows"},
     "names": {
         "body_of_no_wall", "zone_around_no_wall", "body_with_a_motion", "body_with_the_water_inside", "default_name_taken", "fluid_name_twice",
