@@ -33,7 +33,7 @@ struct Joints {
   std::vector<int> chain;  ///< index of the connected chain of each face
 };
 
-constexpr double widest_gap = 0.5;   // dx, of a corner that leaves no opening (geometry/rim_ends.h)
+constexpr double widest_corner_gap = 0.5;  // dx, of a corner that leaves no opening (geometry/rim_ends.h)
 constexpr double longest_end = 1.0;  // dx, of a wall beyond a wall that it crosses, with too few particles behind it
 
 /// The body, where walls that nearly meet, or go on a little beyond the place where they cross, meet in a corner.
@@ -56,7 +56,7 @@ Boundary<2> with_closed_corners(Boundary<2> body, double spacing, double toleran
       const Vec<2> corner = end - faces[j].height(end) / closing * along;
       const bool is_crossed = (closest_point(faces[i], corner) - corner).norm() <= tolerance &&
                               (closest_point(faces[j], corner) - corner).norm() <= tolerance;
-      if (is_crossed || (end - start).norm() <= widest_gap * spacing) end = start = corner;
+      if (is_crossed || (end - start).norm() <= widest_corner_gap * spacing) end = start = corner;
     }
   }
   return body;
@@ -263,21 +263,21 @@ WallPlace<2> place_behind(const std::vector<WallFace<2>>& chain, const Vec<2>& x
 
 }  // namespace
 
-WallParticles<2> sample_chains(const Boundary<2>& drawn, const WallLayers& layers) {
+WallParticles<2> sample_chains(const Boundary<2>& body, const WallLayers& layers) {
   const double tolerance = corner_tolerance * layers.spacing;
-  const Boundary<2> body = with_closed_corners(drawn, layers.spacing, tolerance);
+  const Boundary<2> closed = with_closed_corners(body, layers.spacing, tolerance);
   const double farthest = farthest_share * layers.count * layers.spacing;
   const double free_end = layers.starts_on_wall ? 0.0 : 0.5;
-  const Joints joints = join_faces(body, tolerance);
-  const std::vector<std::vector<WallFace<2>>> chains = faces_by_chain(body, joints, 2.0 * farthest);
-  const std::vector<Run> runs = make_runs(body, joints);
-  WallParticleCollector<2> collector(body, layers);
-  if (!layers.starts_on_wall) fill_tips(body, joints, layers, collector);
+  const Joints joints = join_faces(closed, tolerance);
+  const std::vector<std::vector<WallFace<2>>> chains = faces_by_chain(closed, joints, 2.0 * farthest);
+  const std::vector<Run> runs = make_runs(closed, joints);
+  WallParticleCollector<2> collector(closed, layers);
+  if (!layers.starts_on_wall) fill_tips(closed, joints, layers, collector);
   for (int layer = 0; layer < layers.count; ++layer) {
     const double depth = layers.first_depth() + layer * layers.spacing;
     for (const Run& run : runs) {
       const int chain = joints.chain[run.faces.front()];
-      const RowOfPlaces row = place_row(body, run, depth, layers.spacing, free_end);
+      const RowOfPlaces row = place_row(closed, run, depth, layers.spacing, free_end);
       for (const Vec<2>& x : row.places) {
         WallPlace<2> place = place_behind(chains[chain], x, tolerance);
         place.share = row.share;

@@ -24,12 +24,12 @@ constexpr double edge_of_cut_pieces = 0.125;
 /// dx; from a place of a wall into the space in front of it, so that it is beside the face of a wall that ends there,
 /// and so that its own wall hides nothing.
 constexpr double margin_on_wall = 0.01;
-constexpr double margin_of_eye = 0.1;
+constexpr double margin_of_view = 0.1;
 
 /// dx; no place of a patch is farther from its centre.
 constexpr double radius_of_patches = 0.9;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double without_limit = std::numeric_limits<double>::infinity();
 
 /// Fraction of a patch that is less than the rounding of its pieces.
 constexpr double no_share = 1e-9;
@@ -78,14 +78,14 @@ void WettedPatches<Dim>::find_behind_open(const Boundary<Dim>& boundary, std::sp
     const double spacing = relative_spacing_[k] * spacing_;
     const auto height = [&](const Vec<Dim>& x) {
       const Vec<Dim> raised = x + margin_on_wall * spacing * face.normal;  // a wall that ends here has a side there
-      const NearestWall<Dim> wall = nearest_among<Dim>(boundary, others, raised, infinite);
-      return wall.face < 0 ? infinite : wall.signed_distance;
+      const NearestWall<Dim> wall = nearest_among<Dim>(boundary, others, raised, without_limit);
+      return wall.face < 0 ? without_limit : wall.signed_distance;
     };
     int behind = height(patches[k].centre(boundary)) < 0.0 ? 1 : 0;  // of the centre and the corners
     for (int c = 0; c < Dim; ++c) behind += height(patches[k].corner(boundary, c)) < 0.0 ? 1 : 0;
     if (behind == Dim + 1) is_behind_open_[k] = 1;
     if (behind == 0 || behind == Dim + 1) continue;
-    double least = infinite;
+    double least = without_limit;
     Vec<Dim> farthest_behind;
     OpenPart front{Vec<Dim>::Zero(), 0.0};
     for (const WallPatch<Dim>& piece : pieces_of(patches[k], boundary, edge_of_cut_pieces * spacing)) {
@@ -104,7 +104,7 @@ void WettedPatches<Dim>::find_behind_open(const Boundary<Dim>& boundary, std::sp
       is_behind_open_[k] = 1;
       continue;
     }
-    const Vec<Dim> forward = margin_of_eye * spacing * face.normal;
+    const Vec<Dim> forward = margin_of_view * spacing * face.normal;
     const bool is_cut = !sees(boundary, face.wall, front.centre + forward, farthest_behind + forward);
     if (is_cut && front.share < 1.0 - no_share) beside_open_[k] = front;
   }
