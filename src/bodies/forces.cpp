@@ -70,7 +70,7 @@ std::vector<Twist<Dim>> ForcesOnBodies<Dim>::error_of_pairs(const BalancedPressu
   }
   const WetPatches<Dim> wet(flow_, in_reach);
   for (std::size_t n = 0; n < patches.size(); ++n) {
-    if (wet.wetness(n) == Wetness::dry) continue;
+    if (!wet.is_wet(n)) continue;
     const WallFace<Dim>& face = boundary.faces[patches[n]->face];
     const int body = bodies_.body_of_wall[face.wall];
     const Vec<Dim>& x = in_reach[n].centre;

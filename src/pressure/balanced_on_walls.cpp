@@ -20,8 +20,8 @@ constexpr double least_depth = 1.0;
 /// their patches differ, and parts of covered patches are left.
 constexpr double least_wet_share = 0.5;
 
-/// Sets q to 0 on dry patches with more than `least` [Pa] of it, and on fixed walls with an unknown border between wet
-/// and dry patches. Collective.
+/// Sets q to 0 on dry patches with more than `least` [Pa] of it, and on fixed walls with such patches that are not
+/// behind other walls. Collective.
 template <int Dim>
 void keep_wet_patches(const Flow<Dim>& flow, double least, std::vector<double>& q) {
   const Boundary<Dim>& boundary = flow.walls.boundary;
@@ -37,19 +37,18 @@ void keep_wet_patches(const Flow<Dim>& flow, double least, std::vector<double>& 
                         .is_left_over = wetted.share(patch) < least_wet_share});
   }
   const WetPatches<Dim> wet(flow, std::move(in_reach));
-  std::vector<std::uint8_t> has_unknown_border(boundary.walls.size(), 0);
+  std::vector<std::uint8_t> is_dry(boundary.walls.size(), 0);
   for (std::size_t n = 0; n < deep.size(); ++n) {
-    if (wet.wetness(n) != Wetness::dry) continue;
+    if (wet.is_wet(n)) continue;
     q[deep[n]] = 0.0;
-    const bool is_hidden = wetted.may_be_hidden(static_cast<std::int32_t>(deep[n]));
-    if (!is_hidden && wet.is_beside_unknown_border(n))
-      has_unknown_border[boundary.faces[patches[deep[n]].face].wall] = 1;
+    if (!wetted.may_be_hidden(static_cast<std::int32_t>(deep[n])))
+      is_dry[boundary.faces[patches[deep[n]].face].wall] = 1;
   }
   for (const auto& moving : flow.setup.wall_motion->moving()) {
-    if (moving.body >= 0) has_unknown_border[moving.wall] = 0;
+    if (moving.body >= 0) is_dry[moving.wall] = 0;
   }
   for_each(q.size(), [&](std::size_t k) {
-    if (has_unknown_border[boundary.faces[patches[k].face].wall] != 0) q[k] = 0.0;
+    if (is_dry[boundary.faces[patches[k].face].wall] != 0) q[k] = 0.0;
   });
 }
 

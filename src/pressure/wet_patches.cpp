@@ -18,14 +18,11 @@ constexpr double reach_of_wet = 2.0;
 /// dx; from the centre of a patch into the space in front, so that its own wall hides nothing.
 constexpr double margin_of_eye = 0.1;
 
-/// Patches whose normals are more alike are on one side of a wall, rather than on both sides of its edge.
-constexpr double min_cosine_of_one_side = 0.5;
-
 }  // namespace
 
 template <int Dim>
 WetPatches<Dim>::WetPatches(const Flow<Dim>& flow, std::vector<PatchInReach<Dim>> patches)
-    : flow_(flow), patches_(std::move(patches)), wetness_(patches_.size(), Wetness::by_water_in_front) {
+    : flow_(flow), patches_(std::move(patches)), is_wet_(patches_.size(), 1) {
   std::vector<Vec<Dim>> centres;
   for (const PatchInReach<Dim>& patch : patches_) {
     centres.push_back(patch.centre);
@@ -33,9 +30,9 @@ WetPatches<Dim>::WetPatches(const Flow<Dim>& flow, std::vector<PatchInReach<Dim>
   }
   grid_ = CellGrid<Dim>(centres, reach_of_wet * flow.setup.scale.spacing);
   const std::vector<double> water_in_front = find_water_in_front();
-  for (std::size_t n = 0; n < wetness_.size(); ++n) {
+  for (std::size_t n = 0; n < is_wet_.size(); ++n) {
     if (water_in_front[n] != 0.0 || patches_[n].is_left_over) continue;
-    wetness_[n] = is_wet_without_particle(water_in_front, n) ? Wetness::by_patches_near : Wetness::dry;
+    is_wet_[n] = is_wet_without_particle(water_in_front, n) ? 1 : 0;
   }
 }
 
@@ -94,18 +91,6 @@ bool WetPatches<Dim>::is_wet_without_particle(const std::vector<double>& water_i
     const double alike = face(m).normal.dot(face(n).normal);
     found = face(m).wall == face(n).wall ? alike > 0.0 && water_in_front[m] != 0.0
                                          : alike < 0.0 && offset.dot(face(n).normal) > 0.0;
-  });
-  return found;
-}
-
-template <int Dim>
-bool WetPatches<Dim>::is_beside_unknown_border(std::size_t n) const {
-  const double reach = reach_of_wet * spacing_[n];
-  bool found = false;
-  grid_.for_each_near(patches_[n].centre, [&](std::int32_t m) {
-    const bool is_border = wetness_[m] == Wetness::by_patches_near && face(m).wall == face(n).wall;
-    if (found || !is_border || (patches_[m].centre - patches_[n].centre).squaredNorm() >= reach * reach) return;
-    found = face(m).normal.dot(face(n).normal) > min_cosine_of_one_side;
   });
   return found;
 }

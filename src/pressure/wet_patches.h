@@ -10,12 +10,6 @@
 
 namespace tailwater {
 
-enum class Wetness {
-  dry,
-  by_patches_near,   ///< water is in front of a patch beside it, or another wall faces it across a film
-  by_water_in_front  ///< a particle is near it
-};
-
 /// A patch that may be wet.
 template <int Dim>
 struct PatchInReach {
@@ -31,10 +25,7 @@ class WetPatches {
   /// Collective.
   WetPatches(const Flow<Dim>& flow, std::vector<PatchInReach<Dim>> patches);
 
-  Wetness wetness(std::size_t n) const { return wetness_[n]; }
-  /// Whether a dry patch is beside one that is wet only by the patches near it: the border between them is not known to
-  /// less than a spacing. Where walls meet at an edge, or are behind others, it is.
-  bool is_beside_unknown_border(std::size_t n) const;
+  bool is_wet(std::size_t n) const { return is_wet_[n] != 0; }
 
  private:
   const WallFace<Dim>& face(std::size_t n) const { return flow_.walls.boundary.faces[patches_[n].face]; }
@@ -47,7 +38,7 @@ class WetPatches {
   std::vector<PatchInReach<Dim>> patches_;
   std::vector<double> spacing_;  ///< m; of the particles there
   CellGrid<Dim> grid_;           ///< of the centres
-  std::vector<Wetness> wetness_;
+  std::vector<std::uint8_t> is_wet_;
 };
 
 }  // namespace tailwater

@@ -15,7 +15,7 @@ namespace {
 constexpr double farthest_share = 1.5;       // of the layers' depth; sharp mitres are cut off at this distance
 constexpr double min_distance_to_tip = 0.3;  // dx, for the particles in the tip of a crest
 constexpr double sharp_turn_cosine = 0.866;  // a corner that turns by more than 30 degrees gets a particle of its own
-constexpr double min_sine_of_corner = 0.25;  // below, two faces go on as one
+constexpr double min_sine_of_corner = 0.25;  // with less, two faces go on as one
 constexpr double folded_back_cosine = -0.9;  // faces that turn by more than 154 degrees have no useful mitre
 
 /// The joint of a face to the next one, or to an image of it.
@@ -36,8 +36,9 @@ struct Joints {
 constexpr double widest_corner_gap = 0.5;  // dx, of a corner that leaves no opening (geometry/rim_ends.h)
 constexpr double longest_end = 1.0;  // dx, of a wall beyond a wall that it crosses, with too few particles behind it
 
-/// The body, where walls that nearly meet, or go on a little beyond the place where they cross, meet in a corner.
-/// Otherwise the walls would have rows of their own, and none in the corner behind them, where water would escape.
+/// The body, where walls that nearly meet, or go on a little beyond the place where they cross, meet in a corner that
+/// water fills. Otherwise the walls would have rows of their own, and none in the corner behind them, where water would
+/// escape.
 Boundary<2> with_closed_corners(Boundary<2> body, double spacing, double tolerance) {
   std::vector<WallFace<2>>& faces = body.faces;
   const auto is_joined = [&](std::size_t f, int corner) {
@@ -52,7 +53,7 @@ Boundary<2> with_closed_corners(Boundary<2> body, double spacing, double toleran
       if (i == j || (end - start).norm() > longest_end * spacing || is_joined(i, 1) || is_joined(j, 0)) continue;
       const Vec<2> along = end - faces[i].corners[0];
       const double closing = along.dot(faces[j].normal);
-      if (std::abs(closing) < min_sine_of_corner * along.norm()) continue;
+      if (closing > -min_sine_of_corner * along.norm()) continue;
       const Vec<2> corner = end - faces[j].height(end) / closing * along;
       const bool is_crossed = (closest_point(faces[i], corner) - corner).norm() <= tolerance &&
                               (closest_point(faces[j], corner) - corner).norm() <= tolerance;

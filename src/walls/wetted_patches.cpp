@@ -87,7 +87,10 @@ void WettedPatches<Dim>::find_behind_open(const Boundary<Dim>& boundary, std::sp
     if (behind == 0 || behind == Dim + 1) continue;
     double least = without_limit;
     Vec<Dim> farthest_behind;
+    double largest = 0.0;
+    Vec<Dim> farthest_in_front;
     OpenPart front{Vec<Dim>::Zero(), 0.0};
+    double share_in_front = 0.0;  // of pieces whose centre is
     for (const WallPatch<Dim>& piece : pieces_of(patches[k], boundary, edge_of_cut_pieces * spacing)) {
       const Vec<Dim> x = piece.centre(boundary);
       const double height_of_piece = height(x);
@@ -95,17 +98,23 @@ void WettedPatches<Dim>::find_behind_open(const Boundary<Dim>& boundary, std::sp
         least = height_of_piece;
         farthest_behind = x;
       }
+      if (height_of_piece > largest) {
+        largest = height_of_piece;
+        farthest_in_front = x;
+      }
       const double edge = std::pow(piece.measure, 1.0 / (Dim - 1));
       const double share = std::clamp(0.5 + height_of_piece / edge, 0.0, 1.0) * piece.measure / patches[k].measure;
       front.share += share;
-      if (share > 0.0) front.centre += share / front.share * (x - front.centre);
+      if (height_of_piece <= 0.0) continue;
+      share_in_front += share;
+      front.centre += share / share_in_front * (x - front.centre);
     }
-    if (front.share < no_share) {
+    if (largest == 0.0) {  // only an edge is in front, by rounding
       is_behind_open_[k] = 1;
       continue;
     }
     const Vec<Dim> forward = margin_of_view * spacing * face.normal;
-    const bool is_cut = !sees(boundary, face.wall, front.centre + forward, farthest_behind + forward);
+    const bool is_cut = !sees(boundary, face.wall, farthest_in_front + forward, farthest_behind + forward);
     if (is_cut && front.share < 1.0 - no_share) beside_open_[k] = front;
   }
 }
@@ -210,6 +219,23 @@ std::pair<std::int32_t, Vec<Dim>> WettedPatches<Dim>::patch_under(const Boundary
   return nearest;
 }
 
+/// m; of a place on a hull above the hulls before it that face the same way there, and above all hulls that it is
+/// behind. Infinite if there are none. Where hulls overlap, the wall below them is covered once.
+template <int Dim>
+double WettedPatches<Dim>::height_above_other_hulls(const Boundary<Dim>& boundary, const WallFace<Dim>& face,
+                                                    const Vec<Dim>& x) const {
+  double least = without_limit;
+  for (const Others& other : others_) {
+    if (other.hull < 0 || other.hull == face.wall || is_hull_[face.wall] == 0) continue;
+    const NearestWall<Dim> wall = nearest(boundary, other, x);
+    if (wall.face < 0) continue;
+    const bool is_behind = wall.signed_distance < -reach_of_cover * spacing_;
+    const bool is_alike = boundary.faces[wall.face].normal.dot(face.normal) > 1.0 - corner_tolerance;
+    if (is_behind || (other.hull < face.wall && is_alike)) least = std::min(least, wall.signed_distance);
+  }
+  return least;
+}
+
 /// Takes what lies on another wall, such as the bottom of a block that stands on a bed, from the patches of both walls.
 /// Returns whether a centre has moved.
 template <int Dim>
@@ -237,6 +263,12 @@ bool WettedPatches<Dim>::take_covered(const Boundary<Dim>& boundary, std::span<c
     for (const WallPatch<Dim>& piece :
          pieces_of(patches[k], boundary, edge_of_wet_pieces * relative_spacing_[k] * spacing_)) {
       const Vec<Dim> place = piece.centre(boundary);
+      const double height = height_above_other_hulls(boundary, boundary.faces[patches[k].face], place);
+      if (height < -reach_of_cover * spacing_) continue;  // left out already
+      if (height <= reach_of_cover * spacing_) {
+        take(k, place, piece.measure);
+        continue;
+      }
       double rest = piece.measure;
       while (rest > 0.0) {
         const auto [under, image] = patch_under(boundary, patches, facing, place);

@@ -102,6 +102,7 @@ class WettedPatches {
                                                 const std::vector<std::int32_t>& facing, const Vec<Dim>& place) const;
   std::vector<std::int32_t> patches_facing(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches,
                                            std::int32_t k) const;
+  double height_above_other_hulls(const Boundary<Dim>& boundary, const WallFace<Dim>& face, const Vec<Dim>& x) const;
   bool take_covered(const Boundary<Dim>& boundary, std::span<const WallPatch<Dim>> patches);
 
   PeriodicDomain<Dim> domain_;
