@@ -1411,6 +1411,20 @@ TEST(Check, ASlopeInAZoneOfRefinementIsNotTooNear) {
   }
 }
 
+// Beyond such a corner the closed wall is the nearest one, with the place in front of it: still water escaped.
+TEST(Check, ACornerJustBehindAWallIsReported) {
+  for (const auto& [below, is_reported] : {std::pair{0.0, false}, {0.002, true}, {0.04, true}, {0.06, false}}) {
+    CaseSpec spec = tank();
+    spec.walls.push_back(box_wall({0.3, -below}, {0.6, 0.9}, {}, FluidSide::outside));
+    spec.walls.back().name = "dam";
+    const Boundary<2> boundary = make_boundary<2>(spec);
+    spec.particles.spacing = 0.1;
+    const Findings findings = check_shallow_corners<2>(spec, boundary);
+    EXPECT_EQ(findings.size(), is_reported ? 1U : 0U) << below;
+    if (is_reported) expect_only(findings, Severity::warning, {"wall 'dam'", "behind wall 'wall1'", "at least 0.05 m"});
+  }
+}
+
 TEST(Check, ValuesOfAnotherUnitAreReported) {
   CaseSpec spec = tank();
   spec.physics.density = 1.0;
@@ -1545,7 +1559,7 @@ TEST(CheckMotion, WaysThatAreTooLongAreFollowedAsFarAsTimeAllows) {
 
 TEST(Check, ABodyThatReachesThroughTheBedDoesNoHarm) {
   CaseSpec spec = empty_case(0.05);
-  spec.walls = {polyline({{0, 1}, {0, 0}, {3, 0}, {3, 1}}), box_wall({1.5, -0.02}, {2, 0.3}, {}, FluidSide::outside)};
+  spec.walls = {polyline({{0, 1}, {0, 0}, {3, 0}, {3, 1}}), box_wall({1.5, -0.03}, {2, 0.3}, {}, FluidSide::outside)};
   spec.fluid = {box_fluid({0, 0}, {1, 0.5})};
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
   spec.fluid = {box_fluid({0, 0}, {1, 0.6})};
