@@ -13,8 +13,8 @@ namespace tailwater {
 namespace {
 
 /// dx; corners between these depths behind a wall let water pass.
-constexpr double least_depth = 1e-4;
-constexpr double safe_depth = 0.5;
+constexpr double least_corner_depth = 1e-4;
+constexpr double safe_corner_depth = 0.5;
 
 }  // namespace
 
@@ -33,15 +33,15 @@ Findings check_shallow_corners(const CaseSpec& spec, const Boundary<Dim>& bounda
         std::vector<std::uint8_t> is_other(boundary.walls.size(), 0);
         is_other[other] = 1;
         const Vec<2>& corner = face.corners[0];
-        const NearestWall<2> wall = nearest_among<2>(boundary, is_other, corner, safe_depth * dx);
-        if (wall.face < 0 || wall.signed_distance > -least_depth * dx) continue;
+        const NearestWall<2> wall = nearest_among<2>(boundary, is_other, corner, safe_corner_depth * dx);
+        if (wall.face < 0 || wall.signed_distance > -least_corner_depth * dx) continue;
         if (!reported.emplace(face.wall, static_cast<int>(other)).second) continue;
         findings.push_back(Finding::warning(
             "corner-just-behind-wall",
             {"{}: its corner at {} is {:.3g} behind {}, less than half a spacing; still water escapes at such corners",
              wall_label(boundary, face.wall), place(corner), Amount{-wall.signed_distance, "m"},
              wall_label(boundary, static_cast<int>(other))},
-            {"end it on that wall, or at least {:.3g} m behind it", safe_depth * dx}));
+            {"end it on that wall, or at least {:.3g} m behind it", safe_corner_depth * dx}));
       }
     }
   }
