@@ -117,21 +117,19 @@ class RowsOfSpacing {
   /// The row nearest to a place, of this wall and not beyond its end, if one is near; else -1.
   int nearest_to(const Vec<Dim>& x, int wall) const {
     int nearest = -1;
-    places_.visit_near(x, [&](int row) {
-      if (rows_.wall[row] != wall || rows_.is_beyond_end[row] != 0) return;
+    visit_near(x, wall, [&](int row) {
       if (nearest < 0 || (rows_.position[row] - x).norm() < (rows_.position[nearest] - x).norm()) nearest = row;
     });
     return nearest;
   }
 
-  /// Whether a row of this wall, nearer to a place than half a spacing, fulfils a condition.
+  /// Whether such a row, nearer than half a spacing, fulfils a condition.
   template <class Condition>
   bool is_any_near(const Vec<Dim>& x, int wall, Condition&& holds) const {
     bool found = false;
-    places_.visit_near(x, [&](int row) {
+    visit_near(x, wall, [&](int row) {
       const Vec<Dim>& place = rows_.position[row];
-      found = found || (rows_.wall[row] == wall && rows_.is_beyond_end[row] == 0 &&
-                        (place - x).norm() < half_spacing_ && holds(place));
+      found = found || ((place - x).norm() < half_spacing_ && holds(place));
     });
     return found;
   }
@@ -147,6 +145,13 @@ class RowsOfSpacing {
   }
 
  private:
+  template <class Visit>
+  void visit_near(const Vec<Dim>& x, int wall, Visit&& visit) const {
+    places_.visit_near(x, [&](int row) {
+      if (rows_.wall[row] == wall && rows_.is_beyond_end[row] == 0) visit(row);
+    });
+  }
+
   WallParticles<Dim> rows_;
   PointGrid<Dim> places_;
   double half_spacing_;  ///< m
