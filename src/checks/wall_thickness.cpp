@@ -58,20 +58,40 @@ bool is_obstacle(const WallTable& wall) {
   return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
 }
 
-/// The faces whose front water can reach, from its start and from open ends. The open ends, and the box around all
-/// walls, count as closed.
+/// What water can reach, from its start and from open ends. The open ends, and the box around all walls, count as
+/// closed.
 template <int Dim>
-std::vector<bool> wet_faces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid) {
-  const std::vector<Opening<Dim>> ends = make_open_ends<Dim>(spec);
-  const CellSpace<Dim> space(spec, faces_with(boundary, ends), fluid.box(), max_cells_of_case);
-  std::vector<typename CellSpace<Dim>::Cell> start = cells_of<Dim>(space, fluid);
-  for (const Opening<Dim>& end : ends) {
-    Vec<Dim> middle = end.corner;
-    for (const Vec<Dim>& edge : end.edges) middle += 0.5 * edge;
-    start.push_back(space.cell_of(middle - 0.5 * spec.particles.spacing * end.normal));
+class WetFaces {
+ public:
+  WetFaces(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid)
+      : domain_(boundary.domain),
+        ends_(make_open_ends<Dim>(spec)),
+        space_(spec, faces_with(boundary, ends_), fluid.box(), max_cells_of_case),
+        is_wet_(space_.count(), false) {
+    std::vector<typename CellSpace<Dim>::Cell> start = cells_of<Dim>(space_, fluid);
+    for (const Opening<Dim>& end : ends_) {
+      Vec<Dim> middle = end.corner;
+      for (const Vec<Dim>& edge : end.edges) middle += 0.5 * edge;
+      start.push_back(space_.cell_of(middle - 0.5 * spec.particles.spacing * end.normal));
+    }
+    const Spread<Dim> reached = spread(space_, start, Vec<Dim>(Vec<Dim>::Zero()), Edge::holds);
+    wet_ = reached.wet;
+    for (const auto& cell : reached.cells) is_wet_[space_.index(cell)] = true;
   }
-  return spread(space, start, Vec<Dim>(Vec<Dim>::Zero()), Edge::holds).wet;
-}
+
+  /// Whether water can reach the front of a face, of this index, at the place x on it.
+  bool holds(int index, const WallFace<Dim>& face, const Vec<Dim>& x) const {
+    const Vec<Dim> in_front = wrapped<Dim>(domain_, Vec<Dim>(x + space_.edge() * face.normal));
+    return wet_[index] && is_wet_[space_.index(space_.cell_of(in_front))];
+  }
+
+ private:
+  PeriodicDomain<Dim> domain_;
+  std::vector<Opening<Dim>> ends_;
+  CellSpace<Dim> space_;
+  std::vector<bool> wet_;     ///< by face
+  std::vector<bool> is_wet_;  ///< by cell
+};
 
 /// A face, or its image in the next period.
 template <int Dim>
@@ -205,11 +225,7 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
   const double needed = dummy_layers(spec) * dx;
   Findings findings;
   std::set<std::pair<int, int>> reported;
-  std::optional<std::vector<bool>> wet;  // by face; computed on demand
-  const auto is_wet = [&](int face) {
-    if (!wet) wet = wet_faces(spec, boundary, fluid);
-    return wet->at(face);
-  };
+  std::optional<WetFaces<Dim>> wet;  // computed on demand
   const FacesBehind<Dim> faces_behind(boundary, needed + 3.0 * tolerance);
   std::optional<std::vector<Lip<Dim>>> lips;  // computed on demand
   // Beside a sharp edge a wall is a wedge, whether its sides are straight or made of short pieces.
@@ -236,10 +252,12 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
         const double thickness = thickness_at(x);
         const bool rests_on_it = is_obstacle_on_wall && thickness <= 2.0 * tolerance;
         const bool is_thin = !rests_on_it && thickness < needed - tolerance;
-        return is_thin && !(may_be_wedge && is_wedge(walls, x, thickness));
+        if (!is_thin || (may_be_wedge && is_wedge(walls, x, thickness))) return false;
+        // A body that reaches through the bed does no harm: there is no water below.
+        if (!wet) wet.emplace(spec, boundary, fluid);
+        return wet->holds(f, face, x) && wet->holds(g, other, Vec<Dim>(x - thickness * face.normal));
       });
-      // A body that reaches through the bed does no harm: there is no water below.
-      if (!foot || !is_wet(f) || !is_wet(g)) continue;
+      if (!foot) continue;
       reported.insert(walls);
       findings.push_back(thin_wall(spec, boundary, face, behind_face, *foot, thickness_at(*foot)));
     }
