@@ -47,7 +47,7 @@ GROUPS = {
                       "geometry/from_spec": "any", "app/check_json": "any"},
     "Walls": {"geometry/make_boundary": "`[[wall]]`", "geometry/wall_patches": "`[[wall]]`",
               "checks/self_crossing": "`[[wall]]`", "checks/wall_thickness": "`[[wall]]`", "checks/plates": "`[[wall]]`",
-              "checks/leaks": "`[[wall]]`", "checks/crests": "`[[wall]]`", "checks/closed_gaps": "`[[wall]]`", "checks/shallow_corners": "`[[wall]]`",
+              "checks/leaks": "`[[wall]]`", "checks/crests": "`[[wall]]`", "checks/closed_gaps": "`[[wall]]`",
               "checks/roughness": "`[[wall]]`", "checks/periodic_width": "`[domain]`", "parts/side_walls": "`[physics]`"},
     "Meshes": {"geometry/mesh_walls": "`[[wall]]`, `[[fluid]]`", "sampling/wall_meshes": "`[[wall]]`",
                "checks/meshes": "`[[wall]]`"},

@@ -45,7 +45,6 @@ Findings check_geometry(const CaseSpec& spec, const Boundary<Dim>& boundary, con
   append(findings, check_moving_walls(spec, boundary, fluid));
   if (!has_error(findings)) {
     append(findings, check_closed_gaps(spec, boundary));
-    append(findings, check_shallow_corners(spec, boundary));
     append(findings, check_damping(spec, boundary, fluid));
     append(findings, check_wave_zones(spec, fluid));
     append(findings, check_probes(spec, boundary, fluid));

@@ -57,10 +57,6 @@ Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 template <int Dim>
 Findings check_closed_gaps(const CaseSpec& spec, const Boundary<Dim>& boundary);
 
-/// Warning: a corner of a closed wall that is less than half a spacing behind another wall, in 2D.
-template <int Dim>
-Findings check_shallow_corners(const CaseSpec& spec, const Boundary<Dim>& boundary);
-
 /// Errors: a wall whose roughness is larger than 15 dx, or than the water is deep; side walls of a channel rougher than
 /// half of its width. Warning: a roughness larger than dx. Collective.
 template <int Dim>

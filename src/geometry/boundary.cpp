@@ -120,17 +120,20 @@ WallSearch<Dim> search_all(const Boundary<Dim>& boundary, WallSearch<Dim> search
 constexpr double touch = 1e-4;
 
 /// The faces of a wall whose boxes meet a box.
-std::vector<WallFace<3>> faces_in(const Boundary<3>& boundary, int wall, const Box<3>& box) {
-  std::vector<WallFace<3>> found;
+template <int Dim>
+std::vector<WallFace<Dim>> faces_in(const Boundary<Dim>& boundary, int wall, const Box<Dim>& box) {
+  std::vector<WallFace<Dim>> found;
   boundary.visit_plain_faces([&](int f) {
-    const WallFace<3>& face = boundary.faces[f];
+    const WallFace<Dim>& face = boundary.faces[f];
     if (face.wall == wall && face.box().intersects(box)) found.push_back(face);
   });
-  for (const WallMesh& mesh : boundary.meshes) {
-    if (mesh.wall != wall) continue;
-    const Vec<3> moved = boundary.displacement_of(mesh);
-    mesh.surface->visit_in(box.min() - moved, box.max() - moved,
-                           [&](int t) { found.push_back(boundary.faces[mesh.first_face + t]); });
+  if constexpr (Dim == 3) {
+    for (const WallMesh& mesh : boundary.meshes) {
+      if (mesh.wall != wall) continue;
+      const Vec<3> moved = boundary.displacement_of(mesh);
+      mesh.surface->visit_in(box.min() - moved, box.max() - moved,
+                             [&](int t) { found.push_back(boundary.faces[mesh.first_face + t]); });
+    }
   }
   return found;
 }
@@ -176,27 +179,25 @@ NearestWall<Dim> behind_crossing(const Boundary<Dim>& boundary, const Vec<Dim>& 
 
 }  // namespace
 
-bool cross_near(const Boundary<3>& boundary, int a, int b, const Vec<3>& x, double distance) {
+template <int Dim>
+bool cross_near(const Boundary<Dim>& boundary, int a, int b, const Vec<Dim>& x, double distance) {
   for (const int wall : {a, b}) {
     if (boundary.walls[wall].is_duct || boundary.walls[wall].is_plate) return false;
   }
-  if (std::ranges::none_of(boundary.meshes, [&](const WallMesh& mesh) { return mesh.wall == a || mesh.wall == b; })) {
-    return false;
-  }
   constexpr double farthest_line = 4.0;
-  const Vec<3> margin = Vec<3>::Constant(farthest_line * distance);
-  const Box<3> around(Vec<3>(x - margin), Vec<3>(x + margin));
+  const Vec<Dim> margin = Vec<Dim>::Constant(farthest_line * distance);
+  const Box<Dim> around(Vec<Dim>(x - margin), Vec<Dim>(x + margin));
   const auto of_a = faces_in(boundary, a, around);
   const auto of_b = faces_in(boundary, b, around);
-  const auto passes = [&](const WallFace<3>& one, const WallFace<3>& other) {
-    for (int c = 0; c < 3; ++c) {
-      if (crosses(other, one.corners[c], one.corners[(c + 1) % 3], touch * distance)) return true;
+  const auto passes = [&](const WallFace<Dim>& one, const WallFace<Dim>& other) {
+    for (int c = 0; c < Dim; ++c) {
+      if (crosses(other, one.corners[c], one.corners[(c + 1) % Dim], touch * distance)) return true;
     }
     return false;
   };
-  return std::ranges::any_of(of_a, [&](const WallFace<3>& one) {
-    const Box<3> box = one.box();
-    return std::ranges::any_of(of_b, [&](const WallFace<3>& other) {
+  return std::ranges::any_of(of_a, [&](const WallFace<Dim>& one) {
+    const Box<Dim> box = one.box();
+    return std::ranges::any_of(of_b, [&](const WallFace<Dim>& other) {
       return box.intersects(other.box()) && (passes(one, other) || passes(other, one));
     });
   });
@@ -316,6 +317,7 @@ bool is_crossed(const Boundary<Dim>& boundary, std::span<const std::uint8_t> is_
   return found;
 }
 
+TAILWATER_IN_2D_AND_3D(cross_near);
 TAILWATER_IN_2D_AND_3D(nearest_among);
 TAILWATER_IN_2D_AND_3D(is_crossed);
 

@@ -8,8 +8,8 @@ namespace tailwater {
 /// Whether two walls cross near `x`: a piece of one wall passes through a piece of the other, and each ends farther
 /// than a tolerance from the other. Walls that only touch do not cross, as the two slopes of a dyke at its crest.
 /// `distance` [m] is that of `x` from the farther wall. The line in which they cross is at most 1/sin(15 deg) times as
-/// far, unless they are almost parallel. False for plates, which have no space behind them, for ducts, and for two
-/// walls that are no meshes.
-bool cross_near(const Boundary<3>& boundary, int a, int b, const Vec<3>& x, double distance);
+/// far, unless they are almost parallel. False for plates, which have no space behind them, and for ducts.
+template <int Dim>
+bool cross_near(const Boundary<Dim>& boundary, int a, int b, const Vec<Dim>& x, double distance);
 
 }  // namespace tailwater

@@ -116,11 +116,8 @@ bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, con
 
 template <int Dim>
 bool WallParticleCollector<Dim>::crosses_own_wall(const WallPlace<Dim>& place, int wall) const {
-  if constexpr (Dim == 3) {
-    const Vec<3> x = place.stands_at();
-    return cross_near(body_, place.wall, wall, x, (x - place.foot).norm());
-  }
-  return false;
+  const Vec<Dim> x = place.stands_at();
+  return cross_near(body_, place.wall, wall, x, (x - place.foot).norm());
 }
 
 template <int Dim>

@@ -1411,18 +1411,18 @@ TEST(Check, ASlopeInAZoneOfRefinementIsNotTooNear) {
   }
 }
 
-// Beyond such a corner the closed wall is the nearest one, with the place in front of it: still water escaped.
-TEST(Check, ACornerJustBehindAWallIsReported) {
-  for (const auto& [below, is_reported] : {std::pair{0.0, false}, {0.002, true}, {0.04, true}, {0.06, false}}) {
-    CaseSpec spec = tank();
-    spec.walls.push_back(box_wall({0.3, -below}, {0.6, 0.9}, {}, FluidSide::outside));
-    spec.walls.back().name = "dam";
-    const Boundary<2> boundary = make_boundary<2>(spec);
-    spec.particles.spacing = 0.1;
-    const Findings findings = check_shallow_corners<2>(spec, boundary);
-    EXPECT_EQ(findings.size(), is_reported ? 1U : 0U) << below;
-    if (is_reported) expect_only(findings, Severity::warning, {"wall 'dam'", "behind wall 'wall1'", "at least 0.05 m"});
+// Where the disc goes through the bed, its lower side is close below the bed, but dry.
+TEST(Check, AWallIsNotTooThinWhereItCrossesAnother) {
+  CaseSpec spec = tank();
+  WallTable disc;
+  disc.shape = WallShape::polygon;
+  disc.fluid_side = FluidSide::outside;
+  for (int k = 0; k < 24; ++k) {
+    const double angle = k * std::numbers::pi / 12.0;
+    disc.points.push_back({0.5 + 0.2 * std::cos(angle), 0.18 + 0.2 * std::sin(angle)});
   }
+  spec.walls.push_back(disc);
+  EXPECT_EQ(listed(check(spec)).find("thick"), std::string::npos) << listed(check(spec));
 }
 
 TEST(Check, ValuesOfAnotherUnitAreReported) {

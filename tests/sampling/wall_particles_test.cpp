@@ -145,7 +145,6 @@ TEST(Dummies, DoNotDependOnHowTheWallIsWritten) {
   }
 }
 
-// A block of 1.0 x 0.8 m in the water: its interior is filled with rings, which shrink at its convex corners.
 // Drawn by hand, walls end a little before or beyond each other. Rows of their own left the corner behind them empty,
 // and still water escaped there.
 TEST(Dummies, FillTheCornerOfWallsThatNearlyMeet) {
@@ -164,6 +163,40 @@ TEST(Dummies, FillTheCornerOfWallsThatNearlyMeet) {
   }
 }
 
+// A block whose foot is a little below the bed. Each of the two walls is behind the other there. The dummies of both
+// were left out, and still water escaped at the edge of the block at 3 m/s.
+template <int Dim>
+void expect_dummies_below_block() {
+  constexpr double dx = 0.1;
+  for (const double depth : {0.0, 0.01, 0.1, 0.3, 0.5, 0.7, 1.0, 1.4}) {
+    const double foot = -depth * dx;
+    CaseSpec spec = empty_case(dx);
+    if constexpr (Dim == 2) {
+      spec.walls = {box_wall({0, 0}, {3, 1}, {"+y"}), box_wall({1, foot}, {2, 0.5}, {}, FluidSide::outside)};
+    } else {
+      spec.walls = {box_wall({0, 0, 0}, {3, 2, 1}, {"+z"}),
+                    box_wall({1, 0.5, foot}, {2, 1.5, 0.5}, {}, FluidSide::outside)};
+    }
+    const WallParticles<Dim> dummies = make_dummy_particles<Dim>(make_boundary<Dim>(spec), dx, 3, {}, {});
+    for (const double x : {1.05, 1.15}) {
+      for (const double z : {-0.05, 0.05}) {
+        Vec<Dim> place = Vec<Dim>::Constant(z);
+        place[0] = x;
+        if constexpr (Dim == 3) place[1] = 0.75;
+        const bool is_filled = std::ranges::any_of(
+            dummies.position, [&](const Vec<Dim>& dummy) { return (dummy - place).norm() < 0.51 * dx; });
+        EXPECT_TRUE(is_filled) << Dim << "D, foot at " << foot << ", none near " << place.transpose();
+      }
+    }
+  }
+}
+
+TEST(Dummies, FillTheBedBelowTheEdgeOfABlock) {
+  expect_dummies_below_block<2>();
+  expect_dummies_below_block<3>();
+}
+
+// A block of 1.0 x 0.8 m in the water: its interior is filled with rings, which shrink at its convex corners.
 TEST(Dummies, ShrinkAtConvexCorners) {
   CaseSpec spec = empty_case(0.1);
   spec.walls = {box_wall({0, 0}, {1.0, 0.8}, {}, FluidSide::outside)};
