@@ -11,6 +11,7 @@
 #include "checks/cell_space.h"
 #include "checks/checks.h"
 #include "checks/face_samples.h"
+#include "geometry/crossing.h"
 #include "geometry/face_grid.h"
 #include "geometry/from_spec.h"
 #include "geometry/images.h"
@@ -226,6 +227,10 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
   Findings findings;
   std::set<std::pair<int, int>> reported;
   std::optional<WetFaces<Dim>> wet;  // computed on demand
+  // Another wall ends the layers of a wall, even if it stays dry (sampling/wall_layers.h).
+  const auto leaves_out_layers = [&](const WallFace<Dim>& face, const WallFace<Dim>& other, const Vec<Dim>& x) {
+    return face.wall != other.wall && !cross_near<Dim>(boundary, face.wall, other.wall, x, needed);
+  };
   const FacesBehind<Dim> faces_behind(boundary, needed + 3.0 * tolerance);
   std::optional<std::vector<Lip<Dim>>> lips;  // computed on demand
   // Beside a sharp edge a wall is a wedge, whether its sides are straight or made of short pieces.
@@ -255,7 +260,8 @@ Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundar
         if (!is_thin || (may_be_wedge && is_wedge(walls, x, thickness))) return false;
         // A body that reaches through the bed does no harm: there is no water below.
         if (!wet) wet.emplace(spec, boundary, fluid);
-        return wet->holds(f, face, x) && wet->holds(g, other, Vec<Dim>(x - thickness * face.normal));
+        if (!wet->holds(f, face, x)) return false;
+        return leaves_out_layers(face, other, x) || wet->holds(g, other, Vec<Dim>(x - thickness * face.normal));
       });
       if (!foot) continue;
       reported.insert(walls);

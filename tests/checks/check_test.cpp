@@ -353,6 +353,18 @@ TEST(Check, TwoWallsBackToBackHaveNoThickness) {
   expect_among(check(spec), Severity::error, {"wall 'wall2' is only 0 m thick", "'wall3' on its other side"});
 }
 
+// Behind the dry wall nothing held the water: the layers of the wet one end at it.
+TEST(Check, AWallWithADryWallCloseBehindItIsTooThin) {
+  CaseSpec spec = tank();
+  spec.particles.spacing = 0.05;
+  spec.fluid = {box_fluid({0.0, 0.0}, {0.5, 0.4})};
+  spec.walls.push_back(polyline({{0.5, 0.0}, {0.5, 0.6}}));
+  spec.walls.push_back(polyline({{0.55, 0.6}, {0.55, 0.0}}));
+  expect_only(check(spec), Severity::error, {"wall 'wall2' is only 0.05 m thick", "'wall3' on its other side"});
+  spec.walls.back().points = {{0.7, 0.6}, {0.7, 0.0}};
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+}
+
 TEST(Check, WaterThatPoursOut) {
   CaseSpec spec = tank();
   spec.walls = {polyline({{0.0, 0.6}, {0.0, 0.0}, {0.7, 0.0}})};
