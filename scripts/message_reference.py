@@ -68,7 +68,7 @@ GROUPS = {
                             "checks/springs": "`[[body]]`, `[[mooring]]`", "bodies/floating_bodies": "`[[body]]`"},
     "Zones of refinement": {"checks/refinement": "`[[refinement]]`", "refinement/spacing_field": "`[[refinement]]`"},
     "Air, porous layers and liquids": {"air": "`[air]`, `[[pocket]]`, `[[vent]]`", "checks/air_places": "`[[pocket]]`, `[[vent]]`",
-                                       "air/voids_under_tension": "`[physics]`",
+                                       "air/voids_under_tension": "`[physics]`", "air/pulled_walls": "`[physics]`",
                                        "porous": "`[[porous]]`", "checks/creep": "`[[liquid]]`", "checks/units": "`[physics]`",
                                        "rheology/thick_liquid": "`[[liquid]]`, `[[wall]]`"},
     "Probes": {"checks/probes": "`[[probe]]`, `[[damping]]`", "checks/shared_force": "`[[probe]]`", "probes": "`[[probe]]`"},

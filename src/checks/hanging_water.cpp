@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "case/largest_tension.h"
 #include "checks/cell_space.h"
 #include "checks/checks.h"
 #include "geometry/from_spec.h"
@@ -14,9 +15,6 @@ namespace {
 
 /// [edge of a cell]; minimum height above its surface at which water counts as hanging.
 constexpr double min_height = 2.0;
-
-/// Pa; the pressure of the atmosphere. Below it by this much cold water boils.
-constexpr double largest_tension = 1e5;
 
 struct ConnectedWater {
   double surface = -std::numeric_limits<double>::infinity();  ///< m, upwards; highest place beside air

@@ -113,6 +113,10 @@ std::unique_ptr<CoupledUnknowns> Part<Dim>::couple(Flow<Dim>& /*flow*/, const Po
 }
 
 template <int Dim>
+void Part<Dim>::see_tension(const Flow<Dim>& /*flow*/, std::span<const double> /*pressure*/,
+                            const std::vector<double>& /*allowed*/) {}
+
+template <int Dim>
 void Part<Dim>::finish_solve(Flow<Dim>& /*flow*/, double /*dt*/) {}
 
 template <int Dim>

@@ -174,6 +174,9 @@ class Part {
   /// The unknowns that the part solves for with the pressure in this step; null: none. `drive` may follow them.
   virtual std::unique_ptr<CoupledUnknowns> couple(Flow<Dim>& flow, const PosedEquation& equation,
                                                   WallDrive<Dim>& drive);
+  /// Called with the pressure [Pa] that owned particles would have if surfaces and walls held any tension, and with the
+  /// tension that they keep in full (pressure/tension.h), before that limit is applied.
+  virtual void see_tension(const Flow<Dim>& flow, std::span<const double> pressure, const std::vector<double>& allowed);
   /// Called when the rows have been solved.
   virtual void finish_solve(Flow<Dim>& flow, double dt);
   /// Adds the part's own contribution from the last solve to the pressure [Pa] of owned particles. Returns whether

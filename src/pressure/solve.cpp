@@ -96,6 +96,7 @@ PressureReport solve(Flow<Dim>& flow, const PosedEquation& equation, WallDrive<D
     // Only to find tension of water near the surface; the result is also the guess of the second solve.
     rough = report_of(unknowns->solve_roughly(rough_tolerance(tolerance)));
     shift_minimum_to_zero<Dim>(flow, equation.fullness, {}, pressure);
+    for (const auto& part : flow.parts) part->see_tension(flow, pressure, allowed);
     pressure = limit_tension(flow, allowed, std::move(pressure));
   }
   PressureReport report = report_of(unknowns->solve(tolerance));

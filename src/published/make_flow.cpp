@@ -3,6 +3,7 @@
 #include <array>
 
 #include "air/enclosed_air.h"
+#include "air/pulled_walls.h"
 #include "air/voids_under_tension.h"
 #include "bodies/fixed_hulls.h"
 #include "bodies/floating_bodies.h"
@@ -40,7 +41,7 @@ Flow<Dim> make_flow(const CaseSpec& spec, const Communicator& ranks) {
       make_porous_layers<Dim>, make_open_ends_part<Dim>, make_domain_floor<Dim>,        make_wave_makers<Dim>,
       make_side_walls<Dim>,    make_damping_zones<Dim>,  make_boundary_layers<Dim>,     make_floating_bodies<Dim>,
       make_fixed_hulls<Dim>,   make_enclosed_air<Dim>,   make_voids_under_tension<Dim>, make_section_counters<Dim>,
-      make_thick_liquid<Dim>,  make_rest_watch<Dim>,     make_refinement<Dim>,
+      make_thick_liquid<Dim>,  make_rest_watch<Dim>,     make_refinement<Dim>,          make_pulled_walls<Dim>,
   };
   return Flow<Dim>(spec, make_formulation<Dim>(spec), parts, ranks);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "air/pulled_walls.h"
 #include "air/voids_under_tension.h"
 #include "schemes/cases.h"
 
@@ -77,6 +78,31 @@ TEST(Siphon, ReportsAVoidThatNoAirCanReach) {
     const double end = tension < 5e4 ? 0.4 : 0.15;
     while (flow.state.time < end && voids.find_grown() == nullptr) step(flow);
     EXPECT_EQ(voids.find_grown() != nullptr, tension < 5e4) << tension;
+  }
+}
+
+/// A full channel with a roof that empties through its open end. The front of the air moves to the left, and the roof
+/// would pull the water beyond it (Benjamin 1968). Without tension the water leaves the whole roof, 10 to 20 % too fast.
+TEST(ClosedChannelThatEmpties, ReportsThatItsRoofWouldPull) {
+  for (const double tension : {0.0, 5e3}) {
+    CaseSpec spec = testing_cases::empty_case(0.01);
+    spec.physics.tension = tension;
+    spec.walls = {testing_cases::polyline({{0.6, 0.1}, {0.0, 0.1}, {0.0, 0.0}, {1.6, 0.0}, {1.6, 0.3}})};
+    spec.fluid = {testing_cases::box_fluid({0.0, 0.0}, {0.6, 0.1})};
+    Flow<2> flow = make_flow<2>(spec);
+    start(flow);
+    while (flow.state.time < 0.4) step(flow);
+    const auto part = std::ranges::find_if(flow.parts, [](const auto& p) { return p->name() == "pulled_walls"; });
+    ASSERT_NE(part, flow.parts.end());
+    const Pull<2> pull = dynamic_cast<const PulledWalls<2>&>(**part).find(flow);
+    if (tension > 0.0) {
+      EXPECT_LT(pull.area, 0.05) << "beside the edge of the roof";
+    } else {
+      EXPECT_GT(pull.area, 0.2);
+      EXPECT_NEAR(pull.where[1], 0.1, 0.04) << "roof";
+      EXPECT_GT(pull.tension, 200.0);
+      EXPECT_LT(pull.tension, 1000.0 * g * 0.1) << "the weight of the water";
+    }
   }
 }
 
