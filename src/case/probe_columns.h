@@ -43,7 +43,7 @@ enum class Statistic {
   mean,
   max,
   max_magnitude,
-  max_smoothed,
+  max_moving_mean,  ///< of a column that is a moving mean; at least the mean result before it
   last,
   range,
   rate,

@@ -43,7 +43,7 @@ std::string comparison_cell(const DeclaredColumn& column, ProbeType type) {
 constexpr std::array<std::string_view, 12> statistics{"average over the second half of the run",
                                                       "maximum",
                                                       "maximum magnitude of the vector",
-                                                      "maximum, with the time constant of its smoothing",
+                                                      "largest moving average; absent if longer than half of the run",
                                                       "last reading",
                                                       "minimum and maximum",
                                                       "rate of change, averaged over the second half of the run",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/assert.h"
 #include "base/for_each.h"
 #include "geometry/from_spec.h"
 #include "geometry/opening.h"
@@ -14,9 +15,9 @@ namespace {
 
 /// [dx]; with two columns on each side the tent counts a lattice exactly wherever it stands.
 constexpr double half_width_over_spacing = 2.0;
-/// Smoothing time of the volume that has passed, in spacings: the time in which a long wave in water as deep as the
-/// section is high travels so far. Single particles vanish in such a mean, but changes of such water do not.
-constexpr double smoothing_over_spacing = 20.0;
+/// Time of the mean, in spacings: the time in which a long wave in water as deep as the section is high travels so far.
+/// Single particles vanish in such a mean, but changes of such water do not.
+constexpr double mean_over_spacing = 20.0;
 
 /// Index of the probe among the discharge probes.
 std::size_t number_among_sections(const ProbeTable& probe, const CaseSpec& spec) {
@@ -70,25 +71,51 @@ double flux_near(const Opening<Dim>& section, const ProbeContext<Dim>& context) 
          half;
 }
 
-/// The state of a probe between readings, as the numbers that checkpoints save.
-struct Memory {
-  explicit Memory(std::vector<double>& numbers)
-      : largest(numbers[0]), time_of_largest(numbers[1]), time(numbers[2]), passed(numbers[3]), discharge(numbers[4]) {}
+/// The state of a probe between readings, as the numbers that checkpoints save: the largest mean and its time, then the
+/// time and the volume that had passed at each of the last readings.
+class Memory {
+ public:
+  explicit Memory(std::vector<double>& numbers) : numbers_(numbers) {}
 
-  static std::vector<double> at_start() { return {0.0, 0.0, -1.0, 0.0, 0.0}; }
-  bool is_new() const { return time < 0.0; }
+  static std::vector<double> at_start() { return {0.0, 0.0}; }
+  double largest() const { return numbers_[0]; }
+  double time_of_largest() const { return numbers_[1]; }
 
-  double& largest;
-  double& time_of_largest;
-  double& time;    ///< time of the last reading; below 0: there was none
-  double& passed;  ///< volume that had passed at that time
-  double& discharge;
+  bool has_readings() const { return count() > 0; }
+  void add_first(double time, double passed) { numbers_.insert(numbers_.end(), {time, passed}); }
+
+  /// The mean discharge at a later reading: over the time `over`, or since the last reading if that is longer. It is
+  /// the mean over all readings until such a time has passed.
+  double add(double time, double passed, double over) {
+    TAILWATER_ASSERT(time > time_at(count() - 1), "each reading is later than the one before");
+    constexpr double rounding = 1e-9;
+    const double begin = std::min(time - over, time_at(count() - 1));
+    const bool is_whole = begin >= time_at(0) - rounding * over;
+    numbers_.insert(numbers_.end(), {time, passed});
+    while (time_at(1) <= begin) numbers_.erase(numbers_.begin() + 2, numbers_.begin() + 4);
+    const double mean = (passed - passed_at(begin)) / (time - std::max(begin, time_at(0)));
+    if (is_whole && mean > largest()) {
+      numbers_[0] = mean;
+      numbers_[1] = time;
+    }
+    return mean;
+  }
+
+ private:
+  std::size_t count() const { return numbers_.size() / 2 - 1; }
+  double time_at(std::size_t reading) const { return numbers_[2 + 2 * reading]; }
+  double passed_at(double time) const {
+    const double share = std::clamp((time - numbers_[2]) / (numbers_[4] - numbers_[2]), 0.0, 1.0);
+    return numbers_[3] + share * (numbers_[5] - numbers_[3]);
+  }
+
+  std::vector<double>& numbers_;
 };
 
 }  // namespace
 
 template <int Dim>
-double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec) {
+double discharge_mean_over(const ProbeTable& probe, const CaseSpec& spec) {
   const Opening<Dim> section = make_section<Dim>(probe, spec.particles.spacing);
   const Vec<Dim> gravity = gravity_of<Dim>(spec);
   double upright = 0.0;  // m^2/s^2; gravity times the height
@@ -99,43 +126,34 @@ double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec) {
   }
   const bool lies_flat = upright < 1e-3 * widest;
   const double celerity = std::sqrt(lies_flat ? widest : upright);
-  return celerity > 0.0 ? smoothing_over_spacing * spec.particles.spacing / celerity : 0.0;
+  return celerity > 0.0 ? mean_over_spacing * spec.particles.spacing / celerity : 0.0;
 }
 
 template <int Dim>
 Reading<Dim> discharge_reading(const ProbeTable& probe, const CaseSpec& spec) {
   const Opening<Dim> section = make_section<Dim>(probe, spec.particles.spacing);
   const std::size_t number = number_among_sections(probe, spec);
-  const double smoothing = discharge_smoothed_over<Dim>(probe, spec);
+  const double over = discharge_mean_over<Dim>(probe, spec);
   Reading<Dim> reading;
   reading.columns = columns_of(probe, Dim);
   reading.memory = std::make_shared<std::vector<double>>(Memory::at_start());
+  reading.memory_grows = true;
   reading.take = [=, numbers = reading.memory](const ProbeContext<Dim>& context) -> std::vector<Row> {
     Memory memory(*numbers);
     const double volume = context.totals.section_volumes.at(number);
     const double passed = volume + volume_in_passage(section, context);
-    if (memory.is_new()) {
-      memory.discharge = flux_near(section, context);
-    } else if (const double since = context.time - memory.time; since > 0.0) {
-      const double share = 1.0 - std::exp(-since / smoothing);
-      memory.discharge += share * ((passed - memory.passed) / since - memory.discharge);
-    }
-    memory.time = context.time;
-    memory.passed = passed;
-    if (memory.discharge > memory.largest) {
-      memory.largest = memory.discharge;
-      memory.time_of_largest = context.time;
-    }
-    return {{memory.discharge, volume}};
+    if (memory.has_readings()) return {{memory.add(context.time, passed, over), volume}};
+    memory.add_first(context.time, passed);
+    return {{flux_near(section, context), volume}};
   };
   reading.totals = [=, numbers = reading.memory]() -> std::vector<double> {
     const Memory memory(*numbers);
-    return {memory.largest, memory.time_of_largest, smoothing};
+    return {memory.largest(), memory.time_of_largest(), over};
   };
   return reading;
 }
 
-TAILWATER_IN_2D_AND_3D(discharge_smoothed_over);
+TAILWATER_IN_2D_AND_3D(discharge_mean_over);
 TAILWATER_IN_2D_AND_3D(discharge_reading);
 
 }  // namespace tailwater

@@ -2,10 +2,10 @@
 // the probe's direction. The probe also has the volume that has passed since the start.
 //
 // The volume is a count: particles that have passed (parts/section_counters.cpp) times their volumes, so it agrees with
-// the water balance to the last particle. The discharge is its rate Q, smoothed by T D' = Q - D over a time T that the
-// summary contains, so its mean is that of the count. It begins with the flux of the water within two spacings of the
-// section. That flux alone would be wrong where the flow changes over such a distance: behind a sharp crest water falls
-// below the section.
+// the water balance to the last particle. The discharge is its rate, averaged over the last time T, which the summary
+// contains. Until a time T has passed, it is the average since the first reading, and the largest discharge leaves it
+// out. It begins with the flux of the water within two spacings of the section. That flux alone would be wrong where
+// the flow changes over such a distance: behind a sharp crest water falls below the section.
 #pragma once
 
 #include "case/spec.h"
@@ -13,10 +13,10 @@
 
 namespace tailwater {
 
-/// The time T [s] over which the discharge of a probe is smoothed; without gravity 0, no smoothing. Throws
+/// The time T [s] over which the discharge of a probe is averaged; without gravity 0: from reading to reading. Throws
 /// InputError as make_section does.
 template <int Dim>
-double discharge_smoothed_over(const ProbeTable& probe, const CaseSpec& spec);
+double discharge_mean_over(const ProbeTable& probe, const CaseSpec& spec);
 
 /// Throws InputError, which names the probe, for a section without extent, one that is not flat, or a direction that
 /// runs along it.

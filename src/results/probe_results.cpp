@@ -27,7 +27,11 @@ std::string mean_in_words(int readings, int trend) {
   return mean + (trend > 0 ? ", still rising" : ", still falling");
 }
 
+/// The time [s] of the largest mean of a probe.
 double averaging_time_of(const ProbeTable& probe, const CaseSpec& spec, double speed) {
+  if (probe.type == ProbeType::discharge) {
+    return spec.general.dimension == 2 ? discharge_mean_over<2>(probe, spec) : discharge_mean_over<3>(probe, spec);
+  }
   const double gravity = std::sqrt(
       std::inner_product(spec.physics.gravity.begin(), spec.physics.gravity.end(), spec.physics.gravity.begin(), 0.0));
   return averaging_time(probe.averaging_time, spec.particles.spacing, speed, gravity);
@@ -44,6 +48,8 @@ bool is_known(Statistic statistic, const ColumnDigest& column) {
       return column.largest_rate.is_known();
     case Statistic::max_mean:
       return column.largest_mean.is_known();
+    case Statistic::max_moving_mean:
+      return column.largest_moving_mean.has_value();
     case Statistic::rise:
       return column.largest_rate.rise() > 0.0;
     default:
@@ -83,10 +89,9 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
     case Statistic::max:
     case Statistic::max_magnitude:
       return quantity(column.largest, at(column.time_of_largest));
-    case Statistic::max_smoothed: {
-      const double over =
-          dimension == 2 ? discharge_smoothed_over<2>(probe, spec) : discharge_smoothed_over<3>(probe, spec);
-      return quantity(column.largest, fmt::format("{}, smoothed over {:.2g} s", at(column.time_of_largest), over));
+    case Statistic::max_moving_mean: {
+      const ColumnDigest::MovingMean& largest = *column.largest_moving_mean;
+      return quantity(largest.value, fmt::format("{}, mean over {:.2g} s", at(largest.time), largest.over));
     }
     case Statistic::range: {
       Quantity range = quantity(column.least, "least and largest");
@@ -101,6 +106,16 @@ Quantity quantity_of(const DeclaredResult& declared, Measure measure, const Colu
       break;
   }
   return quantity(column.largest_of_last, at(last_time));
+}
+
+/// Lets the largest moving mean, the last of the quantities, not be below the mean, the first of them. The mean is over
+/// a longer time, and where few rows of particles pass, its count of whole particles can exceed all moving means.
+void keep_at_mean(std::vector<Quantity>& quantities) {
+  const Quantity& mean = quantities.front();
+  if (quantities.size() > 1 && mean.value > quantities.back().value) {
+    quantities.back().value = mean.value;
+    quantities.back().what = mean.what;
+  }
 }
 
 /// Four digits of the size `largest`, without an exponent for sizes from 1e-4 to 1e7. Less than a thousandth of it is
@@ -167,6 +182,7 @@ std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& fo
           declared.statistic == Statistic::max_magnitude ? table.magnitude_of_force : table.columns[place];
       if (!is_known(declared.statistic, digest)) continue;
       result.quantities.push_back(quantity_of(declared, column->measure, digest, table.last_time, probe, spec, speed));
+      if (declared.statistic == Statistic::max_moving_mean) keep_at_mean(result.quantities);
     }
     if (!result.quantities.empty()) results.push_back(std::move(result));
   }

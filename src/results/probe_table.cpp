@@ -90,7 +90,9 @@ double LargestMean::value() const {
 }
 
 void ColumnDigest::add(double time, double value, double half, double over) {
+  constexpr double rounding = 1e-9;
   const bool is_first = count++ == 0;
+  if (is_first) first_time_ = time;
   if (is_first || value < least) least = value;
   if (is_first || value > largest) {
     largest = value;
@@ -99,6 +101,10 @@ void ColumnDigest::add(double time, double value, double half, double over) {
   const bool is_same_time = !is_first && time == last_time;
   if (is_first || time > last_time) {
     if (time >= half) ++readings_in_second_half_;
+    const bool is_mean = !is_first && std::min(time - first_time_, half) >= (1.0 - rounding) * over;
+    if (is_mean && (!largest_moving_mean || value > largest_moving_mean->value)) {
+      largest_moving_mean = {value, time, std::max(over, time - last_time)};
+    }
     if (!is_first) sum_ += 0.5 * (last + value) * (time - last_time);
     largest_rate.add(time, value, over);
     largest_mean.add(time, sum_, over);

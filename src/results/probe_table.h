@@ -56,6 +56,14 @@ struct ColumnDigest {
   double largest_of_last = 0.0;  ///< largest value in the lines of the last time
   LargestMean largest_rate;      ///< of the growth per second
   LargestMean largest_mean;
+  struct MovingMean {
+    double value;
+    double time;  ///< s
+    double over;  ///< s; longer than that of `add` between lines that are farther apart
+  };
+  /// The largest value, if each is a mean over the time before it. Values count from the time `over` after the first
+  /// line on; nothing if the second half is shorter than `over`.
+  std::optional<MovingMean> largest_moving_mean;
 
   /// The second half begins at `half` [s]; largest means are over a time of `over` [s].
   void add(double time, double value, double half, double over);
@@ -83,6 +91,7 @@ struct ColumnDigest {
   int trend(double Quarter::*part) const;
 
   int readings_in_second_half_ = 0;
+  double first_time_ = 0.0;          ///< s
   double sum_ = 0.0;                 ///< integral since the first line
   std::array<Quarter, 4> quarters_;  ///< of the second half
 };

@@ -15,7 +15,7 @@
 namespace tailwater {
 
 /// Version of the contents of a checkpoint. It increases when they change.
-inline constexpr int checkpoint_format = 27;
+inline constexpr int checkpoint_format = 28;
 
 /// The state of a run just after particles have been repartitioned and sorted. The lists are discarded then, so the
 /// state is complete.

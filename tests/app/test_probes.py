@@ -274,8 +274,9 @@ class ProbeOutput(ProgramTest):
                 written["velocity"].update(in_liquid)
                 for kind, tables in page.items():
                     self.assertEqual(written[kind], {heading for heading, *_ in tables["column"]}, kind)
-                    # A pressure that does not rise has no rise time.
-                    self.assertEqual(told[kind] | {"rise"}, {result for result, *_ in tables["result"]} | {"rise"}, kind)
+                    # A pressure that does not rise has no rise time, a run this short no largest discharge.
+                    absent = {"rise", "largest discharge"}
+                    self.assertEqual(told[kind] - absent, {result for result, *_ in tables["result"]} - absent, kind)
                 for score in summary["measurements"]:
                     heading, unit, _ = next(row for row in page[types[score["probe"]]]["column"] if row[2] == "default")
                     self.assertTrue(heading.startswith(score["column"] + "_"), heading)

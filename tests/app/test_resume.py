@@ -309,7 +309,7 @@ class Refused(Resumed):
         head = f"{text}crc32 {zlib.crc32(body, zlib.crc32(text.encode())):08x}\n"
         path.write_bytes(head.ljust(512).encode() + body)
         self.before = self.listing()
-        self.refuse("run", parts=(path.name, "format 0", "reads format 27", "tailwater 0.0.1 (commit abc)"))
+        self.refuse("run", parts=(path.name, "format 0", "reads format 28", "tailwater 0.0.1 (commit abc)"))
 
     def test_tables_that_do_not_go_with_the_checkpoint(self):
         (self.folder / "run/steps.csv").write_text("time_s\n")

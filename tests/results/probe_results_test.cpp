@@ -154,7 +154,18 @@ TEST_F(Results, AreToldInWords) {
   EXPECT_EQ(words("\"discharge\"\nfrom = [0, 0]\nto = [0, 1]",
                   "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n1,0.06,0.01\n2,0.04,0.06\n", 2.0),
             "0.05000 m^3/s per m (mean of 2 readings in the second half), largest 0.06000 m^3/s per m (at 1 s, "
-            "smoothed over 0.64 s)");
+            "mean over 1 s)");
+  // Each discharge is a mean over 0.64 s. In the first 0.64 s it is a mean over less, so 0.09 is not the largest.
+  const std::string section = "\"discharge\"\nfrom = [0, 0]\nto = [0, 1]";
+  const std::string discharges =
+      "time_s,discharge_m3_per_s,volume_m3\n0,0,0\n0.6,0.09,0.01\n0.7,0.06,0.02\n1,0.05,0.03\n1.2,0.05,0.04\n";
+  EXPECT_EQ(words(section, discharges + "1.8,0.05,0.07\n2,0.05,0.08\n", 2.0),
+            "0.05000 m^3/s per m (mean of 4 readings in the second half), largest 0.06000 m^3/s per m (at 0.7 s, mean "
+            "over 0.64 s)");
+  EXPECT_EQ(words(section, discharges, 1.2), "0.05000 m^3/s per m (mean of 4 readings in the second half)")
+      << "the second half is shorter than 0.64 s";
+  EXPECT_EQ(words(section, discharges + "1.8,0.05,0.08\n2,0.05,0.12\n", 2.0),
+            "0.09000 m^3/s per m, largest 0.09000 m^3/s per m (mean of 4 readings in the second half, still rising)");
   // From the impulse alone: the pressures at the times of the lines have no effect. Without a time for means they are
   // those between two lines.
   EXPECT_EQ(

@@ -56,7 +56,7 @@ TEST(Discharge, HasTheRightMeanOverABrink) {
     const double before = flow.state.time;
     pass_and_step(flow);
     const Row row = read(reading, flow);
-    if (before < 2.0) {  // four times the smoothing time: the initial flux has decayed
+    if (before < 2.0) {  // four times the time of the mean, without the initial flux
       first_time = flow.state.time;
       first_volume = row[1];
       continue;
@@ -92,7 +92,7 @@ TEST(Discharge, IsTheSameAtBothEndsOfAPeriodAndBetweenThem) {
   }
 }
 
-/// Rows of a lattice pass the section together, 0.25 s apart, and the smoothing covers 0.5 s.
+/// Rows of a lattice pass the section together, 0.25 s apart, and the mean covers 0.5 s.
 TEST(Discharge, DoesNotShowTheRowsOfASlowFlow) {
   constexpr double dx = 0.05, depth = 0.4, speed = 0.2;
   CaseSpec spec = tank_case<2>(dx, 1.0, depth);
