@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from .errors import DataError
+from .finite_time import MAX_BLOCKS, error_of_time_mean
 from .tables import read_table, without_unit
 
 __all__ = ["error_of_mean", "rise_at_end"]
@@ -20,8 +21,6 @@ MEANS = {"depth": {"depth": "connected"}, "level-map": {"level": "mean"}, "press
          "velocity": {name: name for name in "uvw"}, "force": {f"force {axis}": f"force_{axis}" for axis in "xyz"}}
 RATES = {"discharge": {"discharge": "volume"}, "wall-pressure": {"pressure": "impulse"},
          "wall-pressure-mean": {"pressure": "impulse"}}
-BLOCKS = 4  # equal parts of the second half
-STUDENT = 3.182  # 97.5 % quantile of Student's t with BLOCKS - 1 degrees of freedom
 MIN_READINGS = 10  # in the second half
 END = 0.9  # of the run; a reading after that is one of its end
 
@@ -67,7 +66,7 @@ def rise_at_end(run, probe, quantity) -> float:
 
 def error_of_mean(run, probe, quantity) -> float:
     """Half width of the 95 % interval of a mean over the second half of the run, due to the finite time. It follows
-    from the scatter of the means of the quarters of that half. nan for another result, and for too few readings."""
+    from the means of equal parts of that half (finite_time.py). nan for another result, and for too few readings."""
     kind = run.results.get(probe, {}).get("type", "")
     rate = RATES.get(kind, {}).get(quantity)
     column = rate or MEANS.get(kind, {}).get(quantity)
@@ -76,9 +75,9 @@ def error_of_mean(run, probe, quantity) -> float:
         return math.nan
     time, value = series
     half = 0.5 * run.summary["time_s"]["reached"]
-    if (time >= half).sum() < MIN_READINGS:
+    readings = int((time >= half).sum())
+    if readings < MIN_READINGS:
         return math.nan
     sums = value if rate else np.append(0.0, np.cumsum(0.5 * (value[1:] + value[:-1]) * np.diff(time)))
-    ends = np.linspace(half, time[-1], BLOCKS + 1)
-    means = np.diff(np.interp(ends, time, sums)) / np.diff(ends)
-    return STUDENT * float(means.std(ddof=1)) / math.sqrt(BLOCKS)
+    ends = np.linspace(half, time[-1], min(MAX_BLOCKS, readings) + 1)
+    return error_of_time_mean(np.diff(np.interp(ends, time, sums)) / np.diff(ends))

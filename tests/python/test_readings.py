@@ -5,9 +5,11 @@ import shutil
 import unittest
 from pathlib import Path
 
+import made_up_means
 import numpy as np
 import tailwater as tw
 from small import PackageTest
+from tailwater.finite_time import error_of_time_mean
 from tailwater.readings import EXTREMES, MEANS, RATES, error_of_mean, rise_at_end
 from test_report import make_study, summary
 
@@ -40,9 +42,15 @@ class Means(PackageTest):
             row = self.answer(0.4 + 0.05 * np.sin(2 * np.pi * TIME / period))
             self.assertTrue(row["low"] < 0.4 < row["high"], row)
 
-    def test_drift_widens_the_interval_to_its_end(self):
+    def test_drift_widens_the_interval_beyond_its_end(self):
         row = self.answer(0.4 + 0.001 * TIME)
-        self.assertTrue(row["low"] < 0.401 and row["high"] > 0.402)
+        self.assertTrue(row["low"] < 0.401 and row["high"] > 0.4025)
+        row = self.answer(0.4 - 0.1 * np.exp(-TIME / 0.8))  # which is still 0.0082 below its limit at the end
+        self.assertTrue(row["low"] < 0.4 < row["high"], row)
+
+    def test_whole_period_averages_out(self):
+        row = self.answer(0.4 + 0.05 * np.sin(2 * np.pi * TIME))
+        self.assertLess(row["averaging"], 0.001)
 
     def test_fast_oscillation_and_noise_average_out(self):
         noise = 0.001 * np.random.default_rng(1).normal(size=TIME.size)
@@ -55,7 +63,8 @@ class Means(PackageTest):
         told = json.loads(Path(run.path, "summary.json").read_text(encoding="utf-8"))
         told["results"]["depth"]["type"] = "discharge"
         Path(run.path, "summary.json").write_text(json.dumps(told), encoding="utf-8")
-        self.assertAlmostEqual(error_of_mean(run, "depth", "discharge"), 0.08, delta=0.04)
+        # The mean rate of the oscillation, of 1.4 periods, is 0.01 (sin 18 - sin 9) = -0.0116.
+        self.assertTrue(0.0116 < error_of_mean(run, "depth", "discharge") < 0.02)
         self.assertTrue(np.isnan(error_of_mean(run, "depth", "largest discharge")))
 
     def test_columns_are_those_of_the_reference(self):
@@ -67,6 +76,25 @@ class Means(PackageTest):
             section = page.partition(f"\n## {kind}\n")[2].partition("\n## ")[0]
             for name, column in names.items():
                 self.assertIn(f"| {name} | `{column}` |", section)
+
+
+class LongTimeMeans(unittest.TestCase):
+    def test_intervals_contain_them(self):
+        for name in ("noise, 0.01", "noise, 0.1", "sine, 0.5 to 1 period", "sine, 1 to 4 periods", "approach, 0.5", "approach, 1",
+                     "approach, 0.3, and 0.3 sine, 1.5"):
+            inside, _, _ = made_up_means.shares(made_up_means.SIGNALS[name], made_up_means.of_models, 60)
+            self.assertGreaterEqual(inside, 0.9, name)
+
+    def test_oscillations_average_out(self):
+        for name, largest in (("sine, 1 period", 0.02), ("sine, 1.5 periods", 0.25), ("sine, 10 periods", 0.02)):
+            _, width, _ = made_up_means.shares(made_up_means.SIGNALS[name], made_up_means.of_models, 20)
+            self.assertLess(width, largest, name)
+
+    def test_few_readings(self):
+        for count in range(10, 13):
+            width = error_of_time_mean(np.random.default_rng(count).normal(size=count))
+            self.assertTrue(1 / np.sqrt(count) < width < 3, width)
+        self.assertEqual(error_of_time_mean(np.ones(20)), 0)
 
 
 class Extremes(PackageTest):
