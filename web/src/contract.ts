@@ -123,6 +123,7 @@ export interface StudyRow {
   order: number | null;
   discretisation: number | null;
   chance: number | null;
+  averaging: number | null;
   step: number | null;
   notes: string;
   values: number[];

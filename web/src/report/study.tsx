@@ -7,7 +7,7 @@ import { Paper } from "./paper.tsx";
 import { Table } from "./tables.tsx";
 
 /** The columns of study.csv, with their digits. */
-const numbers = [["value", 4], ["uncertainty", 2], ["low", 4], ["high", 4], ["limit", 4], ["order", 2], ["discretisation", 2], ["chance", 2], ["step", 2]] as const;
+const numbers = [["value", 4], ["uncertainty", 2], ["low", 4], ["high", 4], ["limit", 4], ["order", 2], ["discretisation", 2], ["chance", 2], ["averaging", 2], ["step", 2]] as const;
 
 /** Values by spacing, and their limit at 0 with its interval. */
 function panel({ spacings_m: x }: SpacingStudy, row: StudyRow): Panel {
@@ -25,7 +25,7 @@ export function StudyPage({ app, study, away }: { app: App; study: SpacingStudy;
   return (
     <Paper away={away} label="Runs" ways={<p class="see">{ways}</p>}>
       <p class="faint">
-        A value is that of the finest of {spacings.length} spacings, {spacings[0]}; what it tends to, its limit, is between low and high 95 times of 100. Uncertainty is half of that interval, made of discretisation and of chance; step is what half of the time step changes.
+        A value is that of the finest of {spacings.length} spacings, {spacings[0]}. Its limit is between low and high with a probability of 95 %. Uncertainty is half of this interval; its parts are discretisation, chance and, for a mean, the finite averaging time. Step is the change by half of the time step.
       </p>
       <Table head={[["probe"], ["quantity"], ["unit"], ...numbers.map(([word]): [string, boolean] => [word, true])]}>
         {study.results.map((row) => (
@@ -38,7 +38,7 @@ export function StudyPage({ app, study, away }: { app: App; study: SpacingStudy;
             </tr>
             {row.notes && (
               <tr>
-                <td class="faint" colSpan={12}><span class="note">{row.notes}</span></td>
+                <td class="faint" colSpan={3 + numbers.length}><span class="note">{row.notes}</span></td>
               </tr>
             )}
           </>

@@ -5,7 +5,7 @@ import type { SpacingStudy } from "../../src/contract.ts";
 import { test, until } from "../support/browser.ts";
 import { withProgram } from "../support/program.ts";
 
-const row = { unit: "m", uncertainty: 0.02, discretisation: 0.01512, chance: null, step: 0.001, notes: "" };
+const row = { unit: "m", uncertainty: 0.02, discretisation: 0.01512, chance: null, averaging: 0.0123, step: 0.001, notes: "" };
 const study: SpacingStudy & { runs: string[] } = {
   spacings_m: [0.04, 0.05, 0.08], runs: ["spacings/fine"],
   results: [
@@ -23,7 +23,7 @@ test("a study: numbers with intervals, and the water of its runs", async (contex
     await until(page, "document.querySelectorAll('.one-panel canvas').length === 2");
     assert.equal(await page.title(), "How well the numbers are known · Tailwater");
     const cells = await page.$$eval(".report tbody tr", (rows) => rows.map((r) => [...r.children].map((cell) => cell.textContent)));
-    assert.deepEqual(cells[0], ["gauge", "depth", "m", "0.5", "0.02", "0.48", "0.52", "0.512", "1.3", "0.015", "–", "0.001"]);
+    assert.deepEqual(cells[0], ["gauge", "depth", "m", "0.5", "0.02", "0.48", "0.52", "0.512", "1.3", "0.015", "–", "0.012", "0.001"]);
     assert.deepEqual(cells[1], [study.results[0]!.notes]);
     assert.deepEqual(cells[2]!.slice(1, 9), ["largest <front>", "m", "1.2", "0.02", "1.18", "1.22", "–", "–"]);
     assert.deepEqual(await page.$$eval(".one-panel:first-child .run-key li", (all) => all.map((e) => e.textContent!.trim())), ["computed", "limit", "interval"]);
