@@ -3,6 +3,7 @@
 import argparse
 import math
 import os
+import signal
 import sys
 import warnings
 from collections.abc import Callable
@@ -46,8 +47,9 @@ def show_warning(message, *_, **__):
 
 def exit_code_of(work: Callable[[], object], code_of_data: int = 2) -> int:
     """Runs a command and prints its warnings, each once, and its error. Returns what `work` returns, or 0 for None; 2
-    for wrong input, 3 for a failed solve, 4 for a file and 130 after an interruption; `code_of_data` for insufficient
+    for wrong input, 3 for a failed solve, 4 for a file and 130 after Ctrl-C or SIGTERM; `code_of_data` for insufficient
     data. A reader of the output may leave early, as head does."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that runs of the command stop before it ends
     with warnings.catch_warnings():
         warnings.simplefilter("once", RunWarning)
         warnings.showwarning = show_warning

@@ -1,5 +1,6 @@
 """Finds and calls the program `tailwater`."""
 
+import ctypes
 import os
 import shutil
 import signal
@@ -14,6 +15,8 @@ from .errors import IoError, RunWarning, error_of
 __all__ = ["call", "program", "version"]
 
 INTERRUPTED = 130
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
+LIBC = ctypes.CDLL(None)  # loaded here, since a process that forks from a thread must not load it
 
 
 @lru_cache(maxsize=None)
@@ -45,13 +48,19 @@ def environment():
     return {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PMI_"))}
 
 
-def start(*words, folder=None) -> subprocess.Popen:
-    """Starts the program with pipes for its outputs, in its own session, which Ctrl-C does not reach. Throws
-    IoError."""
+def stop_with_parent():
+    """In a new process: requests SIGTERM, which stops a run as Ctrl-C does, when the thread that started it ends for any
+    reason."""
+    LIBC.prctl(PR_SET_PDEATHSIG, int(signal.SIGTERM))
+
+
+def start(*words, folder=None, in_child=None) -> subprocess.Popen:
+    """Starts the program with pipes for its outputs, in its own session, which Ctrl-C does not reach. `in_child` is called
+    in the new process. Throws IoError."""
     command = [str(program()), *map(str, words)]
     try:
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
-                                env=environment(), start_new_session=True)
+                                env=environment(), start_new_session=True, preexec_fn=in_child)
     except OSError as error:
         raise IoError(f"{command[0]}: cannot be started ({error.strerror})") from error
 
@@ -60,8 +69,9 @@ def call(*words, progress: bool = False, folder=None) -> str:
     """The standard output of the program. Its warnings become Python warnings (RunWarning).
 
     With `progress`, its standard error is shown. Throws InputError, SolverError or IoError by the exit code of the
-    program. KeyboardInterrupt first interrupts the program and waits for its end."""
-    child = start(*words, folder=folder)
+    program. KeyboardInterrupt first interrupts the program and waits for its end. If this process is killed, a run of
+    the program stops with a checkpoint."""
+    child = start(*words, folder=folder, in_child=stop_with_parent)
     try:
         said, told = follow(child) if progress else child.communicate()
     except KeyboardInterrupt:

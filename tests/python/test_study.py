@@ -2,6 +2,10 @@
 
 import csv
 import json
+import signal
+import subprocess
+import sys
+import time
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
@@ -71,6 +75,27 @@ class Studies(PackageTest):
         told["water_balance"]["start"]["volume_m3"] *= 0.96
         summary.write_text(json.dumps(told), encoding="utf-8")
         self.assertIn("\nthe run at 0.13 m begins with 4.0 % more or less water than the finest one: ", tw.Study.load("s").text())
+
+    def test_runs_stop_with_the_study(self):
+        case, out = self.write("dam.toml", DAM.replace("end = 0.1", "end = 1000")), Path("s")
+        for stop, code in ((signal.SIGINT, 130), (signal.SIGTERM, 130), (signal.SIGKILL, -signal.SIGKILL)):
+            study = subprocess.Popen([sys.executable, "-B", "-m", "tailwater.study_command", case, "--out", out,
+                                      "--spacings", "0.2,0.15,0.1", "--starts", "0", "--quiet"])
+            self.addCleanup(study.kill)
+            steps = out / "spacings/particles.spacing=0.2/steps.csv"
+            before = self.wait_for(lambda: steps.exists() and steps.stat().st_size)
+            self.wait_for(lambda: steps.stat().st_size > before)
+            study.send_signal(stop)
+            self.assertEqual(study.wait(), code)
+            self.wait_for(lambda: tw.Run(steps.parent).status == "interrupted")
+            self.wait_for(lambda: "interrupted" in (out / "spacings/sweep.csv").read_text(encoding="utf-8"))
+
+    def wait_for(self, condition):
+        end = time.monotonic() + 60
+        while not (found := condition()):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
+        return found
 
     def test_run_that_fails_is_named(self):
         self.case["pressure_solver.max_iterations"] = 1
