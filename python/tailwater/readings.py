@@ -13,12 +13,13 @@ __all__ = ["error_of_mean", "rise_at_end"]
 # Columns, without units, of the results that are the largest or least reading; those of a `motion` probe are named as
 # their columns.
 EXTREMES = {"highest water": "highest", "run-up": "connected", "highest drop": "highest", "highest level": "highest",
-            "largest discharge": "discharge", "largest force": "force", "largest pressure": "pressure",
-            "least pressure": "pressure"}
+            "largest discharge": "discharge", "largest force": "magnitude of force",
+            "largest moment": "magnitude of moment", "largest pressure": "pressure", "least pressure": "pressure"}
 TYPES = {"pressure-map": {"largest pressure": "largest"}, "profile": {}}  # types of probes with other columns
 # Columns, without units, of the results that are means over the second half of the run. RATES are mean rates of change.
 MEANS = {"depth": {"depth": "connected"}, "level-map": {"level": "mean"}, "pressure": {"pressure": "pressure"},
-         "velocity": {name: name for name in "uvw"}, "force": {f"force {axis}": f"force_{axis}" for axis in "xyz"}}
+         "velocity": {name: name for name in "uvw"},
+         "force": {"moment": "moment", **{f"{what} {axis}": f"{what}_{axis}" for what in ("force", "moment") for axis in "xyz"}}}
 RATES = {"discharge": {"discharge": "volume"}, "wall-pressure": {"pressure": "impulse"},
          "wall-pressure-mean": {"pressure": "impulse"}}
 MIN_READINGS = 10  # in the second half
@@ -26,14 +27,18 @@ END = 0.9  # of the run; a reading after that is one of its end
 
 
 def columns_of(run, probe) -> dict:
-    """The table of a probe by its columns without units, with the magnitude of a `force`; empty without the table."""
+    """The table of a probe by its columns without units, with the magnitudes of a force and a moment; empty without the
+    table."""
     try:
         table = read_table(run.path / "probes" / f"{probe}.csv")
     except DataError:
         return {}
     found = {without_unit(name): column for name, column in table.items()}
-    components = [found[f"force_{axis}"] for axis in "xyz" if f"force_{axis}" in found]
-    return {"force": np.sqrt(sum(one**2 for one in components)), **found} if components else found
+    for vector in ("force", "moment"):
+        components = [found[name] for name in (vector, *(f"{vector}_{axis}" for axis in "xyz")) if name in found]
+        if components:
+            found[f"magnitude of {vector}"] = np.sqrt(sum(one**2 for one in components))
+    return found
 
 
 def series_of(run, probe, column):

@@ -136,7 +136,10 @@ double size_of(const Quantity& quantity) {
 /// The size of the largest component of the vector to which a quantity belongs; 0 if it is no component of one.
 double size_of_vector(const std::vector<Quantity>& quantities, const Quantity& component) {
   const auto is_component = [](const Quantity& quantity) {
-    return quantity.label.size() == 1 && std::string_view("xyzuvw").find(quantity.label[0]) != std::string_view::npos;
+    constexpr std::string_view of_moment = "moment ";
+    std::string_view label = quantity.label;
+    if (label.starts_with(of_moment)) label.remove_prefix(of_moment.size());
+    return label.size() == 1 && std::string_view("xyzuvw").find(label[0]) != std::string_view::npos;
   };
   double largest = 0.0;
   if (!is_component(component)) return largest;
@@ -178,8 +181,9 @@ std::vector<ProbeResult> probe_results(const CaseSpec& spec, const RunFolder& fo
       if (column == columns.end()) continue;
       const auto place = std::ranges::find(table.names, column->heading) - table.names.begin();
       if (place == std::ssize(table.names)) continue;
-      const ColumnDigest& digest =
-          declared.statistic == Statistic::max_magnitude ? table.magnitude_of_force : table.columns[place];
+      const ColumnDigest& digest = declared.statistic != Statistic::max_magnitude ? table.columns[place]
+                                   : column->measure == Measure::moment           ? table.magnitude_of_moment
+                                                                                  : table.magnitude_of_force;
       if (!is_known(declared.statistic, digest)) continue;
       result.quantities.push_back(quantity_of(declared, column->measure, digest, table.last_time, probe, spec, speed));
       if (declared.statistic == Statistic::max_moving_mean) keep_at_mean(result.quantities);

@@ -199,10 +199,17 @@ TableDigest digest_probe_table(const std::filesystem::path& path, double half, d
   TableDigest table;
   std::string line;
   std::getline(file, line);
-  std::vector<std::size_t> force;  // columns of its components
+  struct Vector {
+    std::string_view begin_of_names;
+    ColumnDigest& magnitude;
+    std::vector<std::size_t> components = {};
+  };
+  std::array vectors{Vector{"force_", table.magnitude_of_force}, Vector{"moment_", table.magnitude_of_moment}};
   for_each_cell(line, [&](std::size_t k, std::string_view name) {
     if (k == 0) return;
-    if (name.starts_with("force_")) force.push_back(k - 1);
+    for (Vector& vector : vectors) {
+      if (name.starts_with(vector.begin_of_names)) vector.components.push_back(k - 1);
+    }
     table.names.emplace_back(name);
   });
   table.columns.resize(table.names.size());
@@ -219,10 +226,12 @@ TableDigest digest_probe_table(const std::filesystem::path& path, double half, d
     for (std::size_t k = 0; k < row.size(); ++k) {
       if (!std::isnan(row[k])) table.columns[k].add(time, row[k], half, over);
     }
-    if (force.empty()) continue;
-    double squares = 0.0;
-    for (const std::size_t k : force) squares += row[k] * row[k];
-    if (!std::isnan(squares)) table.magnitude_of_force.add(time, std::sqrt(squares), half, over);
+    for (const Vector& vector : vectors) {
+      if (vector.components.empty()) continue;
+      double squares = 0.0;
+      for (const std::size_t k : vector.components) squares += row[k] * row[k];
+      if (!std::isnan(squares)) vector.magnitude.add(time, std::sqrt(squares), half, over);
+    }
   }
   return table;
 }

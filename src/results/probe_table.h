@@ -99,8 +99,9 @@ struct ColumnDigest {
 struct TableDigest {
   std::vector<std::string> names;  ///< without the name of the time
   std::vector<ColumnDigest> columns;
-  ColumnDigest magnitude_of_force;  ///< empty in a table without a force
-  double last_time = 0.0;           ///< s
+  ColumnDigest magnitude_of_force;   ///< empty in a table without a force
+  ColumnDigest magnitude_of_moment;  ///< empty in a table without a moment
+  double last_time = 0.0;            ///< s
 };
 
 struct ProbeColumn {

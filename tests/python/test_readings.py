@@ -136,10 +136,21 @@ class Extremes(PackageTest):
         self.assertAlmostEqual(rise_at_end(run, "depth", "least displacement x"), -0.1)
         self.assertEqual(rise_at_end(run, "depth", "largest displacement x"), 0)
 
+    def test_moment_that_still_grows(self):
+        make_readings("s", [], {"force_x_N_per_m": 1 + 0 * TIME, "moment_N_m_per_m": -TIME})
+        run = tw.Run(next(Path("s").glob("spacings/*")))
+        told = json.loads(Path(run.path, "summary.json").read_text(encoding="utf-8"))
+        told["results"]["depth"]["type"] = "force"
+        Path(run.path, "summary.json").write_text(json.dumps(told), encoding="utf-8")
+        self.assertAlmostEqual(rise_at_end(run, "depth", "largest moment"), 0.1)
+        self.assertEqual(rise_at_end(run, "depth", "largest force"), 0)
+        self.assertGreater(error_of_mean(run, "depth", "moment"), 0.5)
+
     def test_columns_are_those_of_the_reference(self):
         page = (Path(__file__).resolve().parents[2] / "docs/reference/probes.md").read_text(encoding="utf-8")
         for quantity, column in EXTREMES.items():
-            self.assertIn(f"| {quantity} | `{'force_x' if column == 'force' else column}` |",
+            found = column.replace("magnitude of force", "force_x").replace("magnitude of ", "")
+            self.assertIn(f"| {quantity} | `{found}` |",
                           page.replace("| pressure | `pressure` |", "| least pressure | `pressure` |"))
 
 

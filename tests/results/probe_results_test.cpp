@@ -109,6 +109,7 @@ TEST(ProbeTable, HasTheMagnitudeOfAForceAndTheLinesOfTheLastTime) {
   std::ofstream(path) << "time_s,force_x_N_per_m,force_y_N_per_m\n0,1,0\n1,3,4\n1,0,-2\n";
   const TableDigest table = digest_probe_table(path, 0.5);
   EXPECT_DOUBLE_EQ(table.magnitude_of_force.largest, 5.0);
+  EXPECT_EQ(table.magnitude_of_moment.count, 0);
   EXPECT_EQ(table.columns[1].min_of_last, -2.0);
   EXPECT_EQ(table.columns[1].largest_of_last, 4.0);
 }
@@ -147,6 +148,16 @@ TEST_F(Results, AreToldInWords) {
       words("\"force\"\nmoment_about = [0, 0]",
             "time_s,force_x_N_per_m,force_y_N_per_m,pressure_x_N_per_m\n0,0,0,0\n1,380,-12,0\n2,380,-12,0\n", 2.0),
       "x 380.0 N/m, y -12.0 N/m (mean of 2 readings in the second half), largest 380.2 N/m (at 1 s)");
+  EXPECT_EQ(
+      words("\"force\"\nmoment_about = [0, 0]",
+            "time_s,force_x_N_per_m,force_y_N_per_m,moment_N_m_per_m\n0,3,4,0\n1,3,4,-8\n2,3,4,6\n", 2.0),
+      "x 3.000 N/m, y 4.000 N/m (mean of 2 readings in the second half), largest 5.000 N/m (at 0 s), moment -1.000 "
+      "N m/m (mean of 2 readings in the second half, still rising), largest moment 8.000 N m/m (at 1 s)");
+  EXPECT_EQ(
+      words("\"force\"\nmoment_about = [0, 0, 0]",
+            "time_s,force_x_N,moment_x_N_m,moment_y_N_m,moment_z_N_m\n0,1,3,4,0\n1,1,0.001,1,2\n", 1.0, 3),
+      "x 1.000 N (only reading in the second half), largest 1.000 N (at 0 s), moment x 0 N m, moment y 1.000 N m, "
+      "moment z 2.000 N m (only reading in the second half), largest moment 5.000 N m (at 0 s)");
   // Below a thousandth of the vector a component is rounding and noise.
   EXPECT_EQ(words("\"force\"\nmoment_about = [0, 0]",
                   "time_s,force_x_N_per_m,force_y_N_per_m,pressure_x_N_per_m\n0,0.3,380,0\n2,0.3,380,0\n", 2.0),
