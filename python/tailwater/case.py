@@ -55,7 +55,7 @@ class Check:
 
     def __init__(self, case: "Case"):
         self.case = case
-        answer = json.loads(call("check", "--json", *case.words()))
+        answer = json.loads(call("check", "--json", *case.words(), reports_errors=True))
         self.findings = answer["findings"]
         cost = answer["cost"] or {}
         self.particles, self.memory = cost.get("fluid"), cost.get("memory_bytes")

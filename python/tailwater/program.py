@@ -14,7 +14,7 @@ from .errors import IoError, RunWarning, error_of
 
 __all__ = ["call", "program", "version"]
 
-INTERRUPTED = 130
+BAD_INPUT, INTERRUPTED = 2, 130  # exit codes
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 LIBC = ctypes.CDLL(None)  # loaded here, since a process that forks from a thread must not load it
 
@@ -65,12 +65,13 @@ def start(*words, folder=None, in_child=None) -> subprocess.Popen:
         raise IoError(f"{command[0]}: cannot be started ({error.strerror})") from error
 
 
-def call(*words, progress: bool = False, folder=None) -> str:
+def call(*words, progress: bool = False, folder=None, reports_errors: bool = False) -> str:
     """The standard output of the program. Its warnings become Python warnings (RunWarning).
 
     With `progress`, its standard error is shown. Throws InputError, SolverError or IoError by the exit code of the
-    program. KeyboardInterrupt first interrupts the program and waits for its end. If this process is killed, a run of
-    the program stops with a checkpoint."""
+    program, but not for wrong input if `reports_errors` and the standard output reports its errors. KeyboardInterrupt
+    first interrupts the program and waits for its end. If this process is killed, a run of the program stops with a
+    checkpoint."""
     child = start(*words, folder=folder, in_child=stop_with_parent)
     try:
         said, told = follow(child) if progress else child.communicate()
@@ -83,7 +84,7 @@ def call(*words, progress: bool = False, folder=None) -> str:
             warnings.warn(line.removeprefix("warning: "), RunWarning, stacklevel=3)
     if child.returncode == INTERRUPTED:
         raise KeyboardInterrupt
-    if child.returncode != 0:
+    if child.returncode not in ((0, BAD_INPUT) if reports_errors and said else (0,)):
         raise error_of(child.returncode, told)
     return said
 

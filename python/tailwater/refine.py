@@ -228,7 +228,7 @@ def checked_with(case, tables, *words):
         file.write(text_with(case, tables))
         file.flush()
         try:
-            return call("check", *words, file.name)
+            return call("check", *words, file.name, reports_errors="--json" in words)
         except InputError as error:
             raise InputError(re.sub(rf"{re.escape(file.name)}(:\d+)*: ", "", str(error))) from error
 

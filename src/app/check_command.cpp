@@ -72,12 +72,14 @@ std::string text_of_case(const std::filesystem::path& path) {
   return read_case_file(path, largest_case_file);
 }
 
-void print_as_json(const CheckOptions& options) {
+/// Returns whether the findings contain an error.
+bool print_as_json(const CheckOptions& options) {
   const std::string origin = options.case_file == "-" ? "case" : options.case_file.string();
   const std::filesystem::path folder = options.case_file.parent_path();  // empty for "-": the working folder
   const TrialSteps trial = options.takes_trial_steps ? TrialSteps::some : TrialSteps::none;
-  fmt::print("{}\n", check_as_json(text_of_case(options.case_file), origin, folder, options.overrides, trial)
-                         .dump(-1, ' ', false, Json::error_handler_t::replace));
+  const Json answer = check_as_json(text_of_case(options.case_file), origin, folder, options.overrides, trial);
+  fmt::print("{}\n", answer.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return std::ranges::any_of(answer["findings"], [](const Json& finding) { return finding["severity"] == "error"; });
 }
 
 void warn_of_no_preview(const char* problem) {
@@ -241,7 +243,7 @@ void check_case(CheckOptions options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, ExitCode&) {
+void add_check_command(CLI::App& app, ExitCode& code) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand("check", "Find errors, estimate size and run time, draw a preview");
   command->add_option("case", options->case_file, "Case file")->required()->type_name("");
@@ -266,9 +268,9 @@ void add_check_command(CLI::App& app, ExitCode&) {
   command
       ->add_flag("--trial-steps", options->takes_trial_steps, "With --json: take trial steps and estimate the run time")
       ->needs(json);
-  command->callback([options] {
+  command->callback([options, &code] {
     if (options->as_json) {
-      print_as_json(*options);
+      if (print_as_json(*options)) code = ExitCode::bad_input;
     } else {
       check_case(*options);
     }

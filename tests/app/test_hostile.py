@@ -131,7 +131,7 @@ class Sizes(ProgramTest):
             resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
         result = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=self.folder, input=text, capture_output=True,
                                 text=True, timeout=PATIENCE, preexec_fn=None if SLOWDOWN > 1 else limit, check=False)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(result.returncode, (0, 2), result.stderr)
         return json.loads(result.stdout)["findings"]
 
     def test_a_probe_on_a_wall_without_end(self):

@@ -477,8 +477,9 @@ class OfACase(Viewed):
                          [[first + 2, first + 4], [first + 5, first + 7]])
         # Layers are checked when they are made.
         (self.folder / "far.toml").write_text(small + "[[porous]]\nmin = [90, 0]\nmax = [91, 1]\nporosity = 0.4\ngrain_size = 0.1\n")
-        far = json.loads(self.call("check", "far.toml", "--json").stdout)["findings"]
+        far = json.loads(self.call("check", "far.toml", "--json", expect=2, errors_only=False).stdout)["findings"]
         self.assertEqual([one["id"] for one in far], ["porous-layer-outside-walls"])
+        self.assertEqual((result.returncode, result.stderr), (2, ""))
         findings = json.loads(result.stdout)["findings"]
         self.assertIn((2, "case.titel"), [(one["line"], one.get("key")) for one in findings])
 
