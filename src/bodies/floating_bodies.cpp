@@ -10,6 +10,7 @@
 #include "bodies/forces.h"
 #include "case/rheology.h"
 #include "flow/pressure_equation.h"
+#include "geometry/outer_patches.h"
 #include "io/messages.h"
 
 namespace tailwater {
@@ -49,7 +50,8 @@ FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setu
       is_lost(bodies.size(), false),
       is_told_(bodies.size(), false),
       is_told_of_end_(bodies.size(), false) {
-  for (const WallPatch<Dim>& patch : make_wall_patches(boundary, setup.finest_spacing() * setup.scale.spacing)) {
+  const double edge = setup.finest_spacing() * setup.scale.spacing;
+  for (const WallPatch<Dim>& patch : outer_patches(spec, boundary, make_wall_patches(boundary, edge))) {
     if (body_of_wall[boundary.faces[patch.face].wall] >= 0) patches.push_back(patch);
   }
 }

@@ -79,6 +79,12 @@ std::vector<double> chosen_shares(const ProbeTable& probe, const CaseSpec& spec,
     shares[k] = static_cast<double>(inside) / static_cast<double>(pieces.size());
   });
   if (std::ranges::all_of(shares, [](double share) { return share == 0.0; })) {
+    if (!chosen.has_region()) {
+      throw CaseError("probe-on-wall-drawn-twice",
+                      {"{}: all of its walls lie on other walls of the case, which have the force of the water there",
+                       label(probe)},
+                      {"name those walls as well, or draw each wall once"});
+    }
     Box<Dim> box;
     for (const WallFace<Dim>& face : boundary.faces) {
       if (chosen.is_named(face.wall)) box.extend(face.box());

@@ -8,6 +8,7 @@
 #include "base/eigen.h"
 #include "geometry/crossing.h"
 #include "geometry/mesh_surface.h"
+#include "geometry/outer_patches.h"
 
 namespace tailwater {
 namespace {
@@ -74,6 +75,7 @@ WallParticleCollector<Dim>::WallParticleCollector(const Boundary<Dim>& body, con
       share_(layers.share),
       seam_(seam_over_spacing * layers.spacing),
       look_distance_(edge_width * layers.spacing),
+      touch_(reach_of_touch * layers.spacing),
       reach_(layers.starts_on_wall ? 0.0 : layers.count * layers.spacing),
       taken_((min_separation - corner_tolerance) * layers.spacing),
       plain_(reach_over_depth * layers.count * layers.spacing) {
@@ -112,6 +114,13 @@ bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, con
     }
   }
   return false;
+}
+
+template <int Dim>
+bool WallParticleCollector<Dim>::lies_on_own_wall(const WallPlace<Dim>& place, const WallFace<Dim>& face) const {
+  return face.height(place.foot) < touch_ && std::ranges::any_of(place.normals, [&](const Vec<Dim>& n) {
+    return face.normal.dot(n) > 1.0 - corner_tolerance;
+  });
 }
 
 template <int Dim>

@@ -88,7 +88,7 @@ class WallParticleCollector {
     const auto hides = [&](int f) {
       const auto& [drawn, face] = plain_faces_[f];
       return !is_own(drawn) && crosses(face, place.stands_at(), place.foot, tolerance_) &&
-             !crosses_own_wall(place, face.wall);
+             !lies_on_own_wall(place, face) && !crosses_own_wall(place, face.wall);
     };
     if (!is_behind_mesh(place, own_mesh) && std::ranges::none_of(faces_between(place), hides)) keep(place, number);
   }
@@ -112,6 +112,8 @@ class WallParticleCollector {
   std::span<const int> faces_between(const WallPlace<Dim>& place) const {
     return (place.stands_at() - place.foot).norm() <= plain_.reach() ? plain_.near(place.foot) : all_plain_;
   }
+  /// Whether a face lies on the wall of the place, and faces the same way, as a wall that is drawn twice.
+  bool lies_on_own_wall(const WallPlace<Dim>& place, const WallFace<Dim>& face) const;
   /// Whether a wall crosses that of the place. Behind its own wall it is then no border of water, and hides nothing.
   bool crosses_own_wall(const WallPlace<Dim>& place, int wall) const;
   /// Whether a mesh other than its own lies between a place and its foot.
@@ -131,6 +133,7 @@ class WallParticleCollector {
   SpaceShare share_;
   double seam_;           ///< m
   double look_distance_;  ///< m
+  double touch_;          ///< m; walls that are nearer lie on each other
   double reach_;          ///< m; distance up to which dummies interact with water
   PointGrid<Dim> taken_;
   std::vector<PlainFace> plain_faces_;  ///< with their images near the domain

@@ -5,6 +5,7 @@
 
 #include "base/for_each.h"
 #include "geometry/from_spec.h"
+#include "geometry/outer_patches.h"
 #include "neighbours/cell_grid.h"
 #include "refinement/spacing_field.h"
 
@@ -29,7 +30,8 @@ FractionAt<Dim> spacing_as_drawn(const CaseSpec& spec, const Boundary<Dim>& boun
 template <int Dim>
 std::vector<WallPatch<Dim>> divide(const CaseSpec& spec, const Boundary<Dim>& boundary,
                                    const FractionAt<Dim>& spacing_at) {
-  return make_wall_patches<Dim>(boundary, longest_patch_edge * spec.particles.spacing, spacing_at);
+  return outer_patches(
+      spec, boundary, make_wall_patches<Dim>(boundary, longest_patch_edge * spec.particles.spacing, spacing_at));
 }
 
 template <int Dim>

@@ -37,6 +37,31 @@ CaseSpec chain_of_walls(double dx, double level, const Outline& corners) {
   return spec;
 }
 
+// A tank that is drawn twice had twice its force.
+TEST(WallDrawnTwice, HasTheForceOfWaterOnce) {
+  constexpr double dx = 0.02, level = 0.2, length = 0.6;
+  for (const double behind : {0.0, 1e-6, 0.05 * dx}) {
+    CaseSpec spec;
+    spec.particles.spacing = dx;
+    for (const double d : {0.0, behind}) {
+      WallTable wall;
+      wall.name = "wall" + std::to_string(spec.walls.size());
+      wall.points = {{-d, 0.3}, {-d, -d}, {length + d, -d}, {length + d, 0.3}};
+      spec.walls.push_back(wall);
+    }
+    FluidTable water;
+    water.max = {length, level};
+    water.min = {0.0, 0.0};
+    spec.fluid = {water};
+    spec.probes = {force_probe({0.0, 0.0})};
+    Flow<2> flow = make_flow<2>(spec);
+    start(flow);
+    for (int n = 0; n < 5; ++n) step(flow);
+    const double weight = spec.physics.density * g * level * length;
+    EXPECT_NEAR(Reader<2>(spec, flow).force()[1], -weight, 0.01 * weight) << behind;
+  }
+}
+
 /// Hydrostatic force (x, y) on one of these walls, and its moment about its first corner.
 Vec<3> hydrostatic(const CaseSpec& spec, std::size_t which) {
   const double level = spec.fluid[0].level;

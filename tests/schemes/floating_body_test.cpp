@@ -111,6 +111,26 @@ TEST(FloatingBody, AnOpenHullStaysAtItsDraught) {
   expect_at_draught(flow, 0.5, 0.1 * dx);
 }
 
+// A T of two boxes, as heavy as the water it displaces. What the boxes hide of each other counted as wet, by which the
+// T rose by 5 mm in the time of the test.
+TEST(FloatingBody, OfSeveralWallsHoversUnderWater) {
+  constexpr double dx = 0.025;
+  for (const double overlap : {0.0, 0.001, 0.05}) {
+    CaseSpec spec = tank_case<2>(dx, 2.0, 0.5);
+    add_box(spec, {0.8, 0.25}, {1.2, 0.35}, 1000.0, "deck");
+    spec.walls.push_back(spec.walls.back());
+    spec.walls.back().name = "keel";
+    spec.walls.back().min = {0.95, 0.1};
+    spec.walls.back().max = {1.05, 0.25 + overlap};
+    spec.bodies[0].walls.push_back("keel");
+    spec.bodies[0].mass = 1000.0 * (0.4 * 0.1 + 0.1 * 0.15);
+    spec.bodies[0].free = {"y"};
+    Flow<2> flow = make_flow<2>(spec);
+    start(flow);
+    expect_at_draught(flow, 0.15, 0.01 * dx);
+  }
+}
+
 // A box at its draught in a flume 6 dx wide, which it spans from side wall to side wall. Under its edges the pressure
 // of the water also acts on wall particles of the side walls, with 7 % of the weight of the box.
 TEST(FloatingBody, StaysAtItsDraughtBetweenSideWalls) {
