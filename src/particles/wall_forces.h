@@ -32,6 +32,9 @@ struct WallForces {
   std::vector<Vec<Dim>> pressure;                  ///< N; on a fluid particle the reaction of the guard
   std::vector<Vec<Dim>> through_water;             ///< N; pressure through a fluid particle, 0 on a wall particle
   std::vector<Vec<Dim>> friction;                  ///< N
+  /// N; of the pairs of the balanced pressure. On walls without such patches as below they are forces too. Empty if all
+  /// walls have such patches, or none.
+  std::vector<Vec<Dim>> of_balanced;
   std::vector<ForceBesideWall<Dim>> beside_walls;  ///< identical on all ranks
   /// Pa; of each patch of the walls, the pressure that balances the weight and is not in the other forces
   /// (pressure/balanced_on_walls.h). Empty: none. Identical on all ranks.
@@ -43,6 +46,7 @@ struct WallForces {
     pressure.assign(owned, Vec<Dim>::Zero());
     through_water.assign(owned, Vec<Dim>::Zero());
     friction.assign(owned, Vec<Dim>::Zero());
+    of_balanced.clear();
     beside_walls.clear();
     balanced.clear();
   }

@@ -31,10 +31,9 @@ std::vector<Vec<Dim>> normals_in_gaps(const Flow<Dim>& flow) {
 /// the sum for a particle and its force f.
 template <int Dim, class Add>
 void add_through_water(Flow<Dim>& flow, std::span<const std::size_t> water, std::span<const double> share,
-                       const std::vector<double>& pressure, Add&& add) {
+                       const std::vector<double>& pressure, std::vector<Vec<Dim>>& forces, Add&& add) {
   std::vector<Vec<Dim>> pushes(water.size());
   flow.discretisation().reactions_seen_by_water(flow, water, share, pressure, pushes);
-  std::vector<Vec<Dim>>& forces = flow.walls.forces.through_water;
   for_each(water.size(),
            [&](std::size_t n) { add(forces[water[n]], Vec<Dim>(flow.state.particles.volume[water[n]] * pushes[n])); });
 }
@@ -43,13 +42,14 @@ void add_through_water(Flow<Dim>& flow, std::span<const std::size_t> water, std:
 /// entry of n n^T. `whole`: the fraction with which the forces of pairs were added.
 template <int Dim>
 void take_forces_across_gaps(Flow<Dim>& flow, std::span<const std::size_t> water, const std::vector<double>& whole,
-                             const std::vector<Vec<Dim>>& normals, const std::vector<double>& pressure) {
+                             const std::vector<Vec<Dim>>& normals, const std::vector<double>& pressure,
+                             std::vector<Vec<Dim>>& forces) {
   std::vector<double> share(normals.size());
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b <= a; ++b) {
       for_each(share.size(), [&](std::size_t i) { share[i] = whole[i] * normals[i][a] * normals[i][b]; });
       if (std::ranges::none_of(share, [](double one) { return one != 0.0; })) continue;
-      add_through_water(flow, water, share, pressure, [&](Vec<Dim>& sum, const Vec<Dim>& force) {
+      add_through_water(flow, water, share, pressure, forces, [&](Vec<Dim>& sum, const Vec<Dim>& force) {
         sum[a] -= force[b];
         if (b < a) sum[b] -= force[a];
       });
@@ -57,21 +57,21 @@ void take_forces_across_gaps(Flow<Dim>& flow, std::span<const std::size_t> water
   }
 }
 
-/// Adds the forces of the pairs of a pressure field to those on the walls for which is_counted(wall).
-template <int Dim, class IsCounted>
-void add_forces_of_pairs(Flow<Dim>& flow, const std::vector<double>& pressure, IsCounted&& is_counted) {
+/// Adds the forces of the pairs of a pressure field, by wall particle and by water particle.
+template <int Dim>
+void add_forces_of_pairs(Flow<Dim>& flow, const std::vector<double>& pressure, std::vector<Vec<Dim>>& by_wall,
+                         std::vector<Vec<Dim>>& by_water) {
   const Particles<Dim>& particles = flow.state.particles;
   const std::vector<Vec<Dim>> normals = normals_in_gaps(flow);
   std::vector<double> share(particles.size(), 0.0);
   std::vector<std::size_t> walls;
   std::vector<std::size_t> water;
   for (std::size_t i = 0; i < particles.size(); ++i) {  // in order: lists
-    const bool is_of_wall = !particles.is_fluid(i) && is_counted(flow.walls.particles.wall[particles.wall_row[i]]);
-    if (is_of_wall && flow.surroundings.is_wet[i]) share[i] = share_of_water;
+    if (!particles.is_fluid(i) && flow.surroundings.is_wet[i]) share[i] = share_of_water;
     if (i >= particles.owned) continue;
-    if (is_of_wall) {
+    if (!particles.is_fluid(i)) {
       walls.push_back(i);
-    } else if (particles.is_fluid(i) && flow.pairs().sees_wall[i] != 0) {
+    } else if (flow.pairs().sees_wall[i] != 0) {
       water.push_back(i);
     }
   }
@@ -79,34 +79,35 @@ void add_forces_of_pairs(Flow<Dim>& flow, const std::vector<double>& pressure, I
   for_each(walls.size(), [&](std::size_t n) {
     const std::size_t i = walls[n];
     const Vec<Dim> across = normals[i].dot(pushes[n]) * normals[i];
-    flow.walls.forces.pressure[i] -= particles.volume[i] * ((1.0 - share[i]) * pushes[n] + share_of_water * across);
+    by_wall[i] -= particles.volume[i] * ((1.0 - share[i]) * pushes[n] + share_of_water * across);
   });
-  add_through_water(flow, water, share, pressure, [](Vec<Dim>& sum, const Vec<Dim>& force) { sum += force; });
-  take_forces_across_gaps(flow, water, share, normals, pressure);
+  add_through_water(flow, water, share, pressure, by_water, [](Vec<Dim>& sum, const Vec<Dim>& force) { sum += force; });
+  take_forces_across_gaps(flow, water, share, normals, pressure, by_water);
 }
 
 }  // namespace
 
 template <int Dim>
 void add_wall_forces(Flow<Dim>& flow, const std::vector<double>& pressure) {
-  if (!flow.walls.forces.pressure_is_requested) return;
-  add_forces_of_pairs(flow, pressure, [](int /*wall*/) { return true; });
+  WallForces<Dim>& forces = flow.walls.forces;
+  if (forces.pressure_is_requested) add_forces_of_pairs(flow, pressure, forces.pressure, forces.through_water);
 }
 
 template <int Dim>
 void find_wall_forces(Flow<Dim>& flow) {
   const std::vector<double>& pressure = flow.state.particles.pressure;
-  flow.walls.forces.balanced = balanced_on_walls(flow);
+  WallForces<Dim>& forces = flow.walls.forces;
+  forces.balanced = balanced_on_walls(flow);
   const std::vector<bool> is_integrated = walls_with_balanced(flow);
   const auto integrated = std::ranges::count(is_integrated, true);
-  if (integrated == 0) return add_wall_forces(flow, pressure);
-  if (!flow.walls.forces.pressure_is_requested) return;
-  std::vector<double> rest = balanced_pressure(flow, pressure);
-  for_each(rest.size(), [&](std::size_t i) { rest[i] = pressure[i] - rest[i]; });
-  if (integrated < std::ssize(is_integrated)) {
-    add_forces_of_pairs(flow, pressure, [&](int wall) { return !is_integrated[wall]; });
-  }
-  add_forces_of_pairs(flow, rest, [&](int wall) { return is_integrated[wall]; });
+  if (integrated == 0 || !forces.pressure_is_requested) return add_wall_forces(flow, pressure);
+  const std::vector<double> q = balanced_pressure(flow, pressure);
+  std::vector<double> rest(q.size());
+  for_each(rest.size(), [&](std::size_t i) { rest[i] = pressure[i] - q[i]; });
+  add_wall_forces(flow, rest);
+  if (integrated == std::ssize(is_integrated)) return;
+  forces.of_balanced.assign(forces.pressure.size(), Vec<Dim>::Zero());
+  add_forces_of_pairs(flow, q, forces.of_balanced, forces.of_balanced);
 }
 
 TAILWATER_IN_2D_AND_3D(add_wall_forces);

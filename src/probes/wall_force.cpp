@@ -75,7 +75,7 @@ class WallForceProbe {
       return part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
-    return loads + loads_of_balanced(context, velocity, chosen_) + loads_beside_walls(context, velocity) +
+    return loads + loads_without_integral(context, velocity, chosen_) + loads_of_balanced(context, velocity, chosen_) + loads_beside_walls(context, velocity) +
            loads_of_air(context, velocity);
   }
 
@@ -95,10 +95,22 @@ class WallForceProbe {
                                !context.wall_forces->balanced.empty();
     if (takes_all_and_rests() && !needs_patches) return;
     context.patches->place(context.boundary);
-    if (moves_ == context.patches->moves()) return;
+    std::vector<bool> integrated = walls_with_integral(context);
+    if (moves_ == context.patches->moves() && integrated_ == integrated) return;
     moves_ = context.patches->moves();
+    integrated_ = std::move(integrated);
     chosen_ = select(context, std::move(chosen_.taken));
     hulls_.clear();
+  }
+
+  /// By wall, whether it has the integral of the balanced pressure.
+  static std::vector<bool> walls_with_integral(const ProbeContext<Dim>& context) {
+    std::vector<bool> walls(context.boundary.walls.size(), false);
+    const std::vector<double>& balanced = context.wall_forces->balanced;
+    for (std::size_t k = 0; k < balanced.size(); ++k) {
+      if (balanced[k] > 0.0) walls[wall_of(context, k)] = true;
+    }
+    return walls;
   }
 
   static int wall_of(const ProbeContext<Dim>& context, std::size_t patch) {
@@ -120,7 +132,8 @@ class WallForceProbe {
       if (has_hull ? has_wall && !is_beside_hull : !has_wall || is_beside_hull) continue;
       Selection& hull = hull_of(context, one.walls);
       const WallLoads<Dim> known =
-          pressure_of_pairs(context, velocity, hull) + loads_of_balanced(context, velocity, hull);
+          pressure_of_pairs(context, velocity, hull) + loads_without_integral(context, velocity, hull) +
+          loads_of_balanced(context, velocity, hull);
       const double sign = has_hull ? 1.0 : -1.0;
       const Vec<Dim> force = one.force - known.pressure;
       const Moment<Dim> about = moment(one.centre, one.force) + one.moment - known.moment;
@@ -173,6 +186,27 @@ class WallForceProbe {
       const bool is_part_of_it =
           !whole.pressure.isZero(0.0) && is_near(context, hull.around, context.particles.position[i]);
       return is_part_of_it ? part_of(whole, context, i, velocity, hull) : WallLoads<Dim>();
+    });
+    loads.gather(context.ranks);
+    return loads;
+  }
+
+  /// The loads of the pairs of the balanced pressure on selected patches of walls without its integral. Collective.
+  WallLoads<Dim> loads_without_integral(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
+                                        const Selection& whole) {
+    const std::vector<Vec<Dim>>& forces = context.wall_forces->of_balanced;
+    if (forces.empty()) return {};
+    std::vector<double> taken = whole.taken;
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      if (integrated_[wall_of(context, k)]) taken[k] = 0.0;
+    }
+    Selection selection = select(context, std::move(taken));
+    WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
+      const Vec<Dim>& x = context.particles.position[i];
+      if (forces[i].isZero(0.0) || !is_near(context, selection.around, x)) return WallLoads<Dim>();
+      WallLoads<Dim> through;
+      through.pressure = forces[i];
+      return part_of(through, context, i, velocity, selection);
     });
     loads.gather(context.ranks);
     return loads;
@@ -331,6 +365,7 @@ class WallForceProbe {
   std::vector<int> body_of_;                         ///< the floating body of each wall, or -1
   bool has_power_ = false;
   std::optional<std::size_t> moves_;  ///< of the walls, where the patches were selected
+  std::vector<bool> integrated_;      ///< by wall, whether it had the integral of the balanced pressure there
   std::vector<int> mover_;            ///< of each wall: a number, equal for walls that move alike; -1: it rests
   std::map<int, Selection> hulls_;    ///< by the first wall of a hull, its patches where they are now
   PatchShares<Dim> shares_;           ///< of the particle that is being read

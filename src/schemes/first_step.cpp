@@ -32,6 +32,8 @@ void add(WallForces<Dim>& forces, const WallForces<Dim>& others, double factor) 
     forces.pressure[i] += factor * others.pressure[i];
     forces.through_water[i] += factor * others.through_water[i];
   });
+  TAILWATER_ASSERT(forces.of_balanced.size() == others.of_balanced.size(), "the same walls are wet");
+  for_each(forces.of_balanced.size(), [&](std::size_t i) { forces.of_balanced[i] += factor * others.of_balanced[i]; });
   for (std::size_t n = 0; n < forces.beside_walls.size(); ++n) {
     forces.beside_walls[n].force += factor * others.beside_walls[n].force;
     forces.beside_walls[n].moment += factor * others.beside_walls[n].moment;

@@ -62,6 +62,34 @@ TEST(WallDrawnTwice, HasTheForceOfWaterOnce) {
   }
 }
 
+// The bed is dry behind a plate, so it has the force of pairs, and the wall at its other end the integral. Both had the
+// force of the corner between them: 3 % of that on the wall.
+TEST(WallBesideABedThatIsPartlyDry, HasTheForceOfTheWater) {
+  constexpr double dx = 0.02, level = 0.3, length = 0.6;
+  CaseSpec spec;
+  spec.particles.spacing = dx;
+  const std::vector<Outline> outlines{
+      {{-0.3, 0.0}, {length, 0.0}}, {{length, 0.0}, {length, 0.5}}, {{0.0, 0.0}, {0.0, 0.5}}};
+  for (const Outline& points : outlines) {
+    WallTable wall;
+    wall.name = "wall" + std::to_string(spec.walls.size());
+    wall.points = points;
+    spec.walls.push_back(wall);
+  }
+  spec.walls.back().shape = WallShape::plate;
+  FluidTable water;
+  water.min = {0.0, 0.0};
+  water.max = {length, level};
+  spec.fluid = {water};
+  spec.probes = {force_probe({0.0, 0.0}, {"wall1"}), force_probe({0.0, 0.0})};
+  Flow<2> flow = make_flow<2>(spec);
+  start(flow);
+  for (int n = 0; n < 5; ++n) step(flow);
+  const double force = 0.5 * spec.physics.density * g * level * level;
+  EXPECT_NEAR(Reader<2>(spec, flow).force()[0], force, 0.003 * force);
+  EXPECT_NEAR(Reader<2>(spec, flow, 1).force()[0], 0.0, 0.003 * force);
+}
+
 /// Hydrostatic force (x, y) on one of these walls, and its moment about its first corner.
 Vec<3> hydrostatic(const CaseSpec& spec, std::size_t which) {
   const double level = spec.fluid[0].level;
