@@ -14,8 +14,9 @@ namespace {
 /// 1 and more; crests, lips and weirs have it on a few spacings only.
 constexpr double least_share_of_pressure = 0.25;
 
-/// Fraction of the time with water beside a wall, from which the wall counts.
-constexpr double least_share_of_time = 0.1;
+/// Fraction of the time in which a wall would pull, from which it counts. Water that starts away from a wall pulls in
+/// the first steps only.
+constexpr double least_share_of_time = 0.2;
 
 /// [dx]; edge of the area from which a run warns. In the cases of the tree, up to 8 spacings pull without harm.
 constexpr double edge_of_area = 15.0;
@@ -48,6 +49,7 @@ void PulledWalls<Dim>::finish_step(Flow<Dim>& /*flow*/, const StepStart<Dim>& /*
     Record& record = records_[reading.number];
     record.wet += dt;
     record.pull -= dt * std::min(0.0, reading.pressure);
+    record.pulls += reading.pressure < 0.0 ? dt : 0.0;
     record.area = reading.area;
     record.place = reading.place;
     pressed_ += dt * reading.area * std::max(0.0, reading.pressure);
@@ -66,7 +68,7 @@ Pull<Dim> PulledWalls<Dim>::find(const Flow<Dim>& flow) const {
   if (wet == 0.0) return pull;
   for (const auto& [number, record] : records_) {
     const double mean = record.pull / record.wet;
-    if (record.wet < least_share_of_time * time_ || mean * wet < least_share_of_pressure * pressed) continue;
+    if (record.pulls < least_share_of_time * time_ || mean * wet < least_share_of_pressure * pressed) continue;
     pull.area += record.area;
     if (mean > pull.tension) {
       pull.tension = mean;

@@ -43,9 +43,10 @@ class PulledWalls final : public Part<Dim> {
     Vec<Dim> place;       ///< m
   };
   struct Record {
-    double wet = 0.0;   ///< s; with water beside it
-    double pull = 0.0;  ///< Pa s
-    double area = 0.0;  ///< m^(Dim-1)
+    double wet = 0.0;    ///< s; with water beside it
+    double pulls = 0.0;  ///< s; with a pressure below 0
+    double pull = 0.0;   ///< Pa s
+    double area = 0.0;   ///< m^(Dim-1)
     Vec<Dim> place = Vec<Dim>::Zero();
   };
 
