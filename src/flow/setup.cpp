@@ -154,6 +154,38 @@ ParticleLiquids particle_liquids(const CaseSpec& spec, const FluidParticles<Dim>
   return liquids;
 }
 
+/// Height [m] from which water of the inlets falls to the lowest wall, with the velocity head of the inflow. At least a
+/// spacing.
+template <int Dim>
+double height_of_fall(const CaseSpec& spec, const Boundary<Dim>& boundary) {
+  constexpr int samples = 100;
+  const double spacing = spec.particles.spacing;
+  const double g = gravity_of<Dim>(spec).norm();
+  double height = spacing;
+  if (g == 0.0) return height;
+  const Vec<Dim> up = -gravity_of<Dim>(spec) / g;
+  for (const ChannelEnd<Dim>& end : make_channel_ends<Dim>(spec)) {
+    if (!end.flow.feeds()) continue;
+    double fall = 0.0;
+    for (const WallFace<Dim>& face : boundary.faces) {
+      for (const Vec<Dim>& x : face.corners) fall = std::max(fall, up.dot(end.mouth.corner - x));
+    }
+    for (int k = 0; k <= samples; ++k) {
+      const double speed = end.largest_speed(spec.time.end * k / samples, spacing);
+      height = std::max(height, fall + speed * speed / (2.0 * g));
+    }
+  }
+  return height;
+}
+
+/// L of the reference speed [m]: the largest depth. A case may have no depth, as a dry one whose inlet points
+/// downwards; there L is the height of fall. Collective.
+template <int Dim>
+double reference_length(const CaseSpec& spec, const Drawing<Dim>& drawing) {
+  const double depth = largest_depth(spec, drawing.fluid);
+  return depth > 0.0 ? depth : height_of_fall(spec, drawing.walls.boundary);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -199,7 +231,7 @@ Setup<Dim>::Setup(const CaseSpec& spec, const FlowFormulation<Dim>& chosen, cons
                  : std::make_shared<GradedSums<Dim>>(scale.kernel, scale.spacing, drawing.spacing_field)),
       first_wall_id(drawing.fluid.all),
       gravity(gravity_of<Dim>(spec)),
-      length(formulation.length > 0.0 ? formulation.length : largest_depth(spec, drawing.fluid)),
+      length(formulation.length > 0.0 ? formulation.length : reference_length(spec, drawing)),
       domain(periodic_domain<Dim>(spec.domain)),
       is_closed(fills_domain<Dim>(domain, drawing.fluid, spec.particles.spacing)),
       wall_motion(std::make_unique<WallMotion<Dim>>(std::move(drawing.wall_motion))),

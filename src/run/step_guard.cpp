@@ -78,7 +78,11 @@ void StepGuard<Dim>::require_sound_step(double dt) {
   const Setup<Dim>& setup = flow_.setup;
   if (reference_step_ == 0.0) {
     // Without gravity a speed can only be judged by comparison with the start.
-    const double speed = setup.time_step_rule.reference_speed > 0.0 ? 0.0 : largest_speed(flow_);
+    const double speed =
+        setup.time_step_rule.reference_speed > 0.0 ? 0.0 : std::max(largest_speed(flow_), step_limits(flow_).speed);
+    if (setup.time_step_rule.reference_speed == 0.0 && speed == 0.0 &&
+        !setup.ranks.any(flow_.state.particles.owned > 0))
+      return;
     reference_step_ = setup.time_step_rule.largest(speed, setup.liquid.viscosity.at_speed(speed));
     if (!setup.wall_motion->moving().empty()) reference_step_ = std::min(reference_step_, dt);  // walls limit it too
   }
@@ -98,10 +102,15 @@ void StepGuard<Dim>::require_sound_step(double dt) {
   const Particles<Dim>& particles = flow_.state.particles;
   std::optional<std::size_t> culprit = fastest_particle(particles);
   if (culprit && particles.velocity[*culprit].norm() < speed) culprit.reset();
+  const std::string limit = fmt::format("{}, by the {} limit", reason, is_viscous ? "viscous" : "advective");
+  if (!setup.ranks.any(culprit.has_value())) {
+    fail(fmt::format("{}: inflow enters at {:.4g} m/s, and there is no water yet. Remedy: a steadier inflow", limit,
+                     step_limits(flow_).speed),
+         std::nullopt);
+  }
   blame(culprit, [&](std::size_t i) {
-    return fmt::format("{}, by the {} limit: particle {} at {} moves at {:.4g} m/s", reason,
-                       is_viscous ? "viscous" : "advective", particles.id[i], place<Dim>(particles.position[i]),
-                       particles.velocity[i].norm());
+    return fmt::format("{}: particle {} at {} moves at {:.4g} m/s", limit, particles.id[i],
+                       place<Dim>(particles.position[i]), particles.velocity[i].norm());
   });
 }
 
