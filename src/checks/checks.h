@@ -174,7 +174,8 @@ Findings check_moving_walls(const CaseSpec& spec, const Boundary<Dim>& drawn, co
 template <int Dim>
 Findings check_motion_files(const CaseSpec& spec, const Boundary<Dim>& drawn, const FluidParticles<Dim>& fluid);
 
-/// Warning: a resting wall that ends where a moving one begins, with no wall behind its end once the other has moved.
+/// Warning: a resting wall that ends on a corner of a moving one, unless a side of the moving wall closes the end at
+/// all times, or covers the wall there.
 Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn);
 
 /// Error, when rows of particles stand on the walls: walls that move relative to each other and are nearer than dx at

@@ -844,6 +844,38 @@ TEST(CheckMotion, AWallThatEndsAtAMovingOneIsToldToGoOn) {
   expect_only(check(spec), Severity::warning, {"wall 'wall1' ends at (0, 0)", "wall 'wall2'", "0.3 m"});
   spec.walls[0].points[0][0] = -0.3;
   EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  // Rows of wall particles behind the farthest place of the piston: 0.2 m and three spacings.
+  spec.walls[0].points[0][0] = 0.0;
+  spec.walls[1].displacement = {"-0.2*t", 0.0};
+  expect_among(check(spec), Severity::warning, {"wall 'wall1' ends at (0, 0)", "extend the resting wall by 0.5 m"});
+}
+
+/// A bed with a block in it, beside a wall, that moves by `rise` along y.
+CaseSpec block_in_bed(double thickness, const std::string& rise) {
+  CaseSpec spec = empty_case(0.1);
+  spec.time.end = 1.0;
+  spec.walls = {polyline({{1, 0}, {3, 0}, {3, 1}}), polyline({{0, 1}, {0, -thickness}}),
+                polyline({{0, -thickness}, {0, 0}, {1, 0}, {1, -thickness}, {0, -thickness}})};
+  spec.walls[2].name = "block";
+  spec.walls[2].displacement = {0.0, rise};
+  spec.fluid = {box_fluid({0, 0}, {3, 0.5})};
+  return spec;
+}
+
+TEST(CheckMotion, ABlockOfTheBedThatRisesLeavesNoGapIfItsSideFollows) {
+  EXPECT_TRUE(check(block_in_bed(1.0, "0.2*t")).empty()) << listed(check(block_in_bed(1.0, "0.2*t")));
+  // The rise and three rows.
+  EXPECT_TRUE(check(block_in_bed(0.5, "0.2*t")).empty()) << listed(check(block_in_bed(0.5, "0.2*t")));
+  expect_only(check(block_in_bed(0.4, "0.2*t")), Severity::warning,
+              {"wall 'wall1' ends at (1, 0)", "wall 'block' rises by 0.2 m", "side of the moving wall 0.5 m long"});
+}
+
+TEST(CheckMotion, ABlockOfTheBedThatSinksIsToldWhereTheBedHasToGoOn) {
+  CaseSpec spec = block_in_bed(1.0, "-0.2*t");
+  expect_only(check(spec), Severity::warning,
+              {"wall 'wall1' ends at (1, 0)", "moves from there to (1, -0.2)", "from its end to (1, -0.5) or farther"});
+  spec.walls[0].points.insert(spec.walls[0].points.begin(), {1.0, -0.5});
+  EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
 }
 
 TEST(Check, AnOutletIsNoLeak) {
