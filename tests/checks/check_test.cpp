@@ -1635,6 +1635,25 @@ TEST(Check, AGapThatCountsAsClosedIsTold) {
   expect_among(check(spec), Severity::warning, {"the gap of 0.03 m between", "counts as closed"});
 }
 
+// Such a trough lost 2 to 42 % of its water in 2 s.
+TEST(Check, AGapBetweenTwoPlatesIsNotClosed) {
+  const auto trough = [](double gap) {
+    CaseSpec spec = empty_case(0.1);
+    spec.walls = {polyline({{0, 2.0}, {0, -1.0}, {4, -1.0}, {4, 2.0}}), polyline({{1, 1.5}, {1, gap}}),
+                  polyline({{1 + gap, 0}, {3, 0}, {3, 1.5}})};
+    spec.walls[1].shape = spec.walls[2].shape = WallShape::plate;
+    spec.fluid = {box_fluid({1, 0}, {3, 1})};
+    return spec;
+  };
+  for (const double gap : {0.0005, 0.005, 0.03}) {
+    expect_only(
+        check(trough(gap)), Severity::warning,
+        {"between wall 'wall", "narrower than half a spacing, but water leaks", "let the plates end at the same"});
+  }
+  EXPECT_TRUE(check(trough(0.0)).empty()) << listed(check(trough(0.0)));
+  expect_only(check(trough(0.06)), Severity::warning, {"the gap of 0.0849 m", "is 0.8 spacings wide"});
+}
+
 TEST(Check, AGapTooNarrowForItsWaterIsToldUntilTheSpacingIsThatOfTheMessage) {
   expect_only(check(tank_with_slot(0.06)), Severity::warning,
               {"the gap of 0.06 m between wall 'wall2' and wall 'wall1' at (2, 0.06) is 0.6 spacings wide",
