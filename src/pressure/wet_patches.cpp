@@ -30,9 +30,24 @@ WetPatches<Dim>::WetPatches(const Flow<Dim>& flow, std::vector<PatchInReach<Dim>
   }
   grid_ = CellGrid<Dim>(centres, reach_of_wet * flow.setup.scale.spacing);
   const std::vector<double> water_in_front = find_water_in_front();
+  std::vector<std::uint8_t> is_film(patches_.size(), 0);
+  std::vector<std::size_t> reached;  // patches that water reaches; it goes on from them through films
   for (std::size_t n = 0; n < is_wet_.size(); ++n) {
-    if (water_in_front[n] != 0.0 || patches_[n].is_left_over) continue;
-    is_wet_[n] = is_wet_without_particle(water_in_front, n) ? 1 : 0;
+    const Neighbourhood around =
+        water_in_front[n] != 0.0 ? Neighbourhood{.has_water = true} : look_around(water_in_front, n);
+    is_film[n] = around.is_film ? 1 : 0;
+    is_wet_[n] = around.has_water || patches_[n].is_left_over ? 1 : 0;
+    if (around.has_water) reached.push_back(n);
+  }
+  while (!reached.empty()) {
+    const std::size_t m = reached.back();
+    reached.pop_back();
+    grid_.for_each_near(patches_[m].centre, [&](std::int32_t n) {
+      if (is_film[n] == 0 || !is_next_to(n, m)) return;
+      is_film[n] = 0;
+      is_wet_[n] = 1;
+      reached.push_back(n);
+    });
   }
 }
 
@@ -79,20 +94,31 @@ std::vector<double> WetPatches<Dim>::find_water_in_front() const {
   return water_in_front;
 }
 
-/// Whether a patch without water in front is wet all the same: another wall faces it across a film, or a patch near it,
-/// on the same side of the same wall, has water in front.
+/// Whether water at patch m is at patch n, too: both are sides of one film, or m is beside n.
 template <int Dim>
-bool WetPatches<Dim>::is_wet_without_particle(const std::vector<double>& water_in_front, std::size_t n) const {
+bool WetPatches<Dim>::is_next_to(std::size_t n, std::size_t m) const {
+  const Vec<Dim> offset = patches_[m].centre - patches_[n].centre;
   const double reach = reach_of_wet * spacing_[n];
-  bool found = false;
+  if (offset.squaredNorm() >= reach * reach || !sees(n, eye(m))) return false;
+  const double alike = face(m).normal.dot(face(n).normal);
+  return face(m).wall == face(n).wall ? alike > 0.0 : alike < 0.0 && offset.dot(face(n).normal) > 0.0;
+}
+
+/// A patch without water in front is wet if a patch near it, on the same side of the same wall, has water in front. It
+/// is a side of a film if another wall faces it.
+template <int Dim>
+typename WetPatches<Dim>::Neighbourhood WetPatches<Dim>::look_around(const std::vector<double>& water_in_front,
+                                                                     std::size_t n) const {
+  Neighbourhood around;
   grid_.for_each_near(patches_[n].centre, [&](std::int32_t m) {
-    const Vec<Dim> offset = patches_[m].centre - patches_[n].centre;
-    if (found || offset.squaredNorm() >= reach * reach || !sees(n, eye(m))) return;
-    const double alike = face(m).normal.dot(face(n).normal);
-    found = face(m).wall == face(n).wall ? alike > 0.0 && water_in_front[m] != 0.0
-                                         : alike < 0.0 && offset.dot(face(n).normal) > 0.0;
+    if (around.has_water || !is_next_to(n, m)) return;
+    if (face(m).wall != face(n).wall) {
+      around.is_film = true;
+    } else if (water_in_front[m] != 0.0) {
+      around.has_water = true;
+    }
   });
-  return found;
+  return around;
 }
 
 template class WetPatches<2>;

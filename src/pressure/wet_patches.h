@@ -1,5 +1,5 @@
 // Which patches of walls water reaches, from the places of particles. A film between two walls, and a sharp corner, may
-// have no particle.
+// have no particle. A gap between two walls is such a film if water reaches it: a closed gap is dry.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,13 @@ class WetPatches {
   Vec<Dim> eye(std::size_t n) const;
   bool sees(std::size_t n, const Vec<Dim>& to) const;
   std::vector<double> find_water_in_front() const;
-  bool is_wet_without_particle(const std::vector<double>& water_in_front, std::size_t n) const;
+  /// Water and walls near a patch.
+  struct Neighbourhood {
+    bool has_water = false;
+    bool is_film = false;
+  };
+  Neighbourhood look_around(const std::vector<double>& water_in_front, std::size_t n) const;
+  bool is_next_to(std::size_t n, std::size_t m) const;
 
   const Flow<Dim>& flow_;
   std::vector<PatchInReach<Dim>> patches_;

@@ -216,6 +216,32 @@ TEST(BlockInTheBed, HasTheForceOfTheWaterThatTouchesIt) {
   expect_force_on_block(dx, 0.5 * dx, 0.6);
 }
 
+/// A block that is flush with the bed, in a pit whose sides it touches, with a dry gap below. Its bottom had the
+/// pressure of water in the gap, and the bed lacked half of its force.
+TEST(BlockInAPit, HasNoWaterInTheGapBelow) {
+  constexpr double dx = 0.04, depth = 0.4, half_width = 0.2;
+  for (const double gap : {0.0, 0.5, 1.0, 1.5, 2.5}) {
+    const double bottom = -half_width - gap * dx;
+    CaseSpec spec = chain_of_walls(dx, depth, {});
+    spec.fluid[0].seed = {-0.5, 0.1};
+    WallTable tank;
+    tank.points = {{-0.6, 0.6},          {-0.6, 0.0},       {-half_width, 0.0}, {-half_width, bottom},
+                   {half_width, bottom}, {half_width, 0.0}, {0.6, 0.0},         {0.6, 0.6}};
+    WallTable block;
+    block.name = "block";
+    block.shape = WallShape::box;
+    block.min = {-half_width, -half_width};
+    block.max = {half_width, 0.0};
+    block.fluid_side = FluidSide::outside;
+    spec.walls = {tank, block};
+    spec.probes = {force_probe({}, {"block"}), force_probe({})};
+    const std::vector<Row> means = mean_forces<2>(spec, 60);
+    const double weight = spec.physics.density * g * depth * 1.2;
+    EXPECT_NEAR(means[0][1], -weight / 3.0, 0.01 * weight) << gap;
+    EXPECT_NEAR(means[1][1], -weight, 0.01 * weight) << gap;
+  }
+}
+
 /// A mesh in the bed of a tank. The one that reaches half a spacing below the bed had 8 % too much.
 TEST(MeshInTheBed, HasTheForceOfTheWaterThatTouchesIt) {
   constexpr double dx = 0.04, depth = 8.0 * dx, top = 5.0 * dx, low = 9.0 * dx, high = 14.0 * dx;
