@@ -170,7 +170,7 @@ Findings check_moorings(const CaseSpec& spec, const Boundary<Dim>& boundary) {
         {"{} is fastened at {}, {:.4g} from {}, which lies between {} and {}", CaseLabel("mooring", name), place(x),
          Amount{away, "m"}, CaseLabel("body", body.name), place<Dim>(box.min()), place<Dim>(box.max())},
         {"give `at` as a place on the first body as drawn, and `anchor` as the other end of the line, on the second "
-         "body if there is one"}));
+         "body if there is one; for a hinge away from the body, name a small box there among the body's `walls`"}));
   };
   const double gravity = gravity_of<Dim>(spec).norm();
   const auto check_tension = [&](const std::string& name, const Mooring<Dim>& line) {

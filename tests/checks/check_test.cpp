@@ -1080,6 +1080,32 @@ TEST(Check, AMooringIsFastenedToItsBody) {
   expect_among(check(spec), Severity::error, {"mooring 'chain' is fastened at (56.7, 0.4), 56 m from body 'boat'"});
 }
 
+// A flap whose hinge is far above it, as in docs/guide/structures.md.
+TEST(Check, AHingeFarFromItsBodyNeedsASmallWallThere) {
+  CaseSpec spec = tank_with_boat();
+  MooringTable line;
+  line.name = "hinge";
+  line.bodies = {"boat"};
+  line.at = {0.3, 2.0};
+  line.anchor = {0.3, 2.001};
+  line.length = 0.001;
+  line.stiffness = 1e4;
+  spec.moorings = {line};
+  const auto findings_of_hinge = [&] {
+    Findings findings = check(spec);
+    std::erase_if(findings, [](const Finding& f) { return !f.message().starts_with("mooring 'hinge'"); });
+    return findings;
+  };
+  expect_only(findings_of_hinge(), Severity::error,
+              {"mooring 'hinge' is fastened at (0.3, 2)", "for a hinge away from the body, name a small box there"});
+  WallTable box = box_wall({0.2, 1.9}, {0.4, 2.1}, {}, FluidSide::outside);
+  box.name = "box";
+  box.drive = spec.walls.back().drive;
+  spec.walls.push_back(box);
+  spec.bodies[0].walls.push_back("box");
+  EXPECT_TRUE(findings_of_hinge().empty()) << listed(findings_of_hinge());
+}
+
 TEST(Check, AProbeWhereNoWaterComesIsRefused) {
   ProbeTable probe;
   probe.name = "p";
