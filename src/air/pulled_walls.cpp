@@ -38,24 +38,29 @@ void PulledWalls<Dim>::see_tension(const Flow<Dim>& flow, std::span<const double
     const auto row = static_cast<std::size_t>(particles.wall_row[i]);
     // Water leaves sharp edges whether walls hold it or not.
     if (rows.is_beyond_end[row] != 0 || !rows.beyond_edges[row].isZero(0.0)) continue;
-    readings_.push_back({rows.number[row], pressure[i] - min_pressure(flow, allowed, i),
-                         rows.share[row] * power<Dim>(spacing_) / (layers_ * spacing_), particles.position[i]});
+    readings_.push_back({particles.wall_row[i], static_cast<float>(pressure[i] - min_pressure(flow, allowed, i))});
   }
 }
 
 template <int Dim>
-void PulledWalls<Dim>::finish_step(Flow<Dim>& /*flow*/, const StepStart<Dim>& /*start*/, double dt) {
+void PulledWalls<Dim>::finish_step(Flow<Dim>& flow, const StepStart<Dim>& /*start*/, double dt) {
+  const auto time = static_cast<float>(dt);
   for (const Reading& reading : readings_) {  // in order: sums over rows
-    Record& record = records_[reading.number];
-    record.wet += dt;
-    record.pull -= dt * std::min(0.0, reading.pressure);
-    record.pulls += reading.pressure < 0.0 ? dt : 0.0;
-    record.area = reading.area;
-    record.place = reading.place;
-    pressed_ += dt * reading.area * std::max(0.0, reading.pressure);
-    wet_ += dt * reading.area;
+    Record& record = records_[flow.walls.particles.number[reading.row]];
+    record.wet += time;
+    record.pull -= time * std::min(0.0F, reading.pressure);
+    record.pulls += reading.pressure < 0.0F ? time : 0.0F;
+    const double area = area_of(flow, reading.row);
+    pressed_ += dt * area * std::max(0.0F, reading.pressure);
+    wet_ += dt * area;
   }
   time_ += dt;
+}
+
+/// m^(Dim-1); of a wall, for which a row stands with those of the other layers.
+template <int Dim>
+double PulledWalls<Dim>::area_of(const Flow<Dim>& flow, std::size_t row) const {
+  return flow.walls.particles.share[row] * power<Dim>(spacing_) / (layers_ * spacing_);
 }
 
 template <int Dim>
@@ -66,13 +71,17 @@ Pull<Dim> PulledWalls<Dim>::find(const Flow<Dim>& flow) const {
   ranks.sum_each(pressed, wet);
   Pull<Dim> pull;
   if (wet == 0.0) return pull;
-  for (const auto& [number, record] : records_) {
+  const WallParticles<Dim>& rows = flow.walls.particles;
+  for (std::size_t row = 0; row < flow.walls.kept; ++row) {  // in order: sums over rows
+    const auto known = records_.find(rows.number[row]);
+    if (known == records_.end()) continue;
+    const Record& record = known->second;
     const double mean = record.pull / record.wet;
     if (record.pulls < least_share_of_time * time_ || mean * wet < least_share_of_pressure * pressed) continue;
-    pull.area += record.area;
+    pull.area += area_of(flow, row);
     if (mean > pull.tension) {
       pull.tension = mean;
-      pull.where = record.place;
+      pull.where = rows.position[row];
     }
   }
   const std::vector<Pull<Dim>> of_ranks = ranks.all_gather(pull);

@@ -35,20 +35,18 @@ class PulledWalls final : public Part<Dim> {
   void warn_at_end(const Flow<Dim>& flow) const override;
 
  private:
-  /// Of a wall particle in the last step with water beside it.
+  /// Of a wall particle with water beside it, in the present step.
   struct Reading {
-    std::int64_t number;  ///< of its row
-    double pressure;      ///< Pa; above the lowest that its wall holds
-    double area;          ///< m^(Dim-1)
-    Vec<Dim> place;       ///< m
+    std::int32_t row;
+    float pressure;  ///< Pa; above the lowest that its wall holds
   };
   struct Record {
-    double wet = 0.0;    ///< s; with water beside it
-    double pulls = 0.0;  ///< s; with a pressure below 0
-    double pull = 0.0;   ///< Pa s
-    double area = 0.0;   ///< m^(Dim-1)
-    Vec<Dim> place = Vec<Dim>::Zero();
+    float wet = 0.0F;    ///< s; with water beside it
+    float pulls = 0.0F;  ///< s; with a pressure below 0
+    float pull = 0.0F;   ///< Pa s
   };
+
+  double area_of(const Flow<Dim>& flow, std::size_t row) const;
 
   double spacing_;  ///< m
   double tension_;  ///< Pa; physics.tension
