@@ -15,8 +15,8 @@ namespace tailwater {
 /// Walls that should have pulled.
 template <int Dim>
 struct Pull {
-  double area = 0.0;               ///< m^(Dim-1)
-  double tension = 0.0;            ///< Pa; largest mean over the time with water
+  double area = 0.0;                  ///< m^(Dim-1)
+  double tension = 0.0;               ///< Pa; largest mean over the time with water
   Vec<Dim> where = Vec<Dim>::Zero();  ///< m; there
 };
 
@@ -35,7 +35,7 @@ class PulledWalls final : public Part<Dim> {
   void warn_at_end(const Flow<Dim>& flow) const override;
 
  private:
-  /// Of a wall particle with water beside it, in the present step.
+  /// A wall particle with water beside it, in the present step.
   struct Reading {
     std::int32_t row;
     float pressure;  ///< Pa; above the lowest that its wall holds
@@ -53,9 +53,9 @@ class PulledWalls final : public Part<Dim> {
   int layers_;
   std::vector<Reading> readings_;
   std::unordered_map<std::int64_t, Record> records_;  ///< by number of the row, of this rank
-  double pressed_ = 0.0;                               ///< N s; pressures above 0 times area
-  double wet_ = 0.0;                                   ///< m^(Dim-1) s
-  double time_ = 0.0;                                  ///< s
+  double pressed_ = 0.0;                              ///< N s; pressures above 0 times area
+  double wet_ = 0.0;                                  ///< m^(Dim-1) s
+  double time_ = 0.0;                                 ///< s
 };
 
 template <int Dim>

@@ -59,8 +59,8 @@ bool is_obstacle(const WallTable& wall) {
   return wall.fluid_side == FluidSide::outside || (wall.shape == WallShape::box && wall.fluid_side == FluidSide::right);
 }
 
-/// What water can reach, from its start and from open ends. The open ends, and the box around all walls, count as
-/// closed.
+/// The faces and cells that water can reach, from its start and from open ends. The open ends, and the box around all
+/// walls, count as closed.
 template <int Dim>
 class WetFaces {
  public:

@@ -29,9 +29,9 @@ inline constexpr double share_of_water = 0.5;
 /// errors of its pairs. In 2D per metre of width.
 template <int Dim>
 struct WallForces {
-  std::vector<Vec<Dim>> pressure;                  ///< N; on a fluid particle the reaction of the guard
-  std::vector<Vec<Dim>> through_water;             ///< N; pressure through a fluid particle, 0 on a wall particle
-  std::vector<Vec<Dim>> friction;                  ///< N
+  std::vector<Vec<Dim>> pressure;       ///< N; on a fluid particle the reaction of the guard
+  std::vector<Vec<Dim>> through_water;  ///< N; pressure through a fluid particle, 0 on a wall particle
+  std::vector<Vec<Dim>> friction;       ///< N
   /// N; of the pairs of the balanced pressure. On walls without such patches as below they are forces too. Empty if all
   /// walls have such patches, or none.
   std::vector<Vec<Dim>> of_balanced;

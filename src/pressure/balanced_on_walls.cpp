@@ -73,11 +73,8 @@ std::vector<double> balanced_on_walls(Flow<Dim>& flow) {
 template <int Dim>
 std::vector<bool> walls_with_balanced(const Flow<Dim>& flow) {
   const std::vector<double>& balanced = flow.walls.forces.balanced;
-  std::vector<bool> walls(flow.walls.boundary.walls.size(), false);
-  for (std::size_t k = 0; k < balanced.size(); ++k) {
-    if (balanced[k] > 0.0) walls[flow.walls.boundary.faces[flow.walls.patches->all()[k].face].wall] = true;
-  }
-  return walls;
+  if (balanced.empty()) return std::vector<bool>(flow.walls.boundary.walls.size(), false);
+  return flow.walls.patches->walls_with(flow.walls.boundary, balanced);
 }
 
 TAILWATER_IN_2D_AND_3D(balanced_on_walls);

@@ -29,6 +29,14 @@ struct ForceMemory {
     largest() = force.norm();
     time_of_largest() = time;
   }
+
+  /// The largest force, its time, and the mean force.
+  std::vector<double> totals() const {
+    std::vector<double> totals{largest(), time_of_largest()};
+    const Vec<Dim> whole = impulse();
+    for (const double impulse : whole) totals.push_back(duration() > 0.0 ? impulse / duration() : 0.0);
+    return totals;
+  }
 };
 
 }  // namespace tailwater

@@ -75,8 +75,8 @@ class WallForceProbe {
       return part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
-    return loads + loads_without_integral(context, velocity, chosen_) + loads_of_balanced(context, velocity, chosen_) + loads_beside_walls(context, velocity) +
-           loads_of_air(context, velocity);
+    return loads + loads_without_integral(context, velocity, chosen_) + loads_of_balanced(context, velocity, chosen_) +
+           loads_beside_walls(context, velocity) + loads_of_air(context, velocity);
   }
 
  private:
@@ -95,22 +95,12 @@ class WallForceProbe {
                                !context.wall_forces->balanced.empty();
     if (takes_all_and_rests() && !needs_patches) return;
     context.patches->place(context.boundary);
-    std::vector<bool> integrated = walls_with_integral(context);
+    std::vector<bool> integrated = context.patches->walls_with(context.boundary, context.wall_forces->balanced);
     if (moves_ == context.patches->moves() && integrated_ == integrated) return;
     moves_ = context.patches->moves();
     integrated_ = std::move(integrated);
     chosen_ = select(context, std::move(chosen_.taken));
     hulls_.clear();
-  }
-
-  /// By wall, whether it has the integral of the balanced pressure.
-  static std::vector<bool> walls_with_integral(const ProbeContext<Dim>& context) {
-    std::vector<bool> walls(context.boundary.walls.size(), false);
-    const std::vector<double>& balanced = context.wall_forces->balanced;
-    for (std::size_t k = 0; k < balanced.size(); ++k) {
-      if (balanced[k] > 0.0) walls[wall_of(context, k)] = true;
-    }
-    return walls;
   }
 
   static int wall_of(const ProbeContext<Dim>& context, std::size_t patch) {
@@ -132,8 +122,8 @@ class WallForceProbe {
       if (has_hull ? has_wall && !is_beside_hull : !has_wall || is_beside_hull) continue;
       Selection& hull = hull_of(context, one.walls);
       const WallLoads<Dim> known =
-          pressure_of_pairs(context, velocity, hull) + loads_without_integral(context, velocity, hull) +
-          loads_of_balanced(context, velocity, hull);
+          loads_of_pairs(context, velocity, hull, [&](std::size_t i) { return pressure_at(context, i); }) +
+          loads_without_integral(context, velocity, hull) + loads_of_balanced(context, velocity, hull);
       const double sign = has_hull ? 1.0 : -1.0;
       const Vec<Dim> force = one.force - known.pressure;
       const Moment<Dim> about = moment(one.centre, one.force) + one.moment - known.moment;
@@ -177,15 +167,16 @@ class WallForceProbe {
     return known->second;
   }
 
-  /// The forces of pairs on the walls of a hull, without friction. Collective.
-  WallLoads<Dim> pressure_of_pairs(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
-                                   Selection& hull) {
+  /// The part of forces of pairs on selected patches; force_at(i) is that through owned particle i. Collective.
+  template <class ForceAt>
+  WallLoads<Dim> loads_of_pairs(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
+                                Selection& selection, ForceAt&& force_at) {
     WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
-      WallLoads<Dim> whole = loads_at(context, i);
-      whole.friction.setZero();
+      WallLoads<Dim> whole;
+      whole.pressure = force_at(i);
       const bool is_part_of_it =
-          !whole.pressure.isZero(0.0) && is_near(context, hull.around, context.particles.position[i]);
-      return is_part_of_it ? part_of(whole, context, i, velocity, hull) : WallLoads<Dim>();
+          !whole.pressure.isZero(0.0) && is_near(context, selection.around, context.particles.position[i]);
+      return is_part_of_it ? part_of(whole, context, i, velocity, selection) : WallLoads<Dim>();
     });
     loads.gather(context.ranks);
     return loads;
@@ -201,15 +192,7 @@ class WallForceProbe {
       if (integrated_[wall_of(context, k)]) taken[k] = 0.0;
     }
     Selection selection = select(context, std::move(taken));
-    WallLoads<Dim> loads = sum_over(context.particles.owned, WallLoads<Dim>(), [&](std::size_t i) {
-      const Vec<Dim>& x = context.particles.position[i];
-      if (forces[i].isZero(0.0) || !is_near(context, selection.around, x)) return WallLoads<Dim>();
-      WallLoads<Dim> through;
-      through.pressure = forces[i];
-      return part_of(through, context, i, velocity, selection);
-    });
-    loads.gather(context.ranks);
-    return loads;
+    return loads_of_pairs(context, velocity, selection, [&](std::size_t i) { return forces[i]; });
   }
 
   /// The loads of the pressure that balances the weight on the selected patches; the same on all ranks.
@@ -280,12 +263,16 @@ class WallForceProbe {
   /// wall, so its moment is the same from the particle as from the wall.
   WallLoads<Dim> loads_at(const ProbeContext<Dim>& context, std::size_t i) const {
     WallLoads<Dim> loads;
-    loads.pressure = context.wall_forces->pressure[i] + context.wall_forces->through_water[i];
+    loads.pressure = pressure_at(context, i);
     loads.friction = context.wall_forces->friction[i];
     const Vec<Dim>& x = context.particles.position[i];
     if (!loads.pressure.isZero(0.0)) loads.moment += moment(x, loads.pressure);
     if (!loads.friction.isZero(0.0)) loads.moment += moment(foot(context, x), loads.friction);
     return loads;
+  }
+
+  static Vec<Dim> pressure_at(const ProbeContext<Dim>& context, std::size_t i) {
+    return context.wall_forces->pressure[i] + context.wall_forces->through_water[i];
   }
 
   Vec<Dim> foot(const ProbeContext<Dim>& context, const Vec<Dim>& x) const {
@@ -403,15 +390,7 @@ Reading<Dim> force_reading(const ProbeTable& probe, const CaseSpec& spec, const 
     return {row};
   };
   reading.memory = memory;
-  reading.totals = [memory] {
-    const ForceMemory<Dim> so_far{*memory};
-    std::vector<double> totals{so_far.largest(), so_far.time_of_largest()};
-    const Vec<Dim> whole = so_far.impulse();
-    for (const double impulse : whole) {
-      totals.push_back(so_far.duration() > 0.0 ? impulse / so_far.duration() : 0.0);
-    }
-    return totals;
-  };
+  reading.totals = [memory] { return ForceMemory<Dim>{*memory}.totals(); };
   return reading;
 }
 

@@ -119,8 +119,8 @@ bool WallParticleCollector<Dim>::is_behind_mesh(const WallPlace<Dim>& place, con
 template <int Dim>
 bool WallParticleCollector<Dim>::lies_on_own_wall(const WallPlace<Dim>& place, const WallFace<Dim>& face) const {
   return face.height(place.foot) < touch_ && std::ranges::any_of(place.normals, [&](const Vec<Dim>& n) {
-    return face.normal.dot(n) > 1.0 - corner_tolerance;
-  });
+           return face.normal.dot(n) > 1.0 - corner_tolerance;
+         });
 }
 
 template <int Dim>

@@ -30,8 +30,8 @@ FractionAt<Dim> spacing_as_drawn(const CaseSpec& spec, const Boundary<Dim>& boun
 template <int Dim>
 std::vector<WallPatch<Dim>> divide(const CaseSpec& spec, const Boundary<Dim>& boundary,
                                    const FractionAt<Dim>& spacing_at) {
-  return outer_patches(
-      spec, boundary, make_wall_patches<Dim>(boundary, longest_patch_edge * spec.particles.spacing, spacing_at));
+  return outer_patches(spec, boundary,
+                       make_wall_patches<Dim>(boundary, longest_patch_edge * spec.particles.spacing, spacing_at));
 }
 
 template <int Dim>
@@ -101,6 +101,16 @@ void PatchesOfWalls<Dim>::place(const Boundary<Dim>& boundary) {
   moving_corners_ = std::move(corners);
   ++moves_;
   wetted_.place(boundary, all_);
+}
+
+template <int Dim>
+std::vector<bool> PatchesOfWalls<Dim>::walls_with(const Boundary<Dim>& boundary,
+                                                  const std::vector<double>& values) const {
+  std::vector<bool> walls(boundary.walls.size(), false);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (values[k] > 0.0) walls[boundary.faces[all_[k].face].wall] = true;
+  }
+  return walls;
 }
 
 template class PatchesOfWalls<2>;

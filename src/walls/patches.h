@@ -27,6 +27,8 @@ class PatchesOfWalls {
 
   std::span<const WallPatch<Dim>> all() const { return all_; }
   const WettedPatches<Dim>& wetted() const { return wetted_; }
+  /// By wall, whether one of its patches has a value above 0; none has without values.
+  std::vector<bool> walls_with(const Boundary<Dim>& boundary, const std::vector<double>& values) const;
   /// The row of the table of walls nearest to a patch on a wall that moves; -1 for others.
   std::int32_t row(std::size_t patch) const { return row_[patch]; }
   /// The number of times that the walls have moved.

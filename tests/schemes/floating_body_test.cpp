@@ -111,8 +111,8 @@ TEST(FloatingBody, AnOpenHullStaysAtItsDraught) {
   expect_at_draught(flow, 0.5, 0.1 * dx);
 }
 
-// A T of two boxes, as heavy as the water it displaces. What the boxes hide of each other counted as wet, by which the
-// T rose by 5 mm in the time of the test.
+// A T of two boxes, as heavy as the water it displaces. The parts that the boxes hide of each other counted as wet, by
+// which the T rose by 5 mm in the time of the test.
 TEST(FloatingBody, OfSeveralWallsHoversUnderWater) {
   constexpr double dx = 0.025;
   for (const double overlap : {0.0, 0.001, 0.05}) {

@@ -82,7 +82,8 @@ TEST(Siphon, ReportsAVoidThatNoAirCanReach) {
 }
 
 /// A full channel with a roof that empties through its open end. The front of the air moves to the left, and the roof
-/// would pull the water beyond it (Benjamin 1968). Without tension the water leaves the whole roof, 10 to 20 % too fast.
+/// would pull the water beyond it (Benjamin 1968). Without tension the water leaves the whole roof, 10 to 20 % too
+/// fast.
 TEST(ClosedChannelThatEmpties, ReportsThatItsRoofWouldPull) {
   for (const double tension : {0.0, 5e3}) {
     CaseSpec spec = testing_cases::empty_case(0.01);

@@ -82,9 +82,8 @@ TEST(FloorOfABoxThatEnds, ActsLikeAFloorOfTriangles) {
   spec.fluid = {box_fluid({0.0, 0.0, 0.0}, {length, width, 0.15})};
   spec.fluid[0].velocity = {1.5, 0.0, 0.0};
   std::vector<double> energies;
-  for (const WallTable& wall :
-       {box_wall({0.0, 0.0, 0.0}, {length, width, 0.3}, {"-x", "+x", "-y", "+y", "+z"}),
-        folder.wall(floor, FluidSide::above)}) {
+  for (const WallTable& wall : {box_wall({0.0, 0.0, 0.0}, {length, width, 0.3}, {"-x", "+x", "-y", "+y", "+z"}),
+                                folder.wall(floor, FluidSide::above)}) {
     spec.walls = {wall};
     Flow<3> flow = make_flow<3>(spec);
     while (flow.state.time < 0.2) step(flow);
