@@ -15,6 +15,30 @@ double distance_to(const RimPiece<3>& piece, const Vec<3>& x) {
   return (x - piece[0] - share * edge).norm();
 }
 
+/// Fraction of the way from one point to another at which the line passes the plane of a screen.
+template <int Dim>
+double passed_at(const Screen<Dim>& screen, const Vec<Dim>& from, const Vec<Dim>& to) {
+  const double before = screen.height(from);
+  return before / (before - screen.height(to));
+}
+
+/// Passages that differ by less are at one place, such as the line along which two plates meet. The wall with the lower
+/// index counts as the first one there.
+constexpr double same_passage = 1e-9;
+
+/// Where the line from water to a wall particle first passes the wall through whose screens the particle acts; infinite
+/// if it does not.
+template <int Dim>
+double first_passage(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& water,
+                     const Vec<Dim>& particle, int felt) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const int s : near) {
+    if (screens[s].wall != felt || screens[s].hidden_fraction(water, particle) == 0.0) continue;
+    first = std::min(first, passed_at(screens[s], water, particle));
+  }
+  return first;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -80,9 +104,17 @@ Box<Dim> Screen<Dim>::box() const {
 
 template <int Dim>
 double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
-                        const Vec<Dim>& to, int felt) {
+                        const Vec<Dim>& to, int felt, bool is_wall_first) {
   if (felt == never_felt) return 0.0;
-  double through_own = felt >= 0 ? 0.0 : 1.0;
+  const bool has_own = felt >= 0;
+  const Vec<Dim>& water = is_wall_first ? to : from;
+  const Vec<Dim>& particle = is_wall_first ? from : to;
+  const double own_passage = has_own ? first_passage<Dim>(screens, near, water, particle, felt) : 0.0;
+  const auto is_behind_own = [&](const Screen<Dim>& screen) {
+    const double behind = passed_at(screen, water, particle) - own_passage;
+    return behind > (screen.wall < felt ? same_passage : -same_passage);
+  };
+  double through_own = has_own ? 0.0 : 1.0;
   double visible = 1.0;
   double hidden = 0.0;  // by the last wall
   int wall = -1;
@@ -92,7 +124,7 @@ double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const in
     if (fraction == 0.0) continue;
     if (screen.wall == felt) {
       through_own = std::max(through_own, fraction);
-    } else if (screen.is_plate || felt == felt_past_screens) {
+    } else if ((screen.is_plate || felt == felt_past_screens) && !(has_own && is_behind_own(screen))) {
       if (screen.wall != wall) {
         visible *= 1.0 - hidden;
         hidden = 0.0;
@@ -108,7 +140,9 @@ template struct Screen<2>;
 template struct Screen<3>;
 template double distance_to_rim(std::span<const RimPiece<2>>, const Vec<2>&);
 template double distance_to_rim(std::span<const RimPiece<3>>, const Vec<3>&);
-template double visible_fraction(std::span<const Screen<2>>, std::span<const int>, const Vec<2>&, const Vec<2>&, int);
-template double visible_fraction(std::span<const Screen<3>>, std::span<const int>, const Vec<3>&, const Vec<3>&, int);
+template double visible_fraction(std::span<const Screen<2>>, std::span<const int>, const Vec<2>&, const Vec<2>&, int,
+                                 bool);
+template double visible_fraction(std::span<const Screen<3>>, std::span<const int>, const Vec<3>&, const Vec<3>&, int,
+                                 bool);
 
 }  // namespace tailwater

@@ -74,10 +74,14 @@ inline constexpr int never_felt = -3;
 
 /// Fraction of the interaction between two points that the screens `near` them, given by index, leave. `felt` applies
 /// to the wall particle of the two points, if there is one. It is the index of the wall through whose screens the
-/// particle acts, because it replaces the water hidden by that wall, or one of the constants above.
+/// particle acts, because it replaces the water hidden by that wall, or one of the constants above. The wall particle
+/// is at `to`, or at `from` if `is_wall_first`.
+///
+/// Water that several walls hide is replaced once, by the particles of the wall that the line from the other point
+/// passes first. Screens behind that wall therefore do not reduce the interaction with its particles.
 template <int Dim>
 double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
-                        const Vec<Dim>& to, int felt);
+                        const Vec<Dim>& to, int felt, bool is_wall_first = false);
 
 /// Whether the screens `near` two points of water hide more than half of one from the other.
 template <int Dim>

@@ -61,8 +61,9 @@ void hide_pairs_behind_screens(const Walls<Dim>& walls, const Particles<Dim>& pa
     const bool is_forward = particles.id[i] < particles.id[j];
     const Vec<Dim>& from = particles.position[is_forward ? i : j];
     const Vec<Dim>& to = particles.position[is_forward ? j : i];
-    const int wall = felt[i] == felt_past_screens ? felt[j] : felt[i];
-    return static_cast<float>(visible_fraction<Dim>(screens, near, from, to, wall));
+    const bool is_wall = felt[i] != felt_past_screens;
+    const int wall = is_wall ? felt[i] : felt[j];
+    return static_cast<float>(visible_fraction<Dim>(screens, near, from, to, wall, is_wall == is_forward));
   });
 }
 
