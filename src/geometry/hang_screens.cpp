@@ -99,7 +99,9 @@ std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& 
       } else {
         screens[piece[end]].range[0][end] += side * lengths.reach;
       }
-    } else if (!is_continued(boundary, x, plate.wall, f, lengths)) {
+    } else if (is_continued(boundary, x, plate.wall, f, lengths)) {
+      screens[piece[end]].range[0][end] += side * distance_to_plate(boundary, x, out, plate.wall, lengths);
+    } else {
       fade_out(x, out, last[end], lengths.fade(), screens);
     }
   }
@@ -180,6 +182,10 @@ std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& 
         } else {
           whole.range[axis][end] += side * lengths.reach;
         }
+      }
+      if (kind == RimEnd::continued) {
+        whole.range[axis][end] +=
+            side * distance_to_plate(boundary, Vec<3>(0.5 * (from + to)), out, plate.wall, lengths);
       }
       if (kind == RimEnd::free) free_ends.push_back({axis, end});
     }

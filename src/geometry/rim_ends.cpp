@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "geometry/mesh_surface.h"
 
@@ -11,6 +12,9 @@ namespace {
 
 /// Cosine of the angle between the normal of a wall and the direction in which an edge points at the wall.
 constexpr double faces_edge = -0.5;
+
+/// Sine of the angle between two plates with a smaller angle, which are not drawn on to each other.
+constexpr double min_closing = 0.25;
 
 template <int Dim>
 bool is_near(const WallFace<Dim>& face, const Vec<Dim>& x, double distance) {
@@ -67,6 +71,23 @@ WallBesidePlate closing_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, c
 template <int Dim>
 bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths) {
   return is_at_opening(boundary, x, lengths) || is_at_plate(boundary, x, own, piece, lengths);
+}
+
+template <int Dim>
+double distance_to_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, int own,
+                         const Lengths& lengths) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const WallPlate& plate : boundary.plates) {
+    if (plate.wall == own) continue;
+    for (int f = plate.first_face; f < plate.first_face + plate.pieces; ++f) {
+      const WallFace<Dim>& face = boundary.faces[f];
+      const double closing = -face.normal.dot(out);
+      if (std::abs(closing) < min_closing || !is_near(face, x, lengths.gap())) continue;
+      const double distance = face.height(x) / closing;
+      if (std::abs(distance) < std::abs(nearest)) nearest = distance;
+    }
+  }
+  return std::isfinite(nearest) ? nearest : 0.0;
 }
 
 RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
@@ -142,5 +163,7 @@ template WallBesidePlate closing_wall(const Boundary<2>&, const Vec<2>&, const V
 template WallBesidePlate closing_wall(const Boundary<3>&, const Vec<3>&, const Vec<3>&, double, int);
 template bool is_continued(const Boundary<2>&, const Vec<2>&, int, int, const Lengths&);
 template bool is_continued(const Boundary<3>&, const Vec<3>&, int, int, const Lengths&);
+template double distance_to_plate(const Boundary<2>&, const Vec<2>&, const Vec<2>&, int, const Lengths&);
+template double distance_to_plate(const Boundary<3>&, const Vec<3>&, const Vec<3>&, int, const Lengths&);
 
 }  // namespace tailwater

@@ -39,6 +39,13 @@ bool is_closed_by_wall(const Boundary<Dim>& boundary, const Vec<Dim>& x, const V
 template <int Dim>
 bool is_continued(const Boundary<Dim>& boundary, const Vec<Dim>& x, int own, int piece, const Lengths& lengths);
 
+/// Distance [m] of an end of a plate at `x` from another plate, in the direction `out` in which the end points. It is
+/// negative if the end has passed the plate, and 0 if no plate is as near as ends that count as closed, or if the
+/// plates are parallel.
+template <int Dim>
+double distance_to_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x, const Vec<Dim>& out, int own,
+                         const Lengths& lengths);
+
 /// Determines how an edge of wall `own` ends, in steps of dx.
 RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
                  const Lengths& lengths);

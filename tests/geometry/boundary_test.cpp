@@ -309,6 +309,23 @@ TEST(Screens, FadeAtAnEdge) {
   }
 }
 
+// An end that is nearer to another plate than half a spacing leaves no opening beside it, nor does it go through.
+TEST(Screens, EndAtAPlate) {
+  CaseSpec spec = empty_case(0.1);
+  WallTable level = polyline({{-1.0, 0.0}, {1.0, 0.0}});
+  level.shape = WallShape::plate;
+  for (const double end : {-0.04, 0.0, 0.04}) {
+    WallTable upright = polyline({{0.0, -1.0}, {0.0, end}});
+    upright.shape = WallShape::plate;
+    spec.walls = {upright, level};
+    const Boundary<2> boundary = make_boundary<2>(spec);
+    for (const Screen<2>& screen : boundary.screens) {
+      if (screen.wall != 0 || screen.is_beyond) continue;
+      EXPECT_NEAR(screen.box().max()[1], 0.0, 1e-6) << end;
+    }
+  }
+}
+
 TEST(FreeEnds, HaveNothingBehindThem) {
   CaseSpec spec = empty_case(0.1);
   const WallTable floor = polyline({{-1.0, 0.0}, {0.0, 0.0}});
