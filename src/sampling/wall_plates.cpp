@@ -13,8 +13,22 @@
 namespace tailwater {
 namespace {
 
+/// Whether two places are images of each other in different periods.
+template <int Dim>
+bool are_images(const PeriodicDomain<Dim>& domain, const Vec<Dim>& a, const Vec<Dim>& b, double tolerance) {
+  Vec<Dim> apart = a - b;
+  if (apart.norm() <= tolerance) return false;
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (!domain[axis]) continue;
+    const double period = domain[axis]->second - domain[axis]->first;
+    apart[axis] -= period * std::round(apart[axis] / period);
+  }
+  return apart.norm() <= tolerance;
+}
+
 /// The faces of one side of a plate, extended in its plane by `reach` beyond each end, because the region that a plate
-/// hides from a particle widens behind the plate. At a periodic boundary the image of the plate follows.
+/// hides from a particle widens behind the plate. Where the image of its own other end follows in the next period, the
+/// plate is not extended.
 Boundary<2> widened_side(const Boundary<2>& boundary, const WallPlate& plate, bool is_front, double reach,
                          double tolerance) {
   Boundary<2> side;
@@ -27,9 +41,11 @@ Boundary<2> widened_side(const Boundary<2>& boundary, const WallPlate& plate, bo
   const int head = is_front ? 0 : 1;
   const Vec<2> before = (first.corners[head] - first.corners[1 - head]).normalized();
   const Vec<2> after = (last.corners[1 - head] - last.corners[head]).normalized();
-  for (const auto& [end, out] : {std::pair{&first.corners[head], before}, {&last.corners[1 - head], after}}) {
-    if (!is_in_periodic_plane<2>(boundary.domain, *end, tolerance)) *end += reach * out;
-  }
+  Vec<2>& begin = first.corners[head];
+  Vec<2>& end = last.corners[1 - head];
+  if (are_images<2>(boundary.domain, begin, end, tolerance)) return side;
+  begin += reach * before;
+  end += reach * after;
   return side;
 }
 
@@ -40,12 +56,43 @@ WallParticles<2> sample_side(const Boundary<2>& boundary, const WallPlate& plate
       layers);
 }
 
-/// Whether an edge lies in a periodic boundary, beyond which the image of its plate follows.
-bool lies_between_periods(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, double spacing) {
+/// An edge of the rim of a plate.
+struct RimEdge {
+  Vec<3> from, to;
+  Vec<3> out;  ///< unit vector in the plane of the plate
+};
+
+/// Whether the image of one edge of a plate is another one from which the plate goes straight on in the next period.
+bool goes_on_between_periods(const Boundary<3>& boundary, const RimEdge& edge, const RimEdge& other, double spacing) {
+  constexpr double straight_cosine = -0.866;  // up to 30 degrees, as within a run of faces in 2D
   const double tolerance = corner_tolerance * spacing;
-  return is_in_periodic_plane<3>(boundary.domain, Vec<3>(0.5 * (from + to)), tolerance) &&
-         is_in_periodic_plane<3>(boundary.domain, from, tolerance) &&
-         is_in_periodic_plane<3>(boundary.domain, to, tolerance);
+  const auto are_two = [&](const Vec<3>& a, const Vec<3>& b) {
+    return are_images<3>(boundary.domain, a, b, tolerance);
+  };
+  return edge.out.dot(other.out) < straight_cosine && ((are_two(edge.from, other.from) && are_two(edge.to, other.to)) ||
+                                                       (are_two(edge.from, other.to) && are_two(edge.to, other.from)));
+}
+
+RimEdge rim_edge(const TriangleMesh& mesh, int t, int e) {
+  const Vec<3>& from = mesh.corner(t, e);
+  const Vec<3>& to = mesh.corner(t, (e + 1) % 3);
+  return {from, to, (to - from).cross(mesh.area_normal(t)).normalized()};
+}
+
+/// The edges of the rim of a sheet that are in periodic planes.
+std::vector<RimEdge> edges_between_periods(const Boundary<3>& boundary, const MeshSurface& sheet, double spacing) {
+  std::vector<RimEdge> edges;
+  const double tolerance = corner_tolerance * spacing;
+  for (int t = 0; t < static_cast<int>(sheet.mesh().triangles.size()); ++t) {
+    for (int e = 0; e < 3; ++e) {
+      if (sheet.neighbours()[t][e] >= 0) continue;
+      const RimEdge edge = rim_edge(sheet.mesh(), t, e);
+      if (is_in_periodic_plane<3>(boundary.domain, Vec<3>(0.5 * (edge.from + edge.to)), tolerance)) {
+        edges.push_back(edge);
+      }
+    }
+  }
+  return edges;
 }
 
 /// Nodes of the water's lattice, as behind other meshes, so that water on the lattice sees the lattice continued behind
@@ -53,9 +100,11 @@ bool lies_between_periods(const Boundary<3>& boundary, const Vec<3>& from, const
 WallParticles<3> sample_side_of_sheet(const Boundary<3>& boundary, const WallPlate& plate, bool is_front,
                                       const WallLayers& layers, const Lattice<3>& lattice) {
   const double depth = layers.count * layers.spacing;
-  const TriangleMesh& drawn = plate.sheet->mesh();
+  const std::vector<RimEdge> between = edges_between_periods(boundary, *plate.sheet, layers.spacing);
   WidenedSheet wide = widened(*plate.sheet, depth, [&](int t, int e, const Vec<3>& /*out*/) {
-    return !lies_between_periods(boundary, drawn.corner(t, e), drawn.corner(t, (e + 1) % 3), layers.spacing);
+    const RimEdge edge = rim_edge(plate.sheet->mesh(), t, e);
+    return std::ranges::none_of(
+        between, [&](const RimEdge& other) { return goes_on_between_periods(boundary, edge, other, layers.spacing); });
   });
   const MeshSurface surface(std::move(wide.mesh));
   WallParticleCollector<3> collector(boundary, layers);
@@ -87,19 +136,19 @@ WallParticles<3> sample_side(const Boundary<3>& boundary, const WallPlate& plate
     step[axis] = length[axis] / count[axis];
   }
   WallParticleCollector<3> collector(boundary, layers);
-  // Numbers of steps beyond the ends, by axis and end.
-  std::array<std::array<int, 2>, 2> more{};
+  // Numbers of steps beyond the ends, by axis.
+  std::array<int, 2> more{};
   for (const int axis : {0, 1}) {
-    for (const int end : {0, 1}) {
-      const Vec<3> from = screen.corner + end * length[axis] * screen.along[axis];
-      const Vec<3> to = from + length[1 - axis] * screen.along[1 - axis];
-      more[axis][end] = lies_between_periods(boundary, from, to, layers.spacing) ? 0 : layers.count;
-    }
+    const Vec<3> across = length[1 - axis] * screen.along[1 - axis];
+    const Vec<3> far_corner = screen.corner + length[axis] * screen.along[axis];
+    const RimEdge near{screen.corner, screen.corner + across, -screen.along[axis]};
+    const RimEdge far{far_corner, far_corner + across, screen.along[axis]};
+    more[axis] = goes_on_between_periods(boundary, near, far, layers.spacing) ? 0 : layers.count;
   }
   for (int layer = 0; layer < layers.count; ++layer) {
     const double depth = layers.first_depth() + layer * layers.spacing;
-    for (int j = -more[1][0]; j < count[1] + more[1][1]; ++j) {
-      for (int i = -more[0][0]; i < count[0] + more[0][1]; ++i) {
+    for (int j = -more[1]; j < count[1] + more[1]; ++j) {
+      for (int i = -more[0]; i < count[0] + more[0]; ++i) {
         const Vec<3> foot =
             screen.corner + (i + 0.5) * step[0] * screen.along[0] + (j + 0.5) * step[1] * screen.along[1];
         collector.add({.position = foot - depth * normal,
