@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "base/box.h"
 #include "geometry/boundary.h"
@@ -82,12 +83,90 @@ void fade_out(const Vec<2>& end, const Vec<2>& out, const Screen<2>& last, doubl
   screens.push_back(beyond);
 }
 
+/// The number of ends or edges of a plate.
+template <int Dim>
+constexpr int ends_of_plate = 2 * (Dim - 1);
+
+/// End 0 or 1 of a plate: a point, and the direction in which the end points.
+std::pair<RimPiece<2>, Vec<2>> end_of(const Boundary<2>& boundary, const WallPlate& plate, int end) {
+  const WallFace<2>& face = boundary.faces[plate.first_face + (end == 0 ? 0 : plate.pieces - 1)];
+  return {{face.corners[end]}, (face.corners[end] - face.corners[1 - end]).normalized()};
+}
+
+/// Edge `end % 2` along axis `end / 2` of a rectangle.
+std::pair<RimPiece<3>, Vec<3>> end_of(const Boundary<3>& boundary, const WallPlate& plate, int end) {
+  const Screen<3> bare = rectangle_of(boundary, plate);
+  const int axis = end / 2;
+  const Vec<3> from = bare.corner + bare.range[axis][end % 2] * bare.along[axis];
+  return {{from, from + bare.range[1 - axis][1] * bare.along[1 - axis]},
+          (end % 2 == 0 ? -1.0 : 1.0) * bare.along[axis]};
+}
+
+/// Whether two ends of plates are at the same place.
+template <int Dim>
+bool coincide(const RimPiece<Dim>& a, const RimPiece<Dim>& b, double tolerance) {
+  const auto are_near = [&](bool is_reversed) {
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      if ((a[k] - b[is_reversed ? b.size() - 1 - k : k]).norm() > tolerance) return false;
+    }
+    return true;
+  };
+  return are_near(false) || are_near(true);
+}
+
+/// The number of the corner that an end of a plate makes with the end of one other plate; -1: it makes none. Where more
+/// plates meet, no line passes several of them from one side to the same side.
+template <int Dim>
+int corner_number(const Boundary<Dim>& boundary, const WallPlate& plate, int end, const Lengths& lengths) {
+  constexpr double straight_cosine = 0.996;  // of 5 degrees: the plates go straight on, or lie on each other
+  const auto [piece, out] = end_of(boundary, plate, end);
+  Vec<Dim> middle = Vec<Dim>::Zero();
+  for (const Vec<Dim>& x : piece) middle += x / static_cast<double>(piece.size());
+  int found = -1;
+  int plates_near = 0;
+  for (std::size_t p = 0; p < boundary.plates.size(); ++p) {
+    const WallPlate& other = boundary.plates[p];
+    bool is_near = false;
+    for (int f = other.first_face; f < other.first_face + other.pieces; ++f) {
+      is_near = is_near || (closest_point(boundary.faces[f], middle) - middle).norm() <= lengths.gap();
+    }
+    plates_near += is_near ? 1 : 0;
+    if (other.sheet || other.wall == plate.wall) continue;
+    for (int e = 0; is_near && e < ends_of_plate<Dim>; ++e) {
+      const auto [there, out_there] = end_of(boundary, other, e);
+      if (!coincide<Dim>(piece, there, lengths.gap()) || std::abs(out.dot(out_there)) > straight_cosine) continue;
+      const int own_number = ends_of_plate<Dim> * static_cast<int>(&plate - boundary.plates.data()) + end;
+      found = std::min(own_number, ends_of_plate<Dim> * static_cast<int>(p) + e);
+    }
+  }
+  return plates_near == 2 ? found : -1;
+}
+
+/// Makes a corner part of the screens of a plate near it, and adds the screen beyond it.
+template <int Dim>
+void add_corner(const ScreenCorner<Dim>& corner, Screen<Dim> beyond, const Lengths& lengths,
+                std::vector<Screen<Dim>>& screens) {
+  Box<Dim> around;
+  for (const Vec<Dim>& x : corner.piece) around.extend(x);
+  for (Screen<Dim>& screen : screens) {
+    if (screen.is_beyond || screen.box().exteriorDistance(around) > lengths.reach) continue;
+    screen.corners.push_back(corner);
+    screen.fade = lengths.fade();
+  }
+  beyond.is_beyond = true;
+  beyond.rim.clear();
+  beyond.corners = {corner};
+  beyond.fade = lengths.fade();
+  screens.push_back(std::move(beyond));
+}
+
 /// The screens of one plate, drawn on behind the walls at which it ends.
 std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& plate, const Lengths& lengths) {
   std::vector<Screen<2>> screens;
   for (int piece = 0; piece < plate.pieces; ++piece) screens.push_back(bare_screen(boundary, plate, piece));
   const std::array<Screen<2>, 2> last{screens.front(), screens.back()};
   const std::array<int, 2> piece{0, plate.pieces - 1};
+  std::vector<std::pair<ScreenCorner<2>, Screen<2>>> corners;  // with the screens beyond them
   for (const int end : {0, 1}) {
     const int f = plate.first_face + piece[end];
     const Vec<2>& x = boundary.faces[f].corners[end];
@@ -100,11 +179,20 @@ std::vector<Screen<2>> screens_of(const Boundary<2>& boundary, const WallPlate& 
         screens[piece[end]].range[0][end] += side * lengths.reach;
       }
     } else if (is_continued(boundary, x, plate.wall, f, lengths)) {
-      screens[piece[end]].range[0][end] += side * distance_to_plate(boundary, x, out, plate.wall, lengths);
+      const double distance = distance_to_plate(boundary, x, out, plate.wall, lengths);
+      screens[piece[end]].range[0][end] += side * distance;
+      if (const int number = corner_number<2>(boundary, plate, end, lengths); number >= 0) {
+        Screen<2> beyond = last[end];
+        beyond.corner = x + distance * out;
+        beyond.along = {out};
+        beyond.range = {{{0.0, lengths.fade()}}};
+        corners.push_back({{number, {beyond.corner}}, beyond});
+      }
     } else {
       fade_out(x, out, last[end], lengths.fade(), screens);
     }
   }
+  for (const auto& [corner, beyond] : corners) add_corner<2>(corner, beyond, lengths, screens);
   return screens;
 }
 
@@ -168,6 +256,7 @@ std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& 
   const Screen<3> bare = rectangle_of(boundary, plate);
   Screen<3> whole = bare;
   std::vector<std::array<int, 2>> free_ends;  // axis, end
+  std::vector<std::array<int, 3>> corners;    // axis, end, number
   std::vector<Screen<3>> screens;
   for (const int axis : {0, 1}) {
     for (const int end : {0, 1}) {
@@ -186,6 +275,8 @@ std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& 
       if (kind == RimEnd::continued) {
         whole.range[axis][end] +=
             side * distance_to_plate(boundary, Vec<3>(0.5 * (from + to)), out, plate.wall, lengths);
+        const int number = corner_number<3>(boundary, plate, 2 * axis + end, lengths);
+        if (number >= 0) corners.push_back({axis, end, number});
       }
       if (kind == RimEnd::free) free_ends.push_back({axis, end});
     }
@@ -194,18 +285,28 @@ std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& 
   Screen<3> wide = whole;
   for (const auto& [axis, end] : free_ends) wide.range[axis][end] += (end == 0 ? -1.0 : 1.0) * lengths.fade();
   screens.insert(screens.begin(), whole);
+  const auto piece_at = [&](int axis, double edge) {
+    const std::array<double, 2>& across = whole.range[1 - axis];
+    return axis == 0 ? RimPiece<3>{at(edge, across[0]), at(edge, across[1])}
+                     : RimPiece<3>{at(across[0], edge), at(across[1], edge)};
+  };
   std::vector<RimPiece<3>> rim;
   for (const auto& [axis, end] : free_ends) {
     const double edge = whole.range[axis][end];
-    const std::array<double, 2>& across = whole.range[1 - axis];
-    rim.push_back(axis == 0 ? RimPiece<3>{at(edge, across[0]), at(edge, across[1])}
-                            : RimPiece<3>{at(across[0], edge), at(across[1], edge)});
+    rim.push_back(piece_at(axis, edge));
     Screen<3> strip = wide;
     strip.range[axis][1 - end] = edge;
     strip.is_beyond = true;
     screens.push_back(strip);
   }
   share_rim(rim, lengths.fade(), screens);
+  for (const auto& [axis, end, number] : corners) {
+    const double edge = whole.range[axis][end];
+    Screen<3> beyond = whole;
+    beyond.range[axis][1 - end] = edge;
+    beyond.range[axis][end] = edge + (end == 0 ? -1.0 : 1.0) * lengths.fade();
+    add_corner<3>({number, piece_at(axis, edge)}, beyond, lengths, screens);
+  }
   return screens;
 }
 
@@ -305,6 +406,9 @@ void append_images(const PeriodicDomain<Dim>& domain, const Box<Dim>& space, std
       screens.back().corner += moved;
       for (RimPiece<Dim>& piece : screens.back().rim) {
         for (Vec<Dim>& x : piece) x += moved;
+      }
+      for (ScreenCorner<Dim>& corner : screens.back().corners) {
+        for (Vec<Dim>& x : corner.piece) x += moved;
       }
     });
   }

@@ -15,30 +15,6 @@ double distance_to(const RimPiece<3>& piece, const Vec<3>& x) {
   return (x - piece[0] - share * edge).norm();
 }
 
-/// Fraction of the way from one point to another at which the line passes the plane of a screen.
-template <int Dim>
-double passed_at(const Screen<Dim>& screen, const Vec<Dim>& from, const Vec<Dim>& to) {
-  const double before = screen.height(from);
-  return before / (before - screen.height(to));
-}
-
-/// Passages that differ by less are at one place, such as the line along which two plates meet. The wall with the lower
-/// index counts as the first one there.
-constexpr double same_passage = 1e-9;
-
-/// Where the line from water to a wall particle first passes the wall through whose screens the particle acts; infinite
-/// if it does not.
-template <int Dim>
-double first_passage(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& water,
-                     const Vec<Dim>& particle, int felt) {
-  double first = std::numeric_limits<double>::infinity();
-  for (const int s : near) {
-    if (screens[s].wall != felt || screens[s].hidden_fraction(water, particle) == 0.0) continue;
-    first = std::min(first, passed_at(screens[s], water, particle));
-  }
-  return first;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -73,9 +49,20 @@ bool Screen<Dim>::is_between(const Vec<Dim>& from, const Vec<Dim>& to) const {
 template <int Dim>
 double Screen<Dim>::hidden_fraction(const Vec<Dim>& from, const Vec<Dim>& to) const {
   Vec<Dim> passage;
-  if (!find_passage(from, to, passage)) return 0.0;
+  if (is_beyond_corner() || !find_passage(from, to, passage)) return 0.0;
   if (rim.empty()) return 1.0;
-  const double inside = (is_beyond ? -1.0 : 1.0) * distance_to_rim<Dim>(rim, passage);
+  return faded((is_beyond ? -1.0 : 1.0) * distance_to_rim<Dim>(rim, passage));
+}
+
+template <int Dim>
+double Screen<Dim>::fraction_at(const ScreenCorner<Dim>& at, const Vec<Dim>& from, const Vec<Dim>& to) const {
+  Vec<Dim> passage;
+  if (!find_passage(from, to, passage)) return 0.0;
+  return faded((is_beyond ? -1.0 : 1.0) * distance_to(at.piece, passage));
+}
+
+template <int Dim>
+double Screen<Dim>::faded(double inside) const {
   const double q = std::clamp(0.5 * (1.0 + inside / fade), 0.0, 1.0);
   return q * q * (3.0 - 2.0 * q);
 }
@@ -102,6 +89,65 @@ Box<Dim> Screen<Dim>::box() const {
   return box;
 }
 
+namespace {
+
+/// Fraction of the way from one point to another at which the line passes the plane of a screen.
+template <int Dim>
+double passed_at(const Screen<Dim>& screen, const Vec<Dim>& from, const Vec<Dim>& to) {
+  const double before = screen.height(from);
+  return before / (before - screen.height(to));
+}
+
+/// Passages that differ by less are at one place, such as the line along which two plates meet. The wall with the lower
+/// index counts as the first one there.
+constexpr double same_passage = 1e-9;
+
+/// Hidden fraction between two points by one of the screens `near` them. A corner of two plates hides all from one of
+/// its sides to the other. From a side to the same side it acts as a free rim of both plates.
+template <int Dim>
+double hidden_by(std::span<const Screen<Dim>> screens, std::span<const int> near, int s, const Vec<Dim>& from,
+                 const Vec<Dim>& to) {
+  const Screen<Dim>& screen = screens[s];
+  double fraction = screen.hidden_fraction(from, to);
+  for (const ScreenCorner<Dim>& corner : screen.corners) {
+    const double at_corner = screen.fraction_at(corner, from, to);
+    if (at_corner == 0.0 || at_corner == fraction) continue;
+    bool passes_own = false;
+    bool passes_other = false;
+    for (const int r : near) {
+      const Screen<Dim>& other = screens[r];
+      const bool has_corner =
+          std::ranges::any_of(other.corners, [&](const auto& one) { return one.number == corner.number; });
+      if (other.is_beyond || !has_corner || !other.is_between(from, to)) continue;
+      // A line through the corner itself counts as one that passes a single plate.
+      const double apart = passed_at(other, from, to) - passed_at(screen, from, to);
+      if (other.wall == screen.wall) {
+        passes_own = true;
+      } else if (screen.is_beyond || std::abs(apart) > same_passage) {
+        passes_other = true;
+      }
+    }
+    if (screen.is_beyond) return passes_own || passes_other ? 0.0 : at_corner;
+    if (passes_other) fraction = std::min(fraction, at_corner);
+  }
+  return fraction;
+}
+
+/// Where the line from water to a wall particle first passes the wall through whose screens the particle acts; infinite
+/// if it does not.
+template <int Dim>
+double first_passage(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& water,
+                     const Vec<Dim>& particle, int felt) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const int s : near) {
+    if (screens[s].wall != felt || hidden_by(screens, near, s, water, particle) == 0.0) continue;
+    first = std::min(first, passed_at(screens[s], water, particle));
+  }
+  return first;
+}
+
+}  // namespace
+
 template <int Dim>
 double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& from,
                         const Vec<Dim>& to, int felt, bool is_wall_first) {
@@ -120,7 +166,7 @@ double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const in
   int wall = -1;
   for (const int s : near) {
     const Screen<Dim>& screen = screens[s];
-    const double fraction = screen.hidden_fraction(from, to);
+    const double fraction = hidden_by(screens, near, s, from, to);
     if (fraction == 0.0) continue;
     if (screen.wall == felt) {
       through_own = std::max(through_own, fraction);

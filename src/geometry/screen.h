@@ -26,6 +26,14 @@ using RimPiece = std::array<Vec<Dim>, Dim - 1>;
 template <int Dim>
 double distance_to_rim(std::span<const RimPiece<Dim>> rim, const Vec<Dim>& x);
 
+/// A corner in which two plates end, and nothing else. The sides of the smaller angle see each other through neither
+/// plate. On the other side, lines pass both plates or none of them.
+template <int Dim>
+struct ScreenCorner {
+  int number;  ///< the same for both plates, and different for each corner
+  RimPiece<Dim> piece;
+};
+
 /// A flat piece of a wall that hides the points on one side of it from those on the other: a segment in 2D, in 3D a
 /// rectangle or, with two cuts, a triangle.
 ///
@@ -34,7 +42,8 @@ double distance_to_rim(std::span<const RimPiece<Dim>> rim, const Vec<Dim>& x);
 ///
 ///   H = q^2 (3 - 2 q),   q = clamp((1 + s/fade)/2, 0, 1)
 ///
-/// Screens beyond the rim continue the wall there, in its plane, as far as H is not 0.
+/// Screens beyond the rim continue the wall there, in its plane, as far as H is not 0. A corner of two plates is a rim
+/// of both for lines that pass both plates or none of them: lines from one side of the corner to the same side.
 template <int Dim>
 struct Screen {
   Vec<Dim> corner;
@@ -50,18 +59,25 @@ struct Screen {
   double plate_reach = 0.0;             ///< m; beyond a free end: distance up to which the wall is a plate
   double fade = 0.0;                    ///< m
   std::vector<RimPiece<Dim>> rim = {};  ///< the pieces within `fade` of the screen
+  std::vector<ScreenCorner<Dim>> corners = {};  ///< corners with other plates; one if the screen is beyond a corner
 
   double height(const Vec<Dim>& x) const { return normal.dot(x - corner); }
   /// Whether the straight line from one point to another passes the screen.
   bool is_between(const Vec<Dim>& from, const Vec<Dim>& to) const;
-  /// Hidden fraction H between two points; 0 if the straight line between them does not pass the screen.
+  /// Hidden fraction H between two points; 0 if the straight line between them does not pass the screen. At corners the
+  /// result depends on other screens: visible_fraction.
   double hidden_fraction(const Vec<Dim>& from, const Vec<Dim>& to) const;
+  bool is_beyond_corner() const { return is_beyond && !corners.empty(); }
+  /// H for a line that passes the screen, if a corner were a free rim.
+  double fraction_at(const ScreenCorner<Dim>& corner, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The axis-parallel box around the screen.
   Box<Dim> box() const;
   /// Distance [m] of `x` from the piece, or from the rectangle around it.
   double distance(const Vec<Dim>& x) const;
 
  private:
+  /// H at this distance [m] inside the rim.
+  double faded(double inside) const;
   /// Whether the line between two points passes the screen; if so, sets `passage` to the intersection.
   bool find_passage(const Vec<Dim>& from, const Vec<Dim>& to, Vec<Dim>& passage) const;
 };
