@@ -462,6 +462,9 @@ void Boundary<Dim>::hang_screens(double spacing, double reach) {
   const Vec<Dim> around = Vec<Dim>::Constant(screened_reach * reach);
   const Box<Dim> space = space_around<Dim>(domain, screened_reach * reach);
   append_images<Dim>(domain, space, screens);
+  for (Screen<Dim>& screen : screens) {
+    if (screen.is_plate) screen.fade = lengths.fade();
+  }
   // Points exactly behind the rim, such as lattice points, are hidden for any rounding.
   for (Screen<Dim>& screen : screens) {
     for (std::array<double, 2>& range : screen.range) {

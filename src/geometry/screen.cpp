@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/box.h"
 
@@ -102,6 +103,9 @@ double passed_at(const Screen<Dim>& screen, const Vec<Dim>& from, const Vec<Dim>
 /// index counts as the first one there.
 constexpr double same_passage = 1e-9;
 
+/// Squared sine of the angle between two plates that meet; with less they go straight on.
+constexpr double min_square_of_sine = 0.01;
+
 /// Hidden fraction between two points by one of the screens `near` them. A corner of two plates hides all from one of
 /// its sides to the other. From a side to the same side it acts as a free rim of both plates.
 template <int Dim>
@@ -146,6 +150,91 @@ double first_passage(std::span<const Screen<Dim>> screens, std::span<const int> 
   return first;
 }
 
+/// The place on a line at which two flat pieces meet, seen along the line in which their planes cross.
+template <int Dim>
+struct Meeting {
+  Vec<Dim> place;
+  Vec<Dim> axis = Vec<Dim>::Zero();  ///< unit vector along both pieces in 3D; 0 in 2D
+};
+
+/// Whether a screen has a part on one side of another one, at the place where they meet.
+template <int Dim>
+bool reaches_to_side(const Screen<Dim>& screen, const Meeting<Dim>& meeting, const Screen<Dim>& other, double side) {
+  const Vec<Dim> into = other.normal - other.normal.dot(screen.normal) * screen.normal;
+  const Vec<Dim> x = meeting.place + side * 0.5 * screen.fade * into.normalized();
+  return screen.distance(x) <= 0.1 * screen.fade;
+}
+
+/// Where two screens of plates meet, nearest to the point `x`; none if they do not.
+template <int Dim>
+std::optional<Meeting<Dim>> meeting_of(const Screen<Dim>& a, const Screen<Dim>& b, const Vec<Dim>& x) {
+  const double cosine = a.normal.dot(b.normal);
+  const double square_of_sine = 1.0 - cosine * cosine;
+  if (square_of_sine < min_square_of_sine) return std::nullopt;
+  // From x to both planes, along their normals only.
+  const double to_a = -a.height(x);
+  const double to_b = -b.height(x);
+  Meeting<Dim> meeting{x + ((to_a - cosine * to_b) * a.normal + (to_b - cosine * to_a) * b.normal) / square_of_sine};
+  if constexpr (Dim == 3) meeting.axis = a.normal.cross(b.normal).normalized();
+  const double near = 0.1 * a.fade;
+  if (a.distance(meeting.place) > near || b.distance(meeting.place) > near) return std::nullopt;
+  return meeting;
+}
+
+/// Distance [m] of a straight line from a place at which two pieces meet, seen along the pieces.
+template <int Dim>
+double distance_of_line(const Meeting<Dim>& meeting, const Vec<Dim>& from, const Vec<Dim>& to) {
+  const auto across = [&](const Vec<Dim>& v) { return Vec<Dim>(v - v.dot(meeting.axis) * meeting.axis); };
+  const Vec<Dim> along = across(to - from);
+  const Vec<Dim> away = across(meeting.place - from);
+  return (away - away.dot(along) / along.squaredNorm() * along).norm();
+}
+
+/// The fraction of the hidden water that another plate replaces, where the line from the water to a wall particle first
+/// passes one plate near the place where it meets the other one. The particle is hidden by both plates from an angle
+/// between them. So one plate takes over from the other as the line moves past the place.
+template <int Dim>
+double taken_over(const Screen<Dim>& first, const Screen<Dim>& other, const Vec<Dim>& water, const Vec<Dim>& particle) {
+  const double side_of_first = first.height(water) >= 0.0 ? 1.0 : -1.0;
+  const double side_of_other = other.height(water) >= 0.0 ? 1.0 : -1.0;
+  if (side_of_other * other.height(particle) >= 0.0) return 0.0;
+  const auto meeting = meeting_of(first, other, water);
+  if (!meeting || !reaches_to_side(other, *meeting, first, side_of_first) ||
+      !reaches_to_side(first, *meeting, other, side_of_other)) {
+    return 0.0;
+  }
+  const double q = 0.5 * (1.0 - std::min(1.0, distance_of_line(*meeting, water, particle) / first.fade));
+  return q * q * (3.0 - 2.0 * q);
+}
+
+/// Change of the visible fraction of a wall particle because plates that meet take over from each other.
+template <int Dim>
+double change_at_meetings(std::span<const Screen<Dim>> screens, std::span<const int> near, const Vec<Dim>& water,
+                          const Vec<Dim>& particle, int felt, double visible) {
+  const auto is_of_other = [&](int s) { return screens[s].is_plate && screens[s].wall != felt; };
+  if (std::ranges::none_of(near, is_of_other)) return 0.0;
+  int first = -1;
+  double passage = std::numeric_limits<double>::infinity();
+  for (const int s : near) {
+    if (!screens[s].is_plate || screens[s].is_beyond || !screens[s].is_between(water, particle)) continue;
+    const double at = passed_at(screens[s], water, particle);
+    if (at > passage + same_passage || (at > passage - same_passage && screens[s].wall > screens[first].wall)) continue;
+    first = s;
+    passage = at;
+  }
+  if (first < 0) return 0.0;
+  double taken = 0.0;
+  for (const int s : near) {
+    const Screen<Dim>& other = screens[s];
+    if (!other.is_plate || other.is_beyond || other.wall == screens[first].wall) continue;
+    if (screens[first].wall != felt && other.wall != felt) continue;
+    taken = std::max(taken, taken_over(screens[first], other, water, particle));
+  }
+  if (taken == 0.0) return 0.0;
+  if (screens[first].wall == felt) return -taken * visible;
+  return taken * hidden_by(screens, near, first, water, particle);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -179,7 +268,8 @@ double visible_fraction(std::span<const Screen<Dim>> screens, std::span<const in
       hidden = std::max(hidden, fraction);
     }
   }
-  return through_own * visible * (1.0 - hidden);
+  const double fraction = through_own * visible * (1.0 - hidden);
+  return has_own ? fraction + change_at_meetings(screens, near, water, particle, felt, fraction) : fraction;
 }
 
 template struct Screen<2>;

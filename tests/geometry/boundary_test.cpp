@@ -309,6 +309,50 @@ TEST(Screens, FadeAtAnEdge) {
   }
 }
 
+// Water that two plates hide is replaced once: by the particles of the plate that the line from the water passes first.
+TEST(Screens, LeaveTheParticlesOfTheFirstPlateInSight) {
+  CaseSpec spec = empty_case(0.1);
+  WallTable upright = polyline({{0.0, -1.0}, {0.0, 0.0}});
+  WallTable level = polyline({{0.0, 0.0}, {1.0, 0.0}});
+  upright.shape = level.shape = WallShape::plate;
+  spec.walls = {upright, level};
+  const Boundary<2> boundary = make_boundary<2>(spec);
+  const auto visible = [&](const Vec<2>& from, const Vec<2>& to, int felt, bool is_wall_first) {
+    return visible_fraction<2>(boundary.screens, boundary.screens_near(to, 0.3), from, to, felt, is_wall_first);
+  };
+  const Vec<2> left(-0.03, -0.18);  // beside the upright plate
+  const Vec<2> above(0.18, 0.03);   // above the level one
+  EXPECT_EQ(visible(left, above, felt_past_screens, false), 0.0);
+  for (const bool is_left_water : {false, true}) {
+    EXPECT_EQ(visible(left, above, 0, !is_left_water), is_left_water ? 1.0 : 0.0);
+    EXPECT_EQ(visible(left, above, 1, !is_left_water), is_left_water ? 0.0 : 1.0);
+    EXPECT_EQ(visible(above, left, 0, is_left_water), is_left_water ? 1.0 : 0.0);
+  }
+  // A line through the corner has the particles of one plate as well.
+  const Vec<2> inside(0.05, -0.05);
+  EXPECT_EQ(visible(inside, -inside, felt_past_screens, false), 0.0);
+  EXPECT_NEAR(visible(inside, -inside, 0, false) + visible(inside, -inside, 1, false), 1.0, 1e-12);
+  // Lines around the corner fade as at a rim, and the particles of both plates replace the hidden water.
+  for (double s = -0.09; s < 0.1; s += 0.02) {
+    const Vec<2> from(-0.1, -0.1 - s);
+    const Vec<2> to(0.1 + s, 0.1);
+    const double q = 0.5 * (1.0 + s / 0.1);
+    const double hidden = q * q * (3.0 - 2.0 * q);
+    EXPECT_NEAR(visible(from, to, felt_past_screens, false), (1.0 - hidden) * (1.0 - hidden), 1e-12) << s;
+    EXPECT_NEAR(visible(from, to, 0, false) + visible(from, to, 1, false), hidden * (2.0 - hidden), 1e-12) << s;
+    EXPECT_EQ(visible(inside, from, felt_past_screens, false), 0.0) << s;
+    EXPECT_EQ(visible(inside, to, felt_past_screens, false), 0.0) << s;
+  }
+  // In the smaller angle one plate takes over from the other as the line moves past the corner.
+  for (double s = -0.09; s < 0.1; s += 0.02) {
+    const Vec<2> from = inside + s * Vec<2>(0.5, 0.5);
+    const Vec<2> to = -inside + s * Vec<2>(0.5, 0.5);
+    const double q = 0.5 * (1.0 + s * std::sqrt(0.5) / 0.1);
+    EXPECT_NEAR(visible(from, to, 1, false), q * q * (3.0 - 2.0 * q), 1e-12) << s;
+    EXPECT_NEAR(visible(from, to, 0, false), 1.0 - q * q * (3.0 - 2.0 * q), 1e-12) << s;
+  }
+}
+
 // An end that is nearer to another plate than half a spacing leaves no opening beside it, nor does it go through.
 TEST(Screens, EndAtAPlate) {
   CaseSpec spec = empty_case(0.1);
