@@ -48,7 +48,8 @@ Findings check_wave_makers(const CaseSpec& spec, const FluidParticles<Dim>& flui
 template <int Dim>
 Findings check_wall_thickness(const CaseSpec& spec, const Boundary<Dim>& boundary, const FluidParticles<Dim>& fluid);
 
-/// Error: a plate with wall particles on the walls themselves, which act on both sides.
+/// Error: a plate with wall particles on the walls themselves, which act on both sides; a plate that lies along a wall
+/// (warning if only one of them moves). Warning: plates that lie on each other.
 template <int Dim>
 Findings check_plates(const CaseSpec& spec, const Boundary<Dim>& boundary);
 

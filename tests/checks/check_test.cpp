@@ -1740,6 +1740,39 @@ CaseSpec flume_with_slot(double breadth, double below, double beside) {
   return spec;
 }
 
+WallTable named_plate(std::vector<Coordinates> points, std::string name) {
+  WallTable wall = polyline(std::move(points));
+  wall.shape = WallShape::plate;
+  wall.name = std::move(name);
+  return wall;
+}
+
+TEST(Check, PlatesThatLieOnEachOtherAreReported) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}, {4, 1.5}}), named_plate({{2, 0}, {2, 0.6}}, "a"),
+                named_plate({{2, 0.3}, {2, 0.9}}, "b")};
+  spec.fluid = {box_fluid({0, 0}, {2, 0.5})};
+  expect_only(check(spec), Severity::warning, {"wall 'a' and wall 'b' lie on each other at (2, 0.35"});
+  // Plates that cross or meet at their ends do not lie on each other.
+  for (const WallTable& other : {named_plate({{2, 0.6}, {2, 1.2}}, "b"), named_plate({{2, 0.6}, {2.2, 1.2}}, "b")}) {
+    spec.walls[2] = other;
+    EXPECT_TRUE(check(spec).empty()) << listed(check(spec));
+  }
+}
+
+TEST(Check, APlateAlongAWallIsRejected) {
+  CaseSpec spec = empty_case(0.1);
+  spec.walls = {polyline({{0, 1.5}, {0, 0}, {4, 0}, {4, 1.5}}), named_plate({{0, 0.2}, {0, 0.6}}, "a")};
+  spec.fluid = {box_fluid({0, 0}, {4, 0.5})};
+  expect_only(check(spec), Severity::error, {"wall 'a' lies along wall 'wall1' at (0, 0.25)", "remove this part"});
+  spec.walls[1].displacement = {0.0, "0.1*t"};
+  expect_among(check(spec), Severity::warning, {"wall 'a' lies along wall 'wall1'"});
+  CaseSpec in_3d = flume_with_slot(0.8, 0.0, 0.0);
+  in_3d.walls[1].points = {{0.5, 0.2, 0}, {1, 0.2, 0}, {1, 0.6, 0}, {0.5, 0.6, 0}};
+  in_3d.fluid = {box_fluid({0, 0, 0}, {2, 0.8, 0.6})};
+  expect_among(check<3>(in_3d), Severity::error, {"wall 'wall2' lies along wall 'wall1'"});
+}
+
 TEST(Check, AGapBesideAPlateIsToldIn3D) {
   expect_only(check<3>(flume_with_slot(0.8, 0.04, 0.0)), Severity::warning,
               {"the gap of 0.04 m between wall 'wall2' and wall 'wall1'", "counts as closed"});
