@@ -19,13 +19,13 @@ constexpr double parallel_cosine = 0.999;  // within 2.6 degrees
 
 /// Whether a place of a plate with this normal lies on a face of another wall.
 template <int Dim>
-bool lies_on(const WallFace<Dim>& face, const Vec<Dim>& x, const Vec<Dim>& normal, double dx) {
+bool lies_on_plate(const WallFace<Dim>& face, const Vec<Dim>& x, const Vec<Dim>& normal, double dx) {
   return std::abs(face.normal.dot(normal)) > parallel_cosine && (closest_point(face, x) - x).norm() <= lying_on * dx;
 }
 
 /// The finding about a place of a plate that lies on another wall, which may be a plate as well.
 template <int Dim>
-Finding finding_of(const Boundary<Dim>& boundary, int plate, int other, const Vec<Dim>& where) {
+Finding finding_on_wall(const Boundary<Dim>& boundary, int plate, int other, const Vec<Dim>& where) {
   const CaseLabel a = wall_label(boundary, plate);
   const CaseLabel b = wall_label(boundary, other);
   if (boundary.walls[other].is_plate) {
@@ -51,7 +51,7 @@ Findings find_plates_on_walls(const Boundary<Dim>& boundary, double dx) {
   std::set<std::pair<int, int>> reported;
   const auto report = [&](int plate, int other, const Vec<Dim>& where) {
     if (reported.insert({std::min(plate, other), std::max(plate, other)}).second)
-      findings.push_back(finding_of(boundary, plate, other, where));
+      findings.push_back(finding_on_wall(boundary, plate, other, where));
   };
   const Vec<Dim> margin = Vec<Dim>::Constant(lying_on * dx);
   for (const WallPlate& plate : boundary.plates) {
@@ -70,7 +70,7 @@ Findings find_plates_on_walls(const Boundary<Dim>& boundary, double dx) {
       for (int k = 0; k < samples; ++k) {
         const Vec<Dim> x = sample_of(face, k, samples);
         for (const int g : plates_near) {
-          if (lies_on(boundary.faces[g], x, face.normal, dx)) report(plate.wall, boundary.faces[g].wall, x);
+          if (lies_on_plate(boundary.faces[g], x, face.normal, dx)) report(plate.wall, boundary.faces[g].wall, x);
         }
         const WallBesidePlate beside = wall_beside_plate(boundary, x);
         if (beside.face < 0 || std::abs(beside.distance) > along_wall * dx) continue;

@@ -11,6 +11,7 @@
 #include "geometry/face_grid.h"
 #include "geometry/images.h"
 #include "geometry/mesh_surface.h"
+#include "geometry/plate_corners.h"
 #include "geometry/plate_shape.h"
 #include "geometry/rim_ends.h"
 
@@ -21,7 +22,6 @@ namespace {
 /// which water feels the wall particles that stand as near to the end.
 constexpr double plate_reach = 1.5;
 constexpr double screened_reach = plate_reach + 1.0;
-constexpr double min_bend = 0.4;  // sine of the angle between faces that make a corner
 
 /// The front of one piece, without other walls.
 Screen<2> bare_screen(const Boundary<2>& boundary, const WallPlate& plate, int piece) {
@@ -81,83 +81,6 @@ void fade_out(const Vec<2>& end, const Vec<2>& out, const Screen<2>& last, doubl
   beyond.fade = fade;
   beyond.rim = {{end}};
   screens.push_back(beyond);
-}
-
-/// The number of ends or edges of a plate.
-template <int Dim>
-constexpr int ends_of_plate = 2 * (Dim - 1);
-
-/// End 0 or 1 of a plate: a point, and the direction in which the end points.
-std::pair<RimPiece<2>, Vec<2>> end_of(const Boundary<2>& boundary, const WallPlate& plate, int end) {
-  const WallFace<2>& face = boundary.faces[plate.first_face + (end == 0 ? 0 : plate.pieces - 1)];
-  return {{face.corners[end]}, (face.corners[end] - face.corners[1 - end]).normalized()};
-}
-
-/// Edge `end % 2` along axis `end / 2` of a rectangle.
-std::pair<RimPiece<3>, Vec<3>> end_of(const Boundary<3>& boundary, const WallPlate& plate, int end) {
-  const Screen<3> bare = rectangle_of(boundary, plate);
-  const int axis = end / 2;
-  const Vec<3> from = bare.corner + bare.range[axis][end % 2] * bare.along[axis];
-  return {{from, from + bare.range[1 - axis][1] * bare.along[1 - axis]},
-          (end % 2 == 0 ? -1.0 : 1.0) * bare.along[axis]};
-}
-
-/// Whether two ends of plates are at the same place.
-template <int Dim>
-bool coincide(const RimPiece<Dim>& a, const RimPiece<Dim>& b, double tolerance) {
-  const auto are_near = [&](bool is_reversed) {
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      if ((a[k] - b[is_reversed ? b.size() - 1 - k : k]).norm() > tolerance) return false;
-    }
-    return true;
-  };
-  return are_near(false) || are_near(true);
-}
-
-/// The number of the corner that an end of a plate makes with the end of one other plate; -1: it makes none. Where more
-/// plates meet, no line passes several of them from one side to the same side.
-template <int Dim>
-int corner_number(const Boundary<Dim>& boundary, const WallPlate& plate, int end, const Lengths& lengths) {
-  constexpr double straight_cosine = 0.996;  // of 5 degrees: the plates go straight on, or lie on each other
-  const auto [piece, out] = end_of(boundary, plate, end);
-  Vec<Dim> middle = Vec<Dim>::Zero();
-  for (const Vec<Dim>& x : piece) middle += x / static_cast<double>(piece.size());
-  int found = -1;
-  int plates_near = 0;
-  for (std::size_t p = 0; p < boundary.plates.size(); ++p) {
-    const WallPlate& other = boundary.plates[p];
-    bool is_near = false;
-    for (int f = other.first_face; f < other.first_face + other.pieces; ++f) {
-      is_near = is_near || (closest_point(boundary.faces[f], middle) - middle).norm() <= lengths.gap();
-    }
-    plates_near += is_near ? 1 : 0;
-    if (other.sheet || other.wall == plate.wall) continue;
-    for (int e = 0; is_near && e < ends_of_plate<Dim>; ++e) {
-      const auto [there, out_there] = end_of(boundary, other, e);
-      if (!coincide<Dim>(piece, there, lengths.gap()) || std::abs(out.dot(out_there)) > straight_cosine) continue;
-      const int own_number = ends_of_plate<Dim> * static_cast<int>(&plate - boundary.plates.data()) + end;
-      found = std::min(own_number, ends_of_plate<Dim> * static_cast<int>(p) + e);
-    }
-  }
-  return plates_near == 2 ? found : -1;
-}
-
-/// Makes a corner part of the screens of a plate near it, and adds the screen beyond it.
-template <int Dim>
-void add_corner(const ScreenCorner<Dim>& corner, Screen<Dim> beyond, const Lengths& lengths,
-                std::vector<Screen<Dim>>& screens) {
-  Box<Dim> around;
-  for (const Vec<Dim>& x : corner.piece) around.extend(x);
-  for (Screen<Dim>& screen : screens) {
-    if (screen.is_beyond || screen.box().exteriorDistance(around) > lengths.reach) continue;
-    screen.corners.push_back(corner);
-    screen.fade = lengths.fade();
-  }
-  beyond.is_beyond = true;
-  beyond.rim.clear();
-  beyond.corners = {corner};
-  beyond.fade = lengths.fade();
-  screens.push_back(std::move(beyond));
 }
 
 /// The screens of one plate, drawn on behind the walls at which it ends.
@@ -310,46 +233,10 @@ std::vector<Screen<3>> screens_of(const Boundary<3>& boundary, const WallPlate& 
   return screens;
 }
 
-/// The face that continues a chain at a corner of a face, whose other corner it has there; -1: none.
-int next_in_chain(const Boundary<2>& boundary, int f, int corner, double tolerance) {
-  const Vec<2>& x = boundary.faces[f].corners[corner];
-  for (int g = 0; g < static_cast<int>(boundary.faces.size()); ++g) {
-    const WallFace<2>& face = boundary.faces[g];
-    const bool moves_alike = boundary.walls[face.wall].body == boundary.walls[boundary.faces[f].wall].body;
-    if (g == f || boundary.walls[face.wall].is_plate || !moves_alike) continue;
-    if ((face.corners[1 - corner] - x).norm() <= tolerance) return g;
-  }
-  return -1;
-}
-
-/// Length [m] of the screens beside a free end, along its wall. They end a support before a corner around which water
-/// stands, because pairs of water around a corner interact, or before an opening, whose duct makes such a corner.
-double reach_of_screens(const Boundary<2>& boundary, const WallEnd& end, const Lengths& lengths) {
-  const double whole = screened_reach * lengths.reach;
-  double length = 0.0;
-  for (int f = end.face; length < whole + lengths.reach;) {
-    const WallFace<2>& face = boundary.faces[f];
-    const Vec<2>& corner = face.corners[1 - end.corner];
-    const Vec<2> inwards = corner - face.corners[end.corner];
-    length += inwards.norm();
-    const int next = next_in_chain(boundary, f, 1 - end.corner, lengths.tolerance());
-    if (next < 0) {
-      const bool is_open_there = is_continued(boundary, corner, face.wall, -1, lengths);
-      return is_open_there ? std::clamp(length - lengths.reach, 0.0, whole) : whole;
-    }
-    const Vec<2> further = boundary.faces[next].corners[1 - end.corner] - corner;
-    const double sine = face.normal.dot(further.normalized());
-    if (sine > min_bend) return whole;
-    if (sine < -min_bend) return std::clamp(length - lengths.reach, 0.0, whole);
-    f = next;
-  }
-  return whole;
-}
-
 /// The screens beside a free end: of the faces of its chain from the end inwards.
 std::vector<Screen<2>> screens_beside(const Boundary<2>& boundary, const WallEnd& end, const Lengths& lengths) {
   std::vector<Screen<2>> screens;
-  const double whole = reach_of_screens(boundary, end, lengths);
+  const double whole = reach_of_screens(boundary, end, screened_reach * lengths.reach, lengths);
   if (whole == 0.0) return screens;
   double left = whole;
   for (int f = end.face; f >= 0 && left > 0.0; f = next_in_chain(boundary, f, 1 - end.corner, lengths.tolerance())) {

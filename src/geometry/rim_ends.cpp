@@ -10,6 +10,8 @@
 namespace tailwater {
 namespace {
 
+constexpr double min_bend = 0.4;  // sine of the angle between faces that make a corner
+
 /// Cosine of the angle between the normal of a wall and the direction in which an edge points at the wall.
 constexpr double faces_edge = -0.5;
 
@@ -157,6 +159,38 @@ void find_free_edges(const Boundary<3>& boundary, const Lengths& lengths, WallMe
       }
     }
   }
+}
+
+int next_in_chain(const Boundary<2>& boundary, int f, int corner, double tolerance) {
+  const Vec<2>& x = boundary.faces[f].corners[corner];
+  for (int g = 0; g < static_cast<int>(boundary.faces.size()); ++g) {
+    const WallFace<2>& face = boundary.faces[g];
+    const bool moves_alike = boundary.walls[face.wall].body == boundary.walls[boundary.faces[f].wall].body;
+    if (g == f || boundary.walls[face.wall].is_plate || !moves_alike) continue;
+    if ((face.corners[1 - corner] - x).norm() <= tolerance) return g;
+  }
+  return -1;
+}
+
+double reach_of_screens(const Boundary<2>& boundary, const WallEnd& end, double whole, const Lengths& lengths) {
+  double length = 0.0;
+  for (int f = end.face; length < whole + lengths.reach;) {
+    const WallFace<2>& face = boundary.faces[f];
+    const Vec<2>& corner = face.corners[1 - end.corner];
+    const Vec<2> inwards = corner - face.corners[end.corner];
+    length += inwards.norm();
+    const int next = next_in_chain(boundary, f, 1 - end.corner, lengths.tolerance());
+    if (next < 0) {
+      const bool is_open_there = is_continued(boundary, corner, face.wall, -1, lengths);
+      return is_open_there ? std::clamp(length - lengths.reach, 0.0, whole) : whole;
+    }
+    const Vec<2> further = boundary.faces[next].corners[1 - end.corner] - corner;
+    const double sine = face.normal.dot(further.normalized());
+    if (sine > min_bend) return whole;
+    if (sine < -min_bend) return std::clamp(length - lengths.reach, 0.0, whole);
+    f = next;
+  }
+  return whole;
 }
 
 template WallBesidePlate closing_wall(const Boundary<2>&, const Vec<2>&, const Vec<2>&, double, int);

@@ -50,6 +50,14 @@ double distance_to_plate(const Boundary<Dim>& boundary, const Vec<Dim>& x, const
 RimEnd end_along(const Boundary<3>& boundary, const Vec<3>& from, const Vec<3>& to, const Vec<3>& out, int own,
                  const Lengths& lengths);
 
+/// The face that continues a chain at a corner of a face, whose other corner it has there; -1: none.
+int next_in_chain(const Boundary<2>& boundary, int f, int corner, double tolerance);
+
+/// Length [m] of the screens beside a free end, along its wall, at most `whole`. They end a support before a corner
+/// around which water stands, because pairs of water around a corner interact, or before an opening, whose duct makes
+/// such a corner.
+double reach_of_screens(const Boundary<2>& boundary, const WallEnd& end, double whole, const Lengths& lengths);
+
 /// The ends of walls that are no plates, unless a wall of the same body, other than a plate, closes or continues them.
 std::vector<WallEnd> find_ends(const Boundary<2>& boundary, const Lengths& lengths);
 
