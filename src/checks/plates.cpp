@@ -13,9 +13,9 @@
 namespace tailwater {
 namespace {
 
-constexpr double lying_on = 0.1;           // dx; smaller gaps between plates are not drawn on purpose
-constexpr double along_wall = 0.5;         // dx; a narrower gap between a plate and a wall counts as closed
-constexpr double parallel_cosine = 0.999;  // within 2.6 degrees
+constexpr double lying_on = 0.1;                   // dx; smaller gaps between plates are not drawn on purpose
+constexpr double reach_of_plate_along_wall = 0.5;  // dx; a narrower gap between a plate and a wall counts as closed
+constexpr double parallel_cosine = 0.999;          // within 2.6 degrees
 
 /// Whether a place of a plate with this normal lies on a face of another wall.
 template <int Dim>
@@ -73,7 +73,7 @@ Findings find_plates_on_walls(const Boundary<Dim>& boundary, double dx) {
           if (lies_on_plate(boundary.faces[g], x, face.normal, dx)) report(plate.wall, boundary.faces[g].wall, x);
         }
         const WallBesidePlate beside = wall_beside_plate(boundary, x);
-        if (beside.face < 0 || std::abs(beside.distance) > along_wall * dx) continue;
+        if (beside.face < 0 || std::abs(beside.distance) > reach_of_plate_along_wall * dx) continue;
         const WallFace<Dim>& wall = boundary.faces[beside.face];
         // Beyond the end of a wall the plate may go on in the same direction.
         const bool is_above = std::abs(wall.height(x)) >= std::abs(beside.distance) - lying_on * dx;

@@ -69,7 +69,7 @@ struct Screen {
   double hidden_fraction(const Vec<Dim>& from, const Vec<Dim>& to) const;
   bool is_beyond_corner() const { return is_beyond && !corners.empty(); }
   /// H for a line that passes the screen, if a corner were a free rim.
-  double fraction_at(const ScreenCorner<Dim>& corner, const Vec<Dim>& from, const Vec<Dim>& to) const;
+  double fraction_at(const ScreenCorner<Dim>& at, const Vec<Dim>& from, const Vec<Dim>& to) const;
   /// The axis-parallel box around the screen.
   Box<Dim> box() const;
   /// Distance [m] of `x` from the piece, or from the rectangle around it.
