@@ -12,7 +12,7 @@ namespace {
 
 /// Mean tension over the mean pressure on all wet walls, from which a wall counts. In a full conduit that empties it is
 /// 1 and more; crests, lips and weirs have it on a few spacings only.
-constexpr double least_share_of_pressure = 0.25;
+constexpr double least_share_of_pressure = 0.5;
 
 /// Fraction of the time in which a wall would pull, from which it counts. Water that starts away from a wall pulls in
 /// the first steps only.

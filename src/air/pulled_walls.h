@@ -25,7 +25,7 @@ class PulledWalls final : public Part<Dim> {
  public:
   explicit PulledWalls(const CaseSpec& spec);
 
-  /// The walls whose mean tension is more than a quarter of the mean pressure on all walls. Collective.
+  /// The walls whose mean tension is more than half of the mean pressure on all walls. Collective.
   Pull<Dim> find(const Flow<Dim>& flow) const;
 
   std::string_view name() const override { return "pulled_walls"; }
