@@ -6,6 +6,7 @@
 
 #include "air/pocket_pressure.h"
 #include "base/for_each.h"
+#include "motion/floating_body.h"
 #include "motion/wall_motion.h"
 #include "open_ends/open_ends.h"
 #include "pressure/operators.h"
@@ -21,17 +22,6 @@ void subtract_fractions(const Flow<Dim>& flow, std::span<const std::pair<std::si
                         std::span<const double> pressures, std::vector<double>& field) {
   for (const auto& [i, fraction] : fractions) field[i] -= fraction.share * pressures[fraction.pocket];
   flow.halo().exchange(field);
-}
-
-/// rad/s; angular velocity of a rigid wall whose velocity is a function of the place.
-template <int Dim>
-Turn<Dim> angular_velocity_of(const AffineMap<Dim>& velocity) {
-  const Mat<Dim>& spin = velocity.linear;
-  if constexpr (Dim == 2) {
-    return Turn<2>(spin(1, 0));
-  } else {
-    return {spin(2, 1), spin(0, 2), spin(1, 0)};
-  }
 }
 
 }  // namespace

@@ -44,6 +44,17 @@ Mat<Dim> rotation_by(const Turn<Dim>& angle) {
   }
 }
 
+/// rad/s; angular velocity of a rigid wall whose velocity is a function of the place.
+template <int Dim>
+Turn<Dim> angular_velocity_of(const AffineMap<Dim>& velocity) {
+  const Mat<Dim>& spin = velocity.linear;
+  if constexpr (Dim == 2) {
+    return Turn<2>(spin(1, 0));
+  } else {
+    return {spin(2, 1), spin(0, 2), spin(1, 0)};
+  }
+}
+
 /// The angle [rad] of a rotation, times its axis.
 template <int Dim>
 Turn<Dim> angle_of(const Mat<Dim>& rotation) {

@@ -75,8 +75,9 @@ class WallForceProbe {
       return part_of(whole, context, i, velocity, chosen_);
     });
     loads.gather(context.ranks);
-    return loads + loads_without_integral(context, velocity, chosen_) + loads_of_balanced(context, velocity, chosen_) +
-           loads_beside_walls(context, velocity) + loads_of_air(context, velocity);
+    return loads + loads_without_integral(context, velocity, chosen_, -1) +
+           loads_of_balanced(context, velocity, chosen_) + loads_beside_walls(context, velocity) +
+           loads_of_air(context, velocity);
   }
 
  private:
@@ -100,7 +101,7 @@ class WallForceProbe {
     moves_ = context.patches->moves();
     integrated_ = std::move(integrated);
     chosen_ = select(context, std::move(chosen_.taken));
-    hulls_.clear();
+    selections_.clear();
   }
 
   static int wall_of(const ProbeContext<Dim>& context, std::size_t patch) {
@@ -123,7 +124,8 @@ class WallForceProbe {
       Selection& hull = hull_of(context, one.walls);
       const WallLoads<Dim> known =
           loads_of_pairs(context, velocity, hull, [&](std::size_t i) { return pressure_at(context, i); }) +
-          loads_without_integral(context, velocity, hull) + loads_of_balanced(context, velocity, hull);
+          loads_without_integral(context, velocity, hull, one.walls.front()) +
+          loads_of_balanced(context, velocity, hull);
       const double sign = has_hull ? 1.0 : -1.0;
       const Vec<Dim> force = one.force - known.pressure;
       const Moment<Dim> about = moment(one.centre, one.force) + one.moment - known.moment;
@@ -131,19 +133,9 @@ class WallForceProbe {
       const AffineMap<Dim>& motion = velocity[one.walls.front()];
       sum.pressure += sign * force;
       sum.moment += sign * about;
-      if (has_hull) sum.power -= force.dot(motion(one.centre)) + about_centre.dot(turn_of(motion));
+      if (has_hull) sum.power -= force.dot(motion(one.centre)) + about_centre.dot(angular_velocity_of(motion));
     }
     return sum;
-  }
-
-  /// Angular velocity of a wall.
-  static Turn<Dim> turn_of(const AffineMap<Dim>& velocity) {
-    const Mat<Dim>& m = velocity.linear;
-    if constexpr (Dim == 2) {
-      return Turn<2>(m(1, 0));
-    } else {
-      return {m(2, 1), m(0, 2), m(1, 0)};
-    }
   }
 
   /// Whether the probe is for all of the walls for which is_part(wall).
@@ -157,12 +149,18 @@ class WallForceProbe {
 
   /// All patches of the walls of a hull.
   Selection& hull_of(const ProbeContext<Dim>& context, const std::vector<int>& walls) {
-    const auto [known, is_new] = hulls_.try_emplace(walls.front());
+    return selection(context, {walls.front(), false}, [&](std::size_t k) {
+      return std::ranges::find(walls, wall_of(context, k)) != walls.end() ? 1.0 : 0.0;
+    });
+  }
+
+  /// The selection of a key, with these fractions of the patches. It is made once for each place of the walls.
+  template <class TakenOf>
+  Selection& selection(const ProbeContext<Dim>& context, const std::pair<int, bool>& key, TakenOf&& taken_of) {
+    const auto [known, is_new] = selections_.try_emplace(key);
     if (!is_new) return known->second;
     std::vector<double> taken(chosen_.taken.size());
-    for (std::size_t k = 0; k < taken.size(); ++k) {
-      taken[k] = std::ranges::find(walls, wall_of(context, k)) != walls.end() ? 1.0 : 0.0;
-    }
+    for (std::size_t k = 0; k < taken.size(); ++k) taken[k] = taken_of(k);
     known->second = select(context, std::move(taken));
     return known->second;
   }
@@ -184,15 +182,12 @@ class WallForceProbe {
 
   /// The loads of the pairs of the balanced pressure on selected patches of walls without its integral. Collective.
   WallLoads<Dim> loads_without_integral(const ProbeContext<Dim>& context, const std::vector<AffineMap<Dim>>& velocity,
-                                        const Selection& whole) {
+                                        const Selection& whole, int hull) {
     const std::vector<Vec<Dim>>& forces = context.wall_forces->of_balanced;
     if (forces.empty()) return {};
-    std::vector<double> taken = whole.taken;
-    for (std::size_t k = 0; k < taken.size(); ++k) {
-      if (integrated_[wall_of(context, k)]) taken[k] = 0.0;
-    }
-    Selection selection = select(context, std::move(taken));
-    return loads_of_pairs(context, velocity, selection, [&](std::size_t i) { return forces[i]; });
+    Selection& rest = selection(context, {hull, true},
+                                [&](std::size_t k) { return integrated_[wall_of(context, k)] ? 0.0 : whole.taken[k]; });
+    return loads_of_pairs(context, velocity, rest, [&](std::size_t i) { return forces[i]; });
   }
 
   /// The loads of the pressure that balances the weight on the selected patches; the same on all ranks.
@@ -354,8 +349,10 @@ class WallForceProbe {
   std::optional<std::size_t> moves_;  ///< of the walls, where the patches were selected
   std::vector<bool> integrated_;      ///< by wall, whether it had the integral of the balanced pressure there
   std::vector<int> mover_;            ///< of each wall: a number, equal for walls that move alike; -1: it rests
-  std::map<int, Selection> hulls_;    ///< by the first wall of a hull, its patches where they are now
-  PatchShares<Dim> shares_;           ///< of the particle that is being read
+  /// By the first wall of a hull, or -1 for the chosen patches, and whether those with the integral are left out: the
+  /// patches where they are now.
+  std::map<std::pair<int, bool>, Selection> selections_;
+  PatchShares<Dim> shares_;  ///< of the particle that is being read
 };
 
 /// Throws CaseError where the forces between particles are not equal and opposite.
