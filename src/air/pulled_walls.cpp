@@ -18,7 +18,7 @@ constexpr double least_share_of_pressure = 0.5;
 /// the first steps only.
 constexpr double least_share_of_time = 0.2;
 
-/// [dx]; edge of the area from which a run warns. In the cases of the tree, up to 8 spacings pull without harm.
+/// [dx]; edge of the area from which a run warns. In the cases of the tree, up to 5 spacings pull without harm.
 constexpr double edge_of_area = 15.0;
 
 }  // namespace

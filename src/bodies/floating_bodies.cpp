@@ -50,10 +50,9 @@ FloatingBodies<Dim>::FloatingBodies(const CaseSpec& spec, const Setup<Dim>& setu
       is_lost(bodies.size(), false),
       is_told_(bodies.size(), false),
       is_told_of_end_(bodies.size(), false) {
-  const double edge = setup.finest_spacing() * setup.scale.spacing;
-  for (const WallPatch<Dim>& patch : outer_patches(spec, boundary, make_wall_patches(boundary, edge))) {
-    if (body_of_wall[boundary.faces[patch.face].wall] >= 0) patches.push_back(patch);
-  }
+  std::vector<WallPatch<Dim>> of_bodies = make_wall_patches(boundary, setup.finest_spacing() * setup.scale.spacing);
+  std::erase_if(of_bodies, [&](const auto& patch) { return body_of_wall[boundary.faces[patch.face].wall] < 0; });
+  patches = outer_patches(spec, boundary, of_bodies);
 }
 
 template <int Dim>

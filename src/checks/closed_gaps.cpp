@@ -154,7 +154,7 @@ std::vector<int> faces_near_plate(const WallsAtRest<Dim>& walls, int plate, cons
   return faces_near<Dim>(boundary, others, box, reach);
 }
 
-/// Whether water passes a gap that is narrower than half a spacing.
+/// Whether a gap is between two plates. Water passes it although it is narrower than half a spacing.
 template <int Dim>
 bool is_between_plates(const Boundary<Dim>& boundary, const Gap<Dim>& gap) {
   return boundary.walls[gap.wall].is_plate && boundary.walls[gap.other].is_plate;

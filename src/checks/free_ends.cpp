@@ -137,8 +137,10 @@ std::vector<SharedEnd> shared_ends(const CaseSpec& spec, const Boundary<2>& draw
 
 Findings check_free_ends(const CaseSpec& spec, const Boundary<2>& drawn) {
   Findings findings;
+  const std::vector<SharedEnd> ends = shared_ends(spec, drawn);
+  if (ends.empty()) return findings;
   const EndsInMotion motion(spec, drawn);
-  for (const SharedEnd& end : shared_ends(spec, drawn)) {
+  for (const SharedEnd& end : ends) {
     if (motion.is_covered(end)) continue;
     if (const auto found = motion.finding(end)) findings.push_back(*found);
   }
